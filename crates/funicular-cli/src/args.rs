@@ -10,7 +10,7 @@ use clap::{Arg, ArgAction, ArgMatches, Args, Command, FromArgMatches};
 pub(crate) use files::{
     ChangeArgs, DesignArgs, DrawArgs, DrawModesArgs, FigureArgs, FileArgs, Format, GustArgs, IdentifyArgs, ImportArgs,
     MapArgs, MergeArgs, NewArgs, OutputArgs, PageArgs, PlotArgs, ReduceArgs, RequestArgs, RunArgs, SettleArgs,
-    TrajectoryArgs, UncertaintyArgs,
+    TrajectoryArgs, UncertaintyArgs, WorkspaceArgs,
 };
 use files::{OptionalRobotArgs, RobotArgs};
 use funicular_study::request::{self, CommandInfo, Declared, Experiment, Key, Request, RequestRobot, ResponsePoints};
@@ -149,6 +149,7 @@ fn with_files(name: &str, command: Command) -> Command {
         "identify" => IdentifyArgs::augment_args(command),
         "design" => DesignArgs::augment_args(command),
         "map" => MapArgs::augment_args(command).mut_arg("grid", |arg| arg.required_unless_present("poses")),
+        "workspace" => WorkspaceArgs::augment_args(command),
         "sweep" => RunArgs::augment_args(command),
         "merge" => MergeArgs::augment_args(command),
         "plot" => PlotArgs::augment_args(command),

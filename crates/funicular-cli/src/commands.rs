@@ -33,6 +33,7 @@ mod stiffness;
 mod trajectory;
 mod uncertainty;
 mod validate;
+mod workspace;
 
 use crate::args::{Cli, DrawArgs, DrawModesArgs, FileArgs, OutputArgs, PageArgs, RequestArgs, RunArgs};
 use crate::{robot_file, sweep_run};
@@ -70,6 +71,7 @@ pub(crate) fn run(cli: &Cli) -> Result<()> {
         Request::Reduce(of) => reduce::run(of, &cli.files()?, guard()),
         Request::Identify(of) => identify::run(of, &cli.files()?, &mut guard()),
         Request::Design(of) => design::run(of, &cli.files()?, &mut guard()),
+        Request::Workspace(of) => workspace::run(of, &cli.files()?, &mut guard()),
         Request::Map(_) => map::run(&request, &cli.files()?, &mut guard()),
         Request::Sweep(_) => sweep_run::run(&request, &mut guard(), &cli.files::<RunArgs>()?),
         Request::Merge(_) => merge::run(&cli.files()?),
@@ -98,6 +100,7 @@ fn request_of(cli: &Cli) -> Result<Request> {
         "uncertainty" => uncertainty::request(cli, further),
         "identify" => identify::request(cli, further),
         "design" => design::request(cli, further),
+        "workspace" => workspace::request(cli, further),
         "map" => map::request(cli, further),
         "settle" => settle::request(cli, further),
         "gust" => gust::request(cli, further),

@@ -51,8 +51,15 @@ impl Progress {
             self.bar = Some(bar);
         }
         if let Some(bar) = &self.bar {
+            bar.set_length(self.total as u64);
             bar.set_position(self.done as u64);
         }
+    }
+
+    /// Advances to `done` finished items of `total`, which may have grown.
+    pub(crate) fn reach(&mut self, done: usize, total: usize) {
+        self.total = total;
+        self.advance(done.saturating_sub(self.done));
     }
 }
 
@@ -88,7 +95,7 @@ impl Watch for TerminalProgress {
             self.bar = None;
         }
         let (bar, _) = self.bar.get_or_insert_with(|| (Progress::with_rate(total, what), what));
-        bar.advance(done.saturating_sub(bar.done));
+        bar.reach(done, total);
     }
 }
 

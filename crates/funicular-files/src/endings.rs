@@ -20,6 +20,10 @@ pub enum Kind {
     Vti,
     /// Curves and polygons for ParaView.
     Vtp,
+    /// Triangles of a surface, for printers and drawing programs.
+    Stl,
+    /// Polygons of a surface, for programs of meshes.
+    Ply,
     /// Page for a browser.
     Html,
     /// Figure of lines and texts for drawing programs and browsers.
@@ -41,7 +45,7 @@ pub enum Kind {
 }
 
 /// All endings with a meaning. A file with any other ending may hold any text.
-const ENDINGS: [(&[&str], Kind); 34] = [
+const ENDINGS: [(&[&str], Kind); 36] = [
     (&["txt", "out", "log", "dat"], Kind::Text),
     (&["md"], Kind::Markdown),
     (&["json"], Kind::Json),
@@ -49,6 +53,8 @@ const ENDINGS: [(&[&str], Kind); 34] = [
     (&["parquet"], Kind::Parquet),
     (&["vti"], Kind::Vti),
     (&["vtp"], Kind::Vtp),
+    (&["stl"], Kind::Stl),
+    (&["ply"], Kind::Ply),
     (&["html", "htm"], Kind::Html),
     (&["svg"], Kind::Svg),
     (&["pdf"], Kind::Pdf),
@@ -95,6 +101,8 @@ impl Kind {
             Self::Parquet => "a Parquet file",
             Self::Vti => "an image of VTK",
             Self::Vtp => "curves and polygons of VTK",
+            Self::Stl => "triangles in STL",
+            Self::Ply => "polygons in PLY",
             Self::Html => "an HTML page",
             Self::Svg => "a figure in SVG",
             Self::Pdf => "a figure in PDF",

@@ -32,6 +32,7 @@ pub mod table;
 pub mod threads;
 mod uncertainty;
 mod vti;
+mod workspace;
 
 pub use guard::Guard;
 pub use merge::merge;
@@ -42,6 +43,7 @@ pub use resumable_writer::{Begin, Job, Opened};
 pub use table::Table;
 pub use threads::Outcome;
 pub use uncertainty::{UncertaintyOutcome, UncertaintyRun};
+pub use workspace::WorkspaceRun;
 
 use endings::Kind;
 use funicular_study::table::{Chunk, Record, RecordDifference};

@@ -2,7 +2,8 @@
 //!
 //! [`import`] makes a robot file of their descriptions of a robot, and [`new_robot`] one to start from. [`export`] writes
 //! the robot at rest for them. [`measurements`] reads measured responses and frequencies for `identify`, and
-//! [`uff_writing`] writes computed ones in the same format. [`number_columns`] reads tables of numbers. Requests and
+//! [`uff_writing`] writes computed ones in the same format. [`number_columns`] reads tables of numbers, and [`surface`]
+//! writes the surfaces of workspaces. Requests and
 //! results are those of [`funicular_study`].
 
 pub mod csv_lines;
@@ -11,6 +12,7 @@ pub mod import;
 pub mod measurements;
 pub mod new_robot;
 pub mod number_columns;
+pub mod surface;
 pub mod uff_writing;
 
 /// Example of README.md, which is tested like those of the documentation.

@@ -14,6 +14,7 @@ pub mod report;
 pub(crate) mod table;
 pub mod trajectory;
 pub mod uncertainty;
+pub mod workspace;
 
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD as BASE64;

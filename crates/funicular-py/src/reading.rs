@@ -53,6 +53,8 @@ enum Kind {
     Axes,
     /// Paths with deviations or tolerances.
     Sizes,
+    /// Limits of quantities by their names.
+    Limits,
     /// Anything that JSON can hold.
     Any,
 }
@@ -86,6 +88,7 @@ impl Kind {
                 ProgramForm::Positive => Self::Row,
                 ProgramForm::NotNegative => Self::OneOrRow,
                 ProgramForm::Fit | ProgramForm::Change => Self::Any,
+                ProgramForm::Bound => Self::Limits,
                 _ => Self::Texts,
             },
             request::Kind::OneOrMore(_) => Self::TextOrTexts,
@@ -131,6 +134,7 @@ impl Kind {
             Self::Pose => "Pose | ArrayLike",
             Self::Masses => "tuple[SupportsFloat | SupportsIndex, SupportsFloat | SupportsIndex, SupportsIndex]",
             Self::Axes => "Mapping[str, ArrayLike]",
+            Self::Limits => "Mapping[str, SupportsFloat | SupportsIndex]",
             Self::Columns => "str | PathLike[str] | Mapping[str, ArrayLike]",
             Self::Sizes | Self::Any => "Any",
         }
@@ -265,6 +269,9 @@ fn of_kind(kind: Kind, name: &str, value: &Bound<'_, PyAny>, cables: &[String]) 
             serde_json::to_value(&axes.0).map_err(|error| errors::input(error.to_string()))?
         }
         Kind::Sizes => json!(sizes(name, value)?),
+        // A request in JSON has a list of limits.
+        Kind::Limits if value.cast::<PyList>().is_ok() => any(name, value, 0)?,
+        Kind::Limits => limits(name, value)?,
         Kind::Any => any(name, value, 0)?,
     })
 }
@@ -332,6 +339,24 @@ pub(crate) fn sizes(name: &str, given: &Bound<'_, PyAny>) -> PyResult<Vec<String
              texts, as in [\"platform.mass_kg=1%\"]"
         ))
     })
+}
+
+/// Limits of a mapping from quantities to numbers.
+fn limits(name: &str, given: &Bound<'_, PyAny>) -> PyResult<Json> {
+    if given.cast::<PyMapping>().is_err() {
+        let wanted = "give a mapping from quantities to numbers, as in {\"load-factor\": 1}";
+        return Err(Unusable::value(given, wanted).named(name));
+    }
+    let limit = |item: PyResult<Bound<'_, PyAny>>| {
+        let (quantity, value): (Bound<'_, PyAny>, Bound<'_, PyAny>) = item?.extract()?;
+        let Ok(quantity) = quantity.extract::<String>() else {
+            return Err(Unusable::value(&quantity, "the name of a quantity is text").named(name));
+        };
+        let Ok::<Number, Infallible>(number) = value.extract();
+        let value = number.finite(&format!("{name}[\"{quantity}\"]"))?;
+        Ok(json!({ "quantity": quantity, "value": value }))
+    };
+    given.call_method0("items")?.try_iter()?.map(limit).collect()
 }
 
 /// Columns of a file, of a mapping or of a data frame.

@@ -10,7 +10,7 @@ import funicular
 
 # Options for the place and the form of a result, which do not change the computation.
 OUTPUT = {"--format", "-o", "--output-file", "--print-request", "--help", "--matrices", "--resume", "--discard", "--part", "--threads"}
-OUTPUT |= {"--figure-width-mm", "--font-size-pt", "--figure-mode", "--fitted", "--designed", "--page", "--samples-file", "--lengths"}
+OUTPUT |= {"--figure-width-mm", "--font-size-pt", "--figure-mode", "--fitted", "--designed", "--page", "--samples-file", "--lengths", "--surface"}
 # Options without a value.
 SWITCHES = {
     *("--log", "--adaptive", "--all", "--in-plane-only", "--print-request", "--resume", "--discard"),
@@ -56,7 +56,7 @@ def numbers(text: str) -> list[Any]:
 
 
 def steps(text: str) -> Any:
-    """Values along an axis for the keywords `grid` and `vary`."""
+    """Values along an axis for the keywords `grid`, `vary` and `section`."""
     if ":" in text:
         first, last, count = text.split(":")
         return (number(first), number(last), int(count))
@@ -94,7 +94,10 @@ def call(line: str) -> tuple[str, list[str], dict[str, Any], dict[str, Any]]:
         elif word == "--set":
             path, _, text = next(rest).partition("=")
             changes[path] = value(command, word, text)
-        elif word in ("--grid", "--vary"):
+        elif word in ("--at-least", "--at-most"):
+            quantity, _, text = next(rest).partition("=")
+            keywords.setdefault(key, {})[quantity] = float(text)
+        elif word in ("--grid", "--vary", "--section"):
             axis, _, text = next(rest).partition("=")
             keywords.setdefault(key, {})[axis] = steps(text)
         elif word == "--quantity":

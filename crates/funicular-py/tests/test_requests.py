@@ -93,6 +93,8 @@ MORE = [
     f"funicular clearance robots/cogiro.toml {TENSIONS} {STATE}",
     "funicular clearance robots/cogiro.toml --pose 1,2,1.5 --hold-lengths-of-pose --mass-kg 250",
     "funicular clearance robots/cogiro.toml --pose 0,0,1.5 --move-to 1,0.5,1.5,0,0,10",
+    "funicular workspace robots/cogiro.toml --grid z=-1:4:9 --step-m 1.5 --at-least load-factor=1 --required-force-n 150,150,150 --rays 18 --section z=1,2",
+    "funicular workspace robots/ipanema2.toml --step-m 1 --at-most tension-max=2500 --grid yaw=-5,5 --orientations some --max-tension-n 3000",
     f"funicular statics robots/cogiro.toml {TENSIONS} --hold-lengths-of-pose --mass-kg 250 --set platform.mass_kg=200",
     f"funicular stiffness robots/cogiro.toml {TENSIONS} --hold-lengths-of-pose --mass-kg 250",
     f"funicular modes robots/cogiro.toml --below-hz 5 {TENSIONS} --hold-lengths-of-pose --mass-kg 250 --platform-share 0.9",
@@ -276,7 +278,7 @@ def test_a_command_line_and_a_call_are_one_request(line: str, executable: str) -
 
 # Commands whose results are compared; the others make pages, files or rows, which have their own tests.
 COMPUTED = (
-    *("check", "parameters", "statics", "stiffness", "modes", "frf", "compare", "gradient", "payload", "loads", "speeds", "trajectory", "clearance", "pose-error", "cable"),
+    *("check", "parameters", "statics", "stiffness", "modes", "frf", "compare", "gradient", "payload", "loads", "speeds", "trajectory", "clearance", "workspace", "pose-error", "cable"),
     *("settle", "gust", "reduce", "identify", "uncertainty"),
 )
 
@@ -326,6 +328,9 @@ def test_a_call_and_a_request_have_the_results_of_the_program(line: str, executa
         return
     if command == "clearance":
         assert plain(robot.clearance(**keywords)) == theirs
+        return
+    if command == "workspace":
+        assert plain(robot.workspace(**keywords)) == theirs
         return
     if command == "identify":
         assert plain(robot.identify(**keywords).to_dict()) == theirs

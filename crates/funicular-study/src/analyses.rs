@@ -30,6 +30,7 @@ pub mod stiffness;
 mod timed_rows;
 pub mod trajectory;
 pub mod uncertainty;
+pub mod workspace;
 
 pub use reduce::control_model;
 

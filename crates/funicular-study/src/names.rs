@@ -41,6 +41,16 @@ pub trait Named: Copy + PartialEq + Sized + 'static {
     }
 }
 
+/// Which orientations of a set have to be possible at a position of the workspace.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum OrientationRule {
+    /// All of them.
+    #[default]
+    All,
+    /// At least one.
+    Some,
+}
+
 /// Message about a name that no thing of a kind has.
 pub fn no_such(what: &str, name: &str, all: &[String]) -> String {
     format!("there is no {what} `{name}`{}", suggestion(name, all))
@@ -101,6 +111,25 @@ pub(crate) fn listed(names: &[String]) -> String {
         shown.join(", "),
         if names.len() > SHOWN { ", …" } else { "" }
     )
+}
+
+impl Named for OrientationRule {
+    const WHAT: &'static str = "rule of orientations";
+    const ALL: &'static [Self] = &[Self::All, Self::Some];
+
+    fn name(self) -> &'static str {
+        match self {
+            Self::All => "all",
+            Self::Some => "some",
+        }
+    }
+
+    fn about(self) -> &'static str {
+        match self {
+            Self::All => "positions at which every orientation of the grid is possible (total orientation workspace)",
+            Self::Some => "positions at which one of them is possible (inclusive orientation workspace)",
+        }
+    }
 }
 
 impl Named for TurbulenceSpectrum {

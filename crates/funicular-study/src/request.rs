@@ -22,11 +22,12 @@ mod steps;
 mod trajectory;
 mod uncertainty;
 mod vibration;
+mod workspace;
 
 pub use design::{ChangeValue, DesignRequest};
 pub use files::{ExportRequest, ImportRequest, NewRequest, SchemaRequest};
 pub use gradient::{GradientRequest, frequencies};
-pub use grids::{EachPoint, MapRequest, MergeRequest, PlotRequest, SweepRequest};
+pub use grids::{EachPoint, MapRequest, MergeRequest, PlotRequest, PointOptions, SweepRequest};
 pub use identify::{Experiment, FitValue, IdentifyRequest};
 pub use key::{Choice, Declared, Key, Kind, ProgramForm, Range};
 pub use loads::{LoadsRequest, Requirements};
@@ -51,6 +52,7 @@ pub use vibration::{
     CableRequest, CompareRequest, FrfRequest, GustRequest, ModesRequest, ReduceRequest, SettleRequest,
     TurbulenceOptions,
 };
+pub use workspace::{BoundValue, WorkspaceRequest};
 
 pub use parts::check;
 pub(crate) use parts::check_vector;
@@ -165,6 +167,7 @@ commands! {
     Design(DesignRequest) "design" Needed robot;
     Map(MapRequest) "map" Needed robot;
     Sweep(SweepRequest) "sweep" Needed robot;
+    Workspace(WorkspaceRequest) "workspace" Needed robot;
     Merge(MergeRequest) "merge" None;
     Plot(PlotRequest) "plot" None;
     Report(ReportRequest) "report" Embedded robot;

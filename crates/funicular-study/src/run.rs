@@ -23,6 +23,7 @@ use crate::analyses::{
     stiffness::{self, Stiffness},
     trajectory::{self, TrajectoryResult},
     uncertainty::{self, Uncertainties},
+    workspace::{self, Workspace},
 };
 use crate::at_rest::AtRest;
 use crate::columns::{CommandTables, ResultTable, Tabled};
@@ -135,6 +136,7 @@ answers! {
     Cable(CableResult): of => cable::run(robot()?, of, watch)?;
     Reduce(ReducedForm): of => reduce::run(robot()?, of, watch)?, at at_rest => reduce::about(at_rest, of, watch)?;
     Identify(Box<Identified>): of => Box::new(identify::run(of, watch)?);
+    Workspace(Box<Workspace>): of => Box::new(workspace::run(robot()?, of, watch)?);
     Design(Box<Designed>): of => Box::new(design::run(of, watch)?);
 }
 

@@ -4,6 +4,7 @@
 //! chunks. A front end runs the chunks on its own threads and keeps them in its own files, which a
 //! [`Record`](crate::table::Record) describes.
 
+mod at_pose;
 mod described;
 mod digest;
 mod error;
@@ -20,6 +21,7 @@ mod row;
 mod sensitivity;
 mod status;
 
+pub(crate) use at_pose::values_at;
 pub(crate) use described::tables;
 pub use error::{MAX_POINTS, SweepError};
 pub use frequency::{PointModes, lowest_modes, no_platform_mode};
@@ -27,7 +29,7 @@ pub use options::Options;
 pub use plan::Plan;
 pub use points::{AXES, Point, Points, Poses};
 pub use prepared::PreparedSweep;
-pub(crate) use prepared::{check_poses, check_poses_alone};
+pub(crate) use prepared::{check_poses, check_poses_alone, options_of, with_request};
 pub use quantity::{MAX_FREQUENCIES, Quantity, UnknownQuantity};
 pub use robot_values::{RobotValues, ValueAxis};
 pub use status::CODES;

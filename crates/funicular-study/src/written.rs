@@ -1,7 +1,7 @@
 //! Forms of the values of options on the command line. Each message contains the value and its permitted range.
 
 use crate::analyses::pose_error::MAX_MASSES;
-use crate::request::{Axis, ChangeValue, FitValue, Key, Kind, ProgramForm, Range};
+use crate::request::{Axis, BoundValue, ChangeValue, FitValue, Key, Kind, ProgramForm, Range};
 use crate::set_values;
 use crate::signals::{Input, Output};
 use crate::sweep::{self, Steps, ValueAxis};
@@ -42,6 +42,7 @@ fn read_form(form: ProgramForm, text: &str) -> Result<Value, String> {
         ProgramForm::Fit => fit(text),
         ProgramForm::Change => change(text),
         ProgramForm::Band => band(text),
+        ProgramForm::Bound => bound(text),
     }
 }
 
@@ -247,6 +248,13 @@ fn band(text: &str) -> Result<Value, String> {
     Ok(json!([values::positive(number(first)?)?, values::positive(number(last)?)?]))
 }
 
+/// Reads `QUANTITY=VALUE`.
+fn bound(text: &str) -> Result<Value, String> {
+    let (quantity, value) = text.split_once('=').ok_or("a limit is written as in load-factor=1")?;
+    let bound = BoundValue { quantity: quantity.trim().to_owned(), value: number(value)? };
+    serde_json::to_value(bound).map_err(|error| error.to_string())
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -280,6 +288,8 @@ mod tests {
     fn bounds_may_be_left_out() {
         assert_eq!(fit("a.b=1:").unwrap(), json!({ "path": "a.b", "minimum": 1.0 }));
         assert_eq!(change("a.*=+-0.5").unwrap(), json!({ "path": "a.*", "plus_minus": 0.5 }));
+        assert_eq!(bound("load-factor = 1").unwrap(), json!({ "quantity": "load-factor", "value": 1.0 }));
+        assert!(bound("load-factor").is_err() && bound("load-factor=x").is_err());
         assert!(fit("a=3").is_err() && change("a=3").is_err() && band("3").is_err());
     }
 }

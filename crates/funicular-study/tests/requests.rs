@@ -181,6 +181,25 @@ fn requests() -> Vec<Value> {
         of("loads", &[&robot, &state, &tensions, &required]),
         of("speeds", &[&robot, &state, &tensions, &velocities]),
         of("trajectory", &[&robot, &state, &tensions, &motion]),
+        of(
+            "workspace",
+            &[
+                &robot,
+                &state,
+                &tensions,
+                &model,
+                &required,
+                &share,
+                &center,
+                &json!({
+                    "at_least": [{ "quantity": "load-factor", "value": 1.0 }],
+                    "at_most": [{ "quantity": "tension_max_n", "value": 3e3 }],
+                    "grid": [{ "axis": "x", "from": -1.0, "to": 1.0, "count": 9 }, { "axis": "yaw", "values": [-5.0, 5.0] }],
+                    "step_m": 0.3, "orientations": "some", "vertex_tolerance_m": 1e-5, "rays": 66,
+                    "center_m": [0.0, 0.1, 1.0], "compare": robot["robot"], "section": [{ "axis": "z", "values": [1.5] }], "up_to_hz": 50.0,
+                }),
+            ],
+        ),
         of("clearance", &[&robot, &state, &tensions, &json!({ "move_to": [0.1, 0.0, 0.5, 0.0, 0.0, 5.0] })]),
         of(
             "gradient",

@@ -28,6 +28,7 @@ mod tests;
 mod trajectories;
 mod uncertainty;
 mod verdict;
+mod workspaces;
 
 pub use markdown::markdown;
 pub use verdict::{Validated, run, tables};
@@ -144,6 +145,7 @@ pub fn sections() -> Result<Vec<Section>> {
         load_factors::section(&reference::load_factors()?)?,
         distances::section(&reference::distances()?)?,
         trajectories::section(&reference::trajectories()?)?,
+        workspaces::section(&reference::workspaces()?)?,
     ])
 }
 

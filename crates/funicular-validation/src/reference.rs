@@ -13,6 +13,7 @@ mod published;
 mod stretch_loss;
 mod sway;
 mod trajectories;
+mod workspaces;
 
 use anyhow::{Result, anyhow};
 use funicular::robot::{Robot, State};
@@ -41,6 +42,7 @@ pub(super) use published::{
 pub(super) use stretch_loss::{ChangedRobot, LossyRobot, LossyRope, StretchLossReference, stretch_loss};
 pub(super) use sway::{ShapedSum, SwayReference, SwayingRobot, sway};
 pub(super) use trajectories::{MovingRobot, MovingRow, TrajectoryReference, trajectories};
+pub(super) use workspaces::{WorkspaceReference, workspaces};
 
 /// Table of a reference file: a source and rows.
 #[derive(Deserialize)]

@@ -53,6 +53,11 @@ fn distances_are_those_of_the_independent_program() {
 }
 
 #[test]
+fn workspaces_are_those_of_others() {
+    check(super::workspaces::section(&reference::workspaces().unwrap()));
+}
+
+#[test]
 fn load_factors_and_closure_are_those_of_the_independent_program() {
     check(super::load_factors::section(&reference::load_factors().unwrap()));
 }

@@ -55,6 +55,7 @@ pub mod drive;
 pub mod dynamics;
 pub mod gradient;
 pub mod gust;
+pub mod level_set;
 pub mod math;
 pub mod modes;
 pub mod path;

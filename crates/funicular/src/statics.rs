@@ -41,7 +41,8 @@ mod supports; // balance of flexible supports under the forces of their cables
 mod wrench_set; // wrenches that the cables can apply within their limits
 
 // Solvers.
-mod capacity; // loads that cables within their limits hold at a pose
+mod capacity;
+mod closed_form; // loads that cables within their limits hold at a pose
 mod equilibria; // all equilibria of given lengths that a search finds
 mod forward; // lengths to pose, elastic cables
 mod ideal; // rigid cables: lengths to pose, pose to tensions
@@ -57,7 +58,8 @@ mod friction; // interval in which friction of pulleys leaves the equilibrium
 mod stiffness; // tangent stiffness and stability
 mod tension_gain; // nearness to a singular pose
 
-pub use capacity::{LoadCapacity, LoadFactor, WrenchClosure, wrench_closure};
+pub use capacity::{LoadCapacity, LoadFactor, WrenchClosure, load_factor_bounds, wrench_closure};
+pub use closed_form::closed_form_margin;
 pub use drag::{antisymmetric_fraction, drag_effect, drag_stiffness, stiffness_along_coordinates, tangent_with_drag};
 pub use energy::energy;
 pub use equilibria::{Candidate, Candidates, all_equilibria, another_stable_equilibrium};

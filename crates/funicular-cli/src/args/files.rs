@@ -288,6 +288,36 @@ pub(crate) struct UncertaintyArgs {
     pub(crate) threads: Option<NonZeroUsize>,
 }
 
+/// Computation of a workspace, and its destination.
+#[derive(Debug, Args)]
+#[command(next_help_heading = "Output")]
+pub(crate) struct WorkspaceArgs {
+    /// Compare the set with that of another robot file on the same grid: volumes of both, of what they share, and of what
+    /// only one has [default with --compare-set: the same file]
+    #[arg(long, value_name = "FILE.toml", help_heading = "Set")]
+    pub(crate) compare: Option<PathBuf>,
+
+    /// Change a value of the other robot, as --set does (repeatable)
+    #[arg(long, value_name = "PATH=VALUE", value_parser = funicular_study::set_values::change, help_heading = "Set")]
+    pub(crate) compare_set: Vec<Change>,
+
+    #[command(flatten)]
+    pub(crate) sink: OutputArgs,
+
+    /// Write the closed surface of the set [m] to FILE.stl, FILE.ply or FILE.vtp (ParaView); -o does the same with such a
+    /// file (repeatable)
+    #[arg(long, value_name = "FILE")]
+    pub(crate) surface: Vec<PathBuf>,
+
+    /// Write a page with the surface in space, the volumes and the sections to FILE; -o FILE.html does the same
+    #[arg(long, value_name = "FILE.html")]
+    pub(crate) page: Option<PathBuf>,
+
+    /// Number of threads [default: one per core]; the results do not depend on it
+    #[arg(long, value_name = "N", value_parser = values::threads, allow_hyphen_values = true)]
+    pub(crate) threads: Option<NonZeroUsize>,
+}
+
 /// Poses of a map, and the destination of its rows.
 #[derive(Debug, Args)]
 pub(crate) struct MapArgs {

@@ -1,6 +1,6 @@
 //! `request`: runs a request in JSON. Also prints the request of any command.
 
-use super::{analysis, export, import, merge, new_robot, page, reduce, schema, uncertainty};
+use super::{analysis, export, import, merge, new_robot, page, reduce, schema, uncertainty, workspace};
 use crate::args::{OutputArgs, PlotArgs, RequestArgs};
 use crate::output;
 use crate::sweep_run;
@@ -57,6 +57,7 @@ pub(crate) fn run(args: &RequestArgs) -> Result<()> {
     match &request {
         Request::Map(_) | Request::Sweep(_) => sweep_run::run(&request, &mut guard, &args.run),
         Request::Uncertainty(of) => uncertainty::print(of, &output(), &mut guard),
+        Request::Workspace(of) => workspace::print(of, &output(), &mut guard),
         Request::Report(_) => page::report(&request, Some(&args.file), &place()),
         Request::Live(_) => page::live(&request, Some(&args.file), &place()),
         Request::Paper(_) => page::paper(&place()),

@@ -38,6 +38,7 @@ mod uncertainty;
 mod validate;
 mod wind;
 mod wording;
+mod workspace;
 
 use assert_cmd::Command;
 use serde_json::Value;

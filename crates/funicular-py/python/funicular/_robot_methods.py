@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Executor
+from os import PathLike
 from typing import Any, SupportsIndex
 
 from numpy import asarray, ceil, linspace
@@ -195,6 +196,70 @@ def clearance(of: Any, given: Given) -> Results:
         The robot has no such equilibrium.
     """
     return _results.results(of._answer("clearance", given))
+
+
+@declared(
+    Robot,
+    "workspace",
+    positional=("at_least", "at_most", "grid"),
+    without=("lengths_m", "hold_lengths_of_pose", "compare"),
+    others=_AS_BOTH,
+)
+def workspace(
+    of: Any,
+    given: Given,
+    compare: Robot | None = None,
+    surface: File | Sequence[File] = (),
+    page: File | None = None,
+    threads: SupportsIndex | None = None,
+    progress: Callable[[int, int], object] | None = None,
+) -> Results:
+    """Finds all positions at which quantities keep their limits: surface, volume, parts and holes.
+
+    Without a limit the positions are those at which tensions within their limits hold the platform, with the required
+    loads if there are any.
+
+    Parameters
+    ----------
+    at_least, at_most
+        Least and greatest values: a mapping from quantities of `map`, or their columns, to numbers.
+    grid
+        Axes of the grid: a mapping from x, y, z [m] to (first, last, number of values), and from roll, pitch, yaw
+        [degrees] to such ranges or to lists of angles.
+    section
+        Sections: a mapping from x, y or z to a list of coordinates [m].
+    compare
+        Robot whose set is compared with this one on the same grid.
+    surface
+        Files of the closed surface, .stl, .ply or .vtp.
+    page
+        HTML file of a page with the surface, the volumes and the sections.
+    threads
+        Number of threads of this process; one per processor if not given.
+    progress
+        Function that is called with the number of positions that are done, and of those known to be needed.
+
+    Returns
+    -------
+    The keys of the program's JSON: `volumes` with the steps or the number of rays of each, `parts`, `holes`,
+    `touches`, `bounds_m`, `inner_box`, `sections`, `rays`, `compared`; `vertices_m` (n, 3) and `triangles` (m, 3) of the closed
+    surface, whose first `triangles_of_surface` lie on the set and the others on the box of the grid.
+
+    Raises
+    ------
+    InputError
+        A quantity, an axis or another argument is wrong; the message says which and what to give.
+    NoSolutionError
+        No position of the grid meets the conditions.
+
+    References
+    ----------
+    docs/theory.md, section 10b.
+    """
+    if compare is not None:
+        given = {**given, "compare": {"text": compare.to_toml()}}
+    files = [surface] if isinstance(surface, (str, PathLike)) else list(surface)
+    return _results.results(of._workspace(given, files, page, threads, progress))
 
 
 @declared(Robot, "pose-error", positional=("mass_kg",), others=_AS_REST)

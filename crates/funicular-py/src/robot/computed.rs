@@ -11,15 +11,19 @@ use crate::interrupt::interruptible_by_flag;
 use crate::request::{Keywords, state_and_tensions};
 use crate::sweep::{ExecutorArgument, ProgressArgument, PyPlan, RunKeywords, SweepObject};
 use crate::threads::Threads;
-use funicular_files::{Begin, UncertaintyOutcome, UncertaintyRun};
+use funicular_files::{Begin, UncertaintyOutcome, UncertaintyRun, WorkspaceRun};
+use funicular_formats::surface::{self, SurfaceFormat};
+use funicular_pages::pages;
 use funicular_study::analyses::uncertainty::UncertaintyStudy;
+use funicular_study::analyses::workspace::{Workspace, WorkspaceStudy};
 use funicular_study::request::{Request, UncertaintyRequest};
-use funicular_study::wording::Words;
+use funicular_study::wording::{Words, worded};
 use funicular_study::{Results, run_on};
 use pyo3::exceptions::PyKeyboardInterrupt;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::Ordering;
 
 impl PyRobot {
     fn request_of(&self, command: &str, given: &Bound<'_, PyDict>) -> PyResult<Request> {
@@ -107,6 +111,72 @@ impl PyRobot {
             return Err(errors::input("give `resume` or `discard`, not both: one keeps the robots".to_owned()));
         }
         sampled(py, request, samples, threads, progress)
+    }
+
+    /// Workspace, found on all threads, with calls of `progress`; its surface goes to files.
+    #[pyo3(name = "_workspace")]
+    fn workspace<'py>(
+        &self,
+        py: Python<'py>,
+        given: &Bound<'py, PyDict>,
+        surfaces: Vec<PathBuf>,
+        page: Option<PathBuf>,
+        threads: Option<Threads>,
+        progress: Option<ProgressArgument>,
+    ) -> PyResult<TextKeyed<'py>> {
+        let Request::Workspace(request) = self.request_of("workspace", given)? else {
+            unreachable!("the request is of workspace")
+        };
+        let formats: Vec<(SurfaceFormat, PathBuf)> =
+            surfaces.into_iter().map(|path| Ok((surface_format(&path)?, path))).collect::<PyResult<_>>()?;
+        let study = WorkspaceStudy::new((*self.robot).clone(), &request).map_err(|error| errors::study(&error))?;
+        let found = workspace_of(py, study, threads, progress)?;
+        for (format, path) in formats {
+            let bytes = surface::of_workspace(&found, format).map_err(|error| errors::study(&error))?;
+            answers::write_bytes(path, &bytes)?;
+        }
+        if let Some(path) = page {
+            let page =
+                pages::workspace::page(&found, format!("robot.workspace(…, page={:?})", path.display().to_string()));
+            let page = page.map_err(|error| errors::study(&error))?;
+            answers::write_bytes(path, worded(&page, Words::Python).as_bytes())?;
+        }
+        answers::plain(py, &found)
+    }
+}
+
+/// Format of a surface by the ending of its file.
+fn surface_format(path: &Path) -> PyResult<SurfaceFormat> {
+    let format = path.extension().and_then(|ending| SurfaceFormat::of_ending(&ending.to_string_lossy()));
+    let wanted = || errors::input(format!("`surface` {}: the file ends in .stl, .ply or .vtp", path.display()));
+    format.ok_or_else(wanted)
+}
+
+fn workspace_of(
+    py: Python<'_>,
+    study: WorkspaceStudy,
+    threads: Option<Threads>,
+    progress: Option<ProgressArgument>,
+) -> PyResult<Workspace> {
+    let threads = Threads::of(threads);
+    let outcome = interruptible_by_flag(py, move |cancel| {
+        let mut raised = None;
+        let mut report = |done: usize, total: usize, _: &'static str| {
+            if let (Some(ProgressArgument(function)), None) = (&progress, &raised) {
+                raised = Python::attach(|py| function.call1(py, (done, total)).err());
+                cancel.fetch_or(raised.is_some(), Ordering::Relaxed);
+            }
+        };
+        let found = WorkspaceRun { threads, cancel }.run(&study, &mut report)?;
+        Ok::<_, anyhow::Error>((found, raised))
+    })?;
+
+    let (found, raised) = outcome.map_err(|error| errors::study(&error))?;
+    match (found, raised) {
+        (_, Some(raised)) => Err(raised),
+        (Some(found), None) => Ok(found),
+        // Only Ctrl-C stops the work, and its exception has been raised before.
+        (None, None) => Err(PyKeyboardInterrupt::new_err("stopped before anything was found")),
     }
 }
 

@@ -12,6 +12,15 @@ declared! {
         /// Quantities to compute at every point, described in docs/sweeps.md
         quantities: Vec<String> = vec!["tension-min".to_owned(), "tension-max".to_owned()] =>
             (Commas(ProgramForm::Quantity)).form("Q,Q,…").option("quantity");
+        /// Options of every point.
+        #[serde(flatten)]
+        options: PointOptions = PointOptions::default() => group;
+    }
+}
+
+declared! {
+    /// State, loads and models at every point, whichever quantities are computed there.
+    pub struct PointOptions {
         /// Upper limit of the search for natural frequencies [Hz].
         up_to_hz: f64 = MAX_HZ => (Number(Positive));
         /// Minimum fraction of the kinetic energy in the platform for a mode that counts as a mode of the platform.

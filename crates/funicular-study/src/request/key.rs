@@ -82,6 +82,8 @@ pub enum ProgramForm {
     Change,
     /// Band of frequencies, `FROM:TO`.
     Band,
+    /// Limit of a quantity of a map, `QUANTITY=VALUE`.
+    Bound,
 }
 
 /// Kind of value of an option.

@@ -82,6 +82,7 @@ fn of_form(form: ProgramForm) -> Value {
         ProgramForm::Fit => fit(),
         ProgramForm::Change => change(),
         ProgramForm::Band => numbers(Range::Positive, Some(2)),
+        ProgramForm::Bound => bound(),
     }
 }
 
@@ -165,6 +166,10 @@ fn fit() -> Value {
 fn change() -> Value {
     let number = number(Range::Finite);
     object(&["path"], &json!({ "path": text(), "minimum": number, "maximum": number, "plus_minus": number }))
+}
+
+fn bound() -> Value {
+    object(&["quantity", "value"], &json!({ "quantity": text(), "value": number(Range::Finite) }))
 }
 
 /// Text of a robot file with its changes.

@@ -3,7 +3,7 @@
 use super::{AXES, Options, Plan, Points, Poses, Quantity, RobotValues, Steps, SweepError, ValueAxis, digest};
 use crate::at_rest::{self, refuse_no_state};
 use crate::names::TensionRuleName;
-use crate::request::{Axis, EachPoint, MapRequest, Request, RobotText, SweepRequest, check_fraction};
+use crate::request::{Axis, EachPoint, MapRequest, PointOptions, Request, RobotText, SweepRequest, check_fraction};
 use crate::robot_file::RobotFile;
 use crate::table::{Part, Record};
 use crate::values::positive;
@@ -54,8 +54,8 @@ impl PreparedSweep {
 
     fn of_map(request: &MapRequest, holder: &RobotText) -> Result<Self> {
         let file = request.robot.read()?;
-        let robot = with_request(file.robot, &request.point)?;
-        let EachPoint { state, tensions, .. } = &request.point;
+        let robot = with_request(file.robot, &request.point.options)?;
+        let PointOptions { state, tensions, .. } = &request.point.options;
         let mut holder_file = None;
         let mut holding = None;
         if state.hold_lengths_of_pose {
@@ -71,7 +71,7 @@ impl PreparedSweep {
         let points = match &request.poses {
             Some(_) if !request.grid.is_empty() => bail!("give ⟪grid⟫ or ⟪poses⟫, not both"),
             Some(poses) => {
-                check_poses_alone(&request.point.state)?;
+                check_poses_alone(&request.point.options.state)?;
                 check_poses(poses, &robot)?;
                 Poses::list(robot.clone(), poses.clone())
             }
@@ -105,15 +105,15 @@ impl PreparedSweep {
             .collect::<Result<Vec<_>, String>>()
             .map_err(|reason| anyhow!("⟪vary⟫: {reason}"))?;
 
-        let point = request.point.clone();
+        let point = request.point.options.clone();
         let adjust = Box::new(move |robot| with_request(robot, &point).map_err(|error| format!("{error:#}")));
         let mut points = RobotValues::new(text.clone(), axes, adjust).map_err(|reason| anyhow!("{reason}"))?;
         let robot = points.first().map_err(|reason| anyhow!("{reason}"))?;
 
         let mut holder_file = None;
-        if request.point.state.hold_lengths_of_pose {
+        if request.point.options.state.hold_lengths_of_pose {
             at_rest::refuse_no_pose(&robot)?;
-            let EachPoint { state, tensions, .. } = request.point.clone();
+            let PointOptions { state, tensions, .. } = request.point.options.clone();
             let adjust = Box::new(move |robot| {
                 at_rest::holder_of(robot, &state, &tensions).map_err(|error| format!("{error:#}"))
             });
@@ -223,19 +223,26 @@ impl PreparedSweep {
 }
 
 /// Robot of a point with the changes of the request.
-fn with_request(robot: Robot, point: &EachPoint) -> Result<Robot> {
+pub(crate) fn with_request(robot: Robot, point: &PointOptions) -> Result<Robot> {
     let robot = at_rest::with_limits(&at_rest::with_state(robot, &point.state)?, &point.tensions)?;
     at_rest::with_required_velocities(at_rest::with_required(robot, &point.required)?, &point.velocities)
 }
 
 /// Quantities and options of every point. Fills in the defaults of the request.
 fn quantities_and_options(robot: &Robot, point: &mut EachPoint) -> Result<(Vec<Quantity>, Options)> {
-    positive(point.up_to_hz).map_err(|reason| anyhow!("⟪up_to_hz⟫: {reason}"))?;
     let quantities = (point.quantities.iter())
         .map(|name| name.parse().map_err(|error| anyhow!("⟪quantities⟫ {name}: {error}")))
         .collect::<Result<Vec<Quantity>>>()?;
     point.quantities = quantities.iter().map(Quantity::name).collect();
+    Ok((quantities, options_of(robot, &mut point.options)?))
+}
 
+/// Options of every point. Fills in the defaults of the request.
+///
+/// # Errors
+/// Numbers out of their ranges, or a rule of tensions without a choice.
+pub(crate) fn options_of(robot: &Robot, point: &mut PointOptions) -> Result<Options> {
+    positive(point.up_to_hz).map_err(|reason| anyhow!("⟪up_to_hz⟫: {reason}"))?;
     let rule = at_rest::rule(&point.tensions)?;
     if rule.is_some() && !statics::leaves_choice(robot) {
         let (cables, dof) = (robot.cables.len(), robot.platform.motion.count());
@@ -252,10 +259,7 @@ fn quantities_and_options(robot: &Robot, point: &mut EachPoint) -> Result<(Vec<Q
     check_fraction("platform_share", point.platform_share)?;
     let payload_center_p = at_rest::payload_center(robot, point.payload_center_m)?;
     let (highest_hz, platform_share) = (point.up_to_hz, point.platform_share);
-    Ok((
-        quantities,
-        Options { static_model, tension_rule, linearisation, highest_hz, platform_share, payload_center_p },
-    ))
+    Ok(Options { static_model, tension_rule, linearisation, highest_hz, platform_share, payload_center_p })
 }
 
 /// Numbers of the robot file, if a quantity differentiates by one of them.
@@ -294,7 +298,7 @@ fn base_pose(robot: &Robot, request: &MapRequest) -> Result<Option<Pose>> {
         State::Pose(pose) => Some(*pose),
         State::Unknown => None,
         State::Lengths(lengths) => {
-            let rest = statics::forward(robot, lengths, request.point.state.static_model, None).context(
+            let rest = statics::forward(robot, lengths, request.point.options.state.static_model, None).context(
                 "the grid does not have all axes and the robot's state has no pose to take them from: give ⟪pose⟫",
             )?;
             Some(rest.pose)

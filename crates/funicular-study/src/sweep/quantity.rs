@@ -186,7 +186,7 @@ impl Quantity {
     }
 
     /// True if it does not exist for a static model.
-    pub(super) fn excludes(&self, model: StaticModel) -> bool {
+    pub(crate) fn excludes(&self, model: StaticModel) -> bool {
         match self.definition.needs {
             RequiredModel::Anything | RequiredModel::HeldPose => false,
             RequiredModel::Elastic => model == StaticModel::Ideal,

@@ -42,6 +42,17 @@ pub(super) fn cells(
     }
 }
 
+/// Values of quantities at a point; `None` if it is not feasible.
+pub(super) fn values(
+    point: &Point,
+    read: &ReadParameters<'_>,
+    quantities: &[Quantity],
+    options: &Options,
+) -> Option<Vec<Value>> {
+    let (robot, Solution { equilibrium, .. }) = feasible(point, options).ok()?;
+    Some(quantity_values(robot, &equilibrium, held_quantity(point), read, quantities, options).values)
+}
+
 /// Robot of a point and its equilibrium, or the reason why no equilibrium within the limits exists.
 fn feasible<'p>(point: &'p Point, options: &Options) -> Result<(&'p Robot, Solution), Status> {
     let (robot, state) = point.robot.as_ref().map_err(|reason| Status::new("invalid-robot", reason))?;

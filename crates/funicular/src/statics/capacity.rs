@@ -5,7 +5,7 @@ mod load_factor;
 mod required_set;
 
 pub use closure::{WrenchClosure, wrench_closure};
-pub use load_factor::LoadFactor;
+pub use load_factor::{LoadFactor, load_factor_bounds};
 
 use super::equilibrium::Equilibrium;
 use super::error::StaticsError;
@@ -14,7 +14,7 @@ use super::limits::{LimitViolation, TensionRange};
 use super::model::StaticModel;
 use super::solve::inverse;
 use super::tension::{TensionRule, cables_at, with_weight};
-use super::wrench_set::{AvailableWrenches, Facet};
+use super::wrench_set::{AvailableWrenches, BulgeSearch, Facet};
 use crate::math::Vec6;
 use crate::platform::{Coordinates, load_wrench};
 use crate::robot::{Pose, RequiredLoads, RequiredPayload, Robot};
@@ -65,16 +65,10 @@ impl<'a> LoadCapacity<'a> {
         model: StaticModel,
         start: Option<&Equilibrium>,
     ) -> Result<Self, StaticsError> {
-        let RequiredLoads { payload: RequiredPayload { min_mass, center_p, .. }, .. } = robot.required;
-        let is_loaded = min_mass > 0.0;
-        let loaded = if is_loaded {
-            Cow::Owned(with_weight(robot, pose, &center_p, min_mass * robot.gravity_w.norm()))
-        } else {
-            Cow::Borrowed(robot)
-        };
+        let loaded = with_lightest_payload(robot, pose);
 
         // The dead load.
-        let start = start.filter(|_| !is_loaded).cloned();
+        let start = start.filter(|_| matches!(loaded, Cow::Borrowed(_))).cloned();
         let rest = start.map_or_else(|| inverse(&loaded, pose, model), Ok);
         let rest = rest.and_then(|rest| within_limits(&loaded, rest));
 
@@ -87,7 +81,7 @@ impl<'a> LoadCapacity<'a> {
         };
         let cables = cables_at(&held, pose, model, &TensionRule::Lowest)?;
         let load = Coordinates::of(robot).reduce(&load_wrench(&loaded, pose));
-        let available = AvailableWrenches::of(cables, &load, robot.platform.motion);
+        let available = AvailableWrenches::of(cables, &load, robot.platform.motion, BulgeSearch::Exact);
 
         let required = RequiredSet::of(robot, pose, &robot.required);
         Ok(Self { loaded, pose: *pose, model, rest, available, required })
@@ -139,6 +133,16 @@ impl<'a> LoadCapacity<'a> {
         let coordinates = Coordinates::of(&self.loaded);
         let scaled = coordinates.expand(reduced);
         Vec6::from_fn(|i, _| if i < 3 { scaled[i] } else { scaled[i] * coordinates.ell() })
+    }
+}
+
+/// Robot with the lightest required payload as a part of its load.
+fn with_lightest_payload<'a>(robot: &'a Robot, pose: &Pose) -> Cow<'a, Robot> {
+    let RequiredLoads { payload: RequiredPayload { min_mass, center_p, .. }, .. } = robot.required;
+    if min_mass > 0.0 {
+        Cow::Owned(with_weight(robot, pose, &center_p, min_mass * robot.gravity_w.norm()))
+    } else {
+        Cow::Borrowed(robot)
     }
 }
 

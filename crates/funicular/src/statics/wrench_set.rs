@@ -10,5 +10,5 @@ mod reach;
 
 pub use cable_at_pose::TensionPlace;
 pub(super) use cable_at_pose::{CableAtPose, Rates, TensionByTau};
-pub(super) use chords::{AvailableWrenches, Facet};
+pub(super) use chords::{AvailableWrenches, BulgeSearch, Facet};
 pub(super) use reach::{ReachableTensions, WrenchSet, spread_start};

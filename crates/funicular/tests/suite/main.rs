@@ -16,6 +16,7 @@ mod drive;
 mod dynamic_stiffness;
 mod dynamics;
 mod gust;
+mod level_set;
 mod library;
 mod modes;
 mod path;

@@ -9,6 +9,7 @@ use crate::figures::view::{EYE, extent, joined, polygon, ranges, sides};
 use funicular::math::Vec3;
 use funicular::robot::Robot;
 use funicular::statics::{CableState, Equilibrium};
+use funicular_study::analyses::workspace::Workspace;
 use serde_json::{Value, json};
 
 /// Number of points drawn along a cable; its curve is smooth, and a straight cable needs only two.
@@ -103,6 +104,41 @@ impl Drawn {
         traces.extend(bodies.iter().filter(|body| !body.triangles.is_empty()).map(surface));
         Self { traces, points, further: format!("{driven}{supported}{obstacles}") }
     }
+}
+
+/// Figure of the surface of a workspace with the anchors.
+pub(crate) fn surface_in_space(found: &Workspace, caption: String) -> PageFigure {
+    let vertices: Vec<Vec3> = found.vertices_m.iter().map(|vertex| Vec3::from(*vertex)).collect();
+    let (of_set, of_box) = found.triangles.split_at(found.triangles_of_surface);
+    let mut data = vec![triangles(&vertices, of_set, colour::SKY, 0.85)];
+    if !of_box.is_empty() {
+        data.push(triangles(&vertices, of_box, "#999999", 0.6));
+    }
+    data.extend(found.anchors.iter().map(|anchor| marker(*anchor, "square", 4, "anchor<extra></extra>")));
+
+    let mut points = vertices;
+    points.extend(&found.anchors);
+    PageFigure::new(
+        "figure-surface",
+        520,
+        caption,
+        &data,
+        json!({
+            "scene": scene(&points, true, WIDE), "showlegend": false, "margin": {"l": 0, "r": 0, "t": 0, "b": 0},
+        }),
+    )
+}
+
+/// Trace of triangles by the numbers of their vertices.
+fn triangles(vertices: &[Vec3], triangles: &[[usize; 3]], colour: &str, opacity: f64) -> Value {
+    let [x, y, z] = coordinates(vertices);
+    let corner = |k: usize| triangles.iter().map(|triangle| triangle[k]).collect::<Vec<usize>>();
+    json!({
+        "type": "mesh3d", "x": x, "y": y, "z": z, "i": corner(0), "j": corner(1), "k": corner(2), "color": colour,
+        "opacity": opacity, "flatshading": false, "hovertemplate": "(%{x:.4g}, %{y:.4g}, %{z:.4g}) m<extra></extra>",
+        // For the script that saves the figure as lines.
+        "meta": {"faces": triangles},
+    })
 }
 
 /// Trace of the free span of cable `i`.

@@ -4,6 +4,7 @@ use super::{Definition, Parameter, ParameterKind, Quantity, RequiredModel, twist
 use crate::measure::{Measure, TensionPlace};
 use crate::sweep::evaluation::PointEvaluation;
 use crate::sweep::points::AXES;
+use crate::sweep::status::Status;
 use crate::table::{Column, ColumnKind, Value};
 use funicular::cable::{CableModel, Sag};
 use funicular::math::{Vec6, rotation};
@@ -312,6 +313,23 @@ pub(super) static TABLE: &[Definition] = &[
         values: |row, _, out| {
             let found = row.of_capacity(|capacity| Ok(capacity.margin()), NO_FACETS);
             row.push(Some(found), out);
+        },
+        ..Definition::PLAIN
+    },
+    Definition {
+        name: "closed-form-margin",
+        about: "distance of the closed-form tensions of straight cables from their limits: a sufficient test only",
+        documentation: "`closed_form_margin_n`: distance of the tensions nearest to the middles of their limits from \
+                        these limits, with straight cables; positive is sufficient for a feasible pose, but not \
+                        necessary (theory, equation (40z)); for comparison with programs that use it",
+        needs: RequiredModel::HeldPose,
+        columns: |_, _| {
+            one("closed_form_margin_n", "N", "distance of the closed-form tensions from their limits: sufficient only")
+        },
+        values: |row, _, out| {
+            let found = statics::closed_form_margin(row.robot, &row.rest.pose);
+            let none = || Status::new("required-load", NO_FACETS);
+            row.push(Some(found.ok_or_else(none)), out);
         },
         ..Definition::PLAIN
     },

@@ -1,17 +1,20 @@
 //! Load factor: the largest multiple of the required loads that the cables hold in every combination.
 
-use super::LoadCapacity;
 use super::required_set::RequiredSet;
+use super::{LoadCapacity, with_lightest_payload};
 use crate::math::{Vec6, order};
 use crate::platform::{Coordinates, load_size, load_wrench};
-use crate::robot::Robot;
+use crate::robot::{Pose, Robot};
 use crate::statics::equilibrium::CableState;
 use crate::statics::error::StaticsError;
 use crate::statics::exit_points;
+use crate::statics::model::StaticModel;
 use crate::statics::tension::{
     LimitAtCable, RaySearch, TensionRule, WrenchRay, cables_at, equilibrium_of, limits_reached, start_from,
 };
-use crate::statics::wrench_set::{CableAtPose, ReachableTensions, WrenchSet, spread_start};
+use crate::statics::wrench_set::{
+    AvailableWrenches, BulgeSearch, CableAtPose, Facet, ReachableTensions, WrenchSet, spread_start,
+};
 
 /// Gap between a multiple and its upper bound, over the multiple, above which the search begins again elsewhere: the
 /// bound itself is exact to about 1e-9.
@@ -111,22 +114,18 @@ impl LoadCapacity<'_> {
 
     /// Smallest ratio of the reach of the cables to that of a set of loads over all facets; `None` without facets, or
     /// with exit points that move with the tensions.
-    pub(super) fn smallest(&self, loads: &RequiredSet, reach: impl Fn(&super::Facet) -> f64) -> Option<f64> {
-        if exit_points::depend_on_tensions(self.robot(), self.model) || self.available.facets().is_empty() {
+    pub(super) fn smallest(&self, loads: &RequiredSet, reach: impl Fn(&Facet) -> f64) -> Option<f64> {
+        if exit_points::depend_on_tensions(self.robot(), self.model) {
             return None;
         }
-        let ratios = self.available.facets().iter().map(|facet| {
-            let load = loads.reach(&-facet.normal);
-            if load > 0.0 { reach(facet) / load } else { f64::INFINITY }
-        });
-        Some(ratios.fold(f64::INFINITY, f64::min).max(0.0))
+        smallest_ratio(self.available.facets(), loads, reach)
     }
 
     /// Vertex with the smallest multiple. Vertices are taken in the order of their lower bounds, until the bound of the
     /// next one is above the smallest multiple so far.
     fn worst_vertex(&self, vertices: Vec<Vec6>) -> Result<(Vec6, HeldMultiple), StaticsError> {
         let single = |load: &Vec6| {
-            let ratio = |facet: &super::Facet| facet.inner / -facet.normal.dot(load);
+            let ratio = |facet: &Facet| facet.inner / -facet.normal.dot(load);
             let opposed = self.available.facets().iter().filter(|facet| facet.normal.dot(load) < 0.0);
             opposed.map(ratio).fold(f64::INFINITY, f64::min)
         };
@@ -152,7 +151,7 @@ impl LoadCapacity<'_> {
     /// Load with the smallest multiple of a set without vertices: the direction in which the cables reach no farther
     /// gives the next load.
     fn worst_of_ball(&self) -> Result<(Vec6, HeldMultiple), StaticsError> {
-        let ratio = |facet: &super::Facet| facet.reach / self.required.reach(&-facet.normal);
+        let ratio = |facet: &Facet| facet.reach / self.required.reach(&-facet.normal);
         let facets = self.available.facets().iter().filter(|facet| self.required.reach(&-facet.normal) > 0.0);
         let first = facets.min_by(|a, b| ratio(a).total_cmp(&ratio(b))).map(|facet| -facet.normal);
         let down = Coordinates::of(self.robot()).reduce(&load_wrench(self.robot(), &self.pose));
@@ -277,6 +276,39 @@ impl LoadCapacity<'_> {
         own.moment_w += extra.fixed_rows::<3>(3).into_owned() - (self.pose.rot_wp * own.point_p).cross(&force_w);
         robot.with_load(own)
     }
+}
+
+/// Smallest ratio of a reach of facets to that of a set of loads; `None` without facets.
+fn smallest_ratio(facets: &[Facet], loads: &RequiredSet, reach: impl Fn(&Facet) -> f64) -> Option<f64> {
+    let ratio = |facet: &Facet| {
+        let load = loads.reach(&-facet.normal);
+        if load > 0.0 { reach(facet) / load } else { f64::INFINITY }
+    };
+    facets.iter().map(ratio).reduce(f64::min).map(|smallest| smallest.max(0.0))
+}
+
+/// Bounds of the load factor at a pose from the facets alone, without an equilibrium: it takes a fraction of the time of
+/// [`LoadCapacity::load_factor_value`]. Up to the lower one all required loads are held, and the dead load with them if
+/// it is positive; beyond the upper one, no tensions within the limits hold them. `None` if nothing is required, without
+/// facets, or with exit points that move with the tensions.
+///
+/// # Errors
+/// As [`LoadCapacity::at`].
+///
+/// # References
+/// docs/theory.md, equations (40i) and (40k).
+pub fn load_factor_bounds(robot: &Robot, pose: &Pose, model: StaticModel) -> Result<Option<[f64; 2]>, StaticsError> {
+    let required = RequiredSet::of(robot, pose, &robot.required);
+    if required.is_empty() || exit_points::depend_on_tensions(robot, model) {
+        return Ok(None);
+    }
+    let loaded = with_lightest_payload(robot, pose);
+    let cables = cables_at(&loaded, pose, model, &TensionRule::Lowest)?;
+    let load = Coordinates::of(robot).reduce(&load_wrench(&loaded, pose));
+    let available = AvailableWrenches::of(cables, &load, robot.platform.motion, BulgeSearch::Bounds);
+
+    let bound = |reach: fn(&Facet) -> f64| smallest_ratio(available.facets(), &required, reach);
+    Ok(bound(|facet| facet.inner).zip(bound(|facet| facet.outer)).map(|(lower, upper)| [lower, upper]))
 }
 
 /// Ranges of cables, and the tensions τ that they had [N].

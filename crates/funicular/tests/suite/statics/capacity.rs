@@ -240,3 +240,57 @@ fn all_accelerations_up_to_the_largest_one_are_held_and_one_of_a_larger_one_is_n
     let half = most / 6.0_f64.sqrt();
     assert!(factor([half, half]) >= 1.0 && factor([most, most]) < 1.0);
 }
+
+#[test]
+fn closed_form_tensions_are_sufficient_and_balance_the_load() {
+    let robot = ipanema();
+    let (mut sufficient, mut feasible) = (0, 0);
+    for pose in poses(200, [3.0, 2.0, 1.5], [0.0, 0.0, 2.0]) {
+        let capacity = LoadCapacity::at(&robot, &pose, StaticModel::Ideal, None).unwrap();
+        let is_held = capacity.dead_load().is_ok();
+        let margin = statics::closed_form_margin(&robot, &pose).unwrap();
+        assert!(margin <= 0.0 || is_held, "{pose:?}: {margin} N");
+        sufficient += usize::from(margin > 0.0);
+        feasible += usize::from(is_held);
+    }
+    assert!(0 < sufficient && sufficient < feasible, "{sufficient} of {feasible}");
+
+    // As many cables as degrees of freedom leave no choice: the closed form is the only distribution.
+    let mut six = ipanema();
+    six.cables.truncate(6);
+    for pose in poses(20, [2.0, 1.0, 1.0], [0.0, 0.0, 2.0]) {
+        let Some(margin) = statics::closed_form_margin(&six, &pose) else { continue };
+        let is_held = LoadCapacity::at(&six, &pose, StaticModel::Ideal, None).unwrap().dead_load().is_ok();
+        assert_eq!(margin >= 0.0, is_held, "{pose:?}: {margin} N");
+    }
+}
+
+#[test]
+fn bounds_of_the_load_factor_from_facets_alone_enclose_it() {
+    let limited =
+        |minimum: f64| cogiro().with_tension_limits(TensionLimits { minimum: Some(minimum), maximum: Some(5000.0) });
+    let mut heavy = limited(60.0);
+    heavy.cables.iter_mut().for_each(|cable| cable.material.mass_per_length = 0.6);
+    let mut loaded = with_box(limited(100.0), 150.0, 30.0);
+    loaded.required.payload = RequiredPayload { min_mass: 50.0, max_mass: 80.0, ..RequiredPayload::default() };
+    for (robot, widest) in
+        [(with_box(limited(100.0), 150.0, 30.0), 2e-3), (with_box(heavy, 100.0, 20.0), 0.5), (loaded, 2e-3)]
+    {
+        let mut compared = 0;
+        for pose in poses(60, [5.0, 3.5, 2.0], [0.0, 0.0, 2.0]) {
+            let bounds = statics::load_factor_bounds(&robot, &pose, StaticModel::Catenary).unwrap();
+            let [lower, upper] = bounds.expect("the cables span all degrees of freedom");
+            let capacity = LoadCapacity::at(&robot, &pose, StaticModel::Catenary, None).unwrap();
+            let Ok(value) = capacity.load_factor_value() else {
+                assert!(lower <= 0.0, "{pose:?}: the dead load is not held, but {lower} times the loads");
+                continue;
+            };
+            compared += 1;
+            assert!(lower <= value + 1e-9 && value <= upper + 1e-9, "{pose:?}: {lower} {value} {upper}");
+            assert!(upper - lower < widest, "{pose:?}: {lower} {upper}");
+        }
+        assert!(compared > 10);
+    }
+    let nothing = statics::load_factor_bounds(&cogiro(), &poses(1, [1.0; 3], [0.0; 3])[0], StaticModel::Ideal);
+    assert!(nothing.unwrap().is_none());
+}

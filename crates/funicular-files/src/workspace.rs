@@ -1,0 +1,52 @@
+//! Workspace of a robot on several threads.
+
+use crate::threads::in_order;
+use funicular::math::Vec3;
+use funicular_study::analyses::workspace::{SearchedSet, Workspace, WorkspaceStudy};
+use std::convert::Infallible;
+use std::num::NonZeroUsize;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// Number of positions that a thread takes at once: some milliseconds of work.
+const POSITIONS_AT_ONCE: usize = 32;
+
+/// Way of computing a workspace.
+pub struct WorkspaceRun<'a> {
+    /// Number of threads; the results do not depend on it.
+    pub threads: NonZeroUsize,
+    /// Flag that stops the work at its next position.
+    pub cancel: &'a AtomicBool,
+}
+
+impl WorkspaceRun<'_> {
+    /// Finds the workspace of a study; `None` if it was stopped before anything was found. `progress` gets the number of
+    /// positions that are done, and of those known to be needed.
+    ///
+    /// # Errors
+    /// No position that meets the conditions.
+    pub fn run(
+        &self,
+        study: &WorkspaceStudy,
+        progress: &mut dyn FnMut(usize, usize, &'static str),
+    ) -> anyhow::Result<Option<Workspace>> {
+        let mut done = 0;
+        let mut evaluate = |set: SearchedSet, positions: &[Vec3]| {
+            let total = done + positions.len();
+            let chunks: Vec<&[Vec3]> = positions.chunks(POSITIONS_AT_ONCE).collect();
+            let compute = |chunk: usize, given_up: &dyn Fn() -> bool| {
+                let values = chunks[chunk].iter().map(|position| (!given_up()).then(|| study.value(set, position)));
+                values.collect::<Option<Vec<_>>>()
+            };
+            let mut values = Vec::with_capacity(positions.len());
+            let outcome = in_order(0..chunks.len(), self.threads, self.cancel, compute, |chunk: Vec<Option<f64>>| {
+                done += chunk.len();
+                values.extend(chunk);
+                progress(done, total, "positions");
+                Ok::<(), Infallible>(())
+            });
+            let is_complete = outcome.is_ok() && values.len() == positions.len();
+            (is_complete && !self.cancel.load(Ordering::Relaxed)).then_some(values)
+        };
+        study.find(&mut evaluate)
+    }
+}

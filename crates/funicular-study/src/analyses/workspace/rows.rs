@@ -1,0 +1,430 @@
+//! Results of a workspace.
+
+use super::conditions::ConditionRow;
+use crate::analyses::fields::AXES;
+use crate::analyses::found;
+use crate::columns::{Columns, ResultTable, Tabled, column, parts};
+use crate::table::Column;
+use crate::text::{counted, significant};
+use funicular::level_set::{BOX_FACES, BoundaryMesh, LevelSet, PointGrid, RaySet, RaysInBox, SearchEnd, SetPart};
+use funicular::math::{Rotation, Vec3, rotation};
+use serde::Serialize;
+
+/// Change of the volume by halving the steps above which the grid counts as too coarse.
+const COARSE: f64 = 0.03;
+
+/// Results of `workspace`.
+#[derive(Serialize)]
+pub struct Workspace {
+    #[serde(skip)]
+    pub robot: String,
+    pub static_model: &'static str,
+    pub conditions: Vec<ConditionRow>,
+    /// Roll, pitch and yaw of every orientation, and which of them have to be possible: `all` or `some`.
+    pub roll_pitch_yaw_deg: Vec<[f64; 3]>,
+    pub orientations: &'static str,
+    pub grid: GridOfWorkspace,
+    /// True if everything was found: otherwise the work was stopped before the steps were as small as requested, or
+    /// before the vertices had their places.
+    pub complete: bool,
+    /// Number of positions that were evaluated.
+    pub evaluations: usize,
+    /// Volumes: with the steps of the grid, with two and four of them as one, and along rays.
+    pub volumes: Vec<VolumeRow>,
+    /// Parts that do not touch each other, and holes, the largest first.
+    pub parts: Vec<PartOfWorkspace>,
+    pub holes: Vec<PartOfWorkspace>,
+    /// Faces of the box up to which the set reaches: it may go on behind them.
+    pub touches: Vec<&'static str>,
+    /// Area in which the faces of the box cut the set.
+    pub cut_area_m2: f64,
+    /// Smallest box around the set.
+    pub bounds_m: [[f64; 3]; 2],
+    /// Largest box whose nodes are all in the set.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub inner_box: Option<InnerBox>,
+    pub sections: Vec<SectionOfWorkspace>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub rays: Option<RaysOfWorkspace>,
+    /// Comparison with another robot.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub compared: Option<ComparedSets>,
+    /// Closed surface: vertices, and triangles by the numbers of their vertices from 0, counterclockwise from outside.
+    pub vertices_m: Vec<[f64; 3]>,
+    pub triangles: Vec<[usize; 3]>,
+    /// Number of triangles on the surface of the set; those after them lie on the faces of the box.
+    pub triangles_of_surface: usize,
+    /// Anchors of the cables, for figures.
+    #[serde(skip)]
+    pub anchors: Vec<Vec3>,
+    #[serde(skip)]
+    pub warnings: Vec<String>,
+}
+
+/// Grid on which a set was found.
+#[derive(Serialize)]
+pub struct GridOfWorkspace {
+    pub lower_m: [f64; 3],
+    pub upper_m: [f64; 3],
+    /// Step along each axis.
+    pub step_m: [f64; 3],
+    /// Largest step with which the set was searched at first: separate parts and holes that are smaller can be missed.
+    pub first_step_m: f64,
+    pub vertex_tolerance_m: f64,
+}
+
+/// Volume of the set with what it was found with.
+#[derive(Serialize)]
+pub struct VolumeRow {
+    /// `grid`, `rays` (all intervals of all rays) or `hull of rays` (triangles between their first ends).
+    pub by: &'static str,
+    /// Largest step of the grid, or between the points of a ray.
+    pub step_m: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub rays: Option<usize>,
+    pub volume_m3: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub area_m2: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub centroid_m: Option<[f64; 3]>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub parts: Option<usize>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub holes: Option<usize>,
+    /// Number of handles of all surfaces: 0 for balls, 1 for a ring.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub handles: Option<usize>,
+}
+
+/// Part of a set, or a hole in it.
+#[derive(Serialize)]
+pub struct PartOfWorkspace {
+    /// Volume; that of a part includes its holes.
+    pub volume_m3: f64,
+    pub handles: usize,
+}
+
+/// Box inside a set.
+#[derive(Serialize)]
+pub struct InnerBox {
+    pub lower_m: [f64; 3],
+    pub upper_m: [f64; 3],
+    pub volume_m3: f64,
+}
+
+/// Section of a set.
+#[derive(Serialize)]
+pub struct SectionOfWorkspace {
+    pub axis: &'static str,
+    pub at_m: f64,
+    pub area_m2: f64,
+    /// Closed polygons: counterclockwise around the set, clockwise around holes.
+    pub polygons_m: Vec<Vec<[f64; 3]>>,
+}
+
+/// Set along rays.
+#[derive(Serialize)]
+pub struct RaysOfWorkspace {
+    pub center_m: [f64; 3],
+    pub count: usize,
+    /// Rays with more than one interval: the set is not star-shaped from the centre.
+    pub with_several_intervals: usize,
+    /// Rays along which the set reaches the box.
+    pub cut: usize,
+    /// Unit vector of every ray, and the distances from the centre between which it is in the set.
+    pub directions: Vec<[f64; 3]>,
+    pub intervals_m: Vec<Vec<[f64; 2]>>,
+    #[serde(skip)]
+    volumes: Vec<VolumeRow>,
+    #[serde(skip)]
+    evaluations: usize,
+}
+
+/// Volumes of two sets on one grid, and of what they share.
+#[derive(Serialize)]
+pub struct ComparedSets {
+    /// Name of the other robot.
+    pub other: String,
+    pub other_volume_m3: f64,
+    pub common_volume_m3: f64,
+    /// Volume that only this robot reaches, and that only the other one reaches.
+    pub only_own_m3: f64,
+    pub only_other_m3: f64,
+    #[serde(skip)]
+    evaluations: usize,
+}
+
+impl ComparedSets {
+    pub(super) fn of(other: &str, [own, of_other, common]: [f64; 3], evaluations: usize) -> Self {
+        Self {
+            other: other.to_owned(),
+            other_volume_m3: of_other,
+            common_volume_m3: common,
+            only_own_m3: own - common,
+            only_other_m3: of_other - common,
+            evaluations,
+        }
+    }
+}
+
+/// What was searched for, apart from what was found.
+pub(super) struct WantedSet<'a> {
+    pub(super) robot: &'a str,
+    pub(super) anchors: Vec<Vec3>,
+    pub(super) static_model: &'static str,
+    pub(super) conditions: &'a [ConditionRow],
+    pub(super) orientations: (&'a [Rotation], &'static str),
+    /// Tolerance of the vertices [m].
+    pub(super) tolerance: f64,
+    /// Number of the axis and coordinate of each section.
+    pub(super) sections: &'a [(usize, f64)],
+    /// True if the set is wanted along rays, and if it is compared with another one.
+    pub(super) with_rays: bool,
+    pub(super) with_other: bool,
+}
+
+impl Workspace {
+    /// Results of a search on the grid, and along rays.
+    pub(super) fn of(
+        wanted: &WantedSet<'_>,
+        set: &LevelSet,
+        surface: &BoundaryMesh,
+        mut rays: Option<RaysOfWorkspace>,
+        compared: Option<ComparedSets>,
+    ) -> Self {
+        let strides = set.strides();
+        let coarser = strides[1..].iter().map(|stride| VolumeRow::of_grid(&set.boundary(*stride), step(set, *stride)));
+        let mut volumes: Vec<VolumeRow> =
+            std::iter::once(VolumeRow::of_grid(surface, step(set, strides[0]))).chain(coarser).collect();
+        volumes.extend(rays.as_mut().into_iter().flat_map(|rays| std::mem::take(&mut rays.volumes)));
+
+        let touches = set.touches();
+        let grid = set.grid();
+        let bounds = surface.bounds().unwrap_or([Vec3::zeros(); 2]);
+        let section = |(axis, at): &(usize, f64)| SectionOfWorkspace::of(surface, *axis, *at);
+        Self {
+            robot: wanted.robot.to_owned(),
+            static_model: wanted.static_model,
+            conditions: wanted.conditions.to_vec(),
+            roll_pitch_yaw_deg: wanted.orientations.0.iter().map(rotation::to_roll_pitch_yaw_deg).collect(),
+            orientations: wanted.orientations.1,
+            grid: GridOfWorkspace {
+                lower_m: grid.lower().into(),
+                upper_m: grid.upper().into(),
+                step_m: (grid.step() * strides[0] as f64).into(),
+                first_step_m: first_step(grid),
+                vertex_tolerance_m: wanted.tolerance,
+            },
+            complete: set.end() == SearchEnd::Complete
+                && rays.is_some() == wanted.with_rays
+                && compared.is_some() == wanted.with_other,
+            evaluations: set.evaluations()
+                + rays.as_ref().map_or(0, |rays| rays.evaluations)
+                + compared.as_ref().map_or(0, |compared| compared.evaluations),
+            volumes,
+            parts: surface.parts().into_iter().map(PartOfWorkspace::of).collect(),
+            holes: surface.holes().into_iter().map(PartOfWorkspace::of).collect(),
+            touches: BOX_FACES.into_iter().zip(touches).filter(|(_, touches)| *touches).map(|(face, _)| face).collect(),
+            cut_area_m2: surface.cut_area(),
+            bounds_m: bounds.map(Into::into),
+            inner_box: set.inner_box().map(InnerBox::of),
+            sections: wanted.sections.iter().map(section).collect(),
+            rays,
+            compared,
+            vertices_m: surface.vertices().iter().map(|vertex| (*vertex).into()).collect(),
+            triangles: surface.triangles().to_vec(),
+            triangles_of_surface: surface.on_surface(),
+            anchors: wanted.anchors.clone(),
+            warnings: Vec::new(),
+        }
+    }
+
+    /// Volume with the smallest steps.
+    pub fn volume(&self) -> &VolumeRow {
+        &self.volumes[0]
+    }
+
+    /// Volume with two steps as one, if there is one.
+    pub fn with_double_steps(&self) -> Option<&VolumeRow> {
+        self.volumes.get(1).filter(|row| row.rays.is_none())
+    }
+
+    /// Change of the volume from double steps to the steps of the grid, over the new volume; `None` without double steps.
+    pub fn change_by_halving(&self) -> Option<f64> {
+        let fine = self.volume().volume_m3;
+        let change = 1.0 - self.with_double_steps()?.volume_m3 / fine;
+        Some(if change.is_finite() { change } else { 1.0 })
+    }
+
+    /// Sentences about what the grid leaves open.
+    pub(super) fn doubts(&self) -> Vec<String> {
+        let stopped = (!self.complete).then(|| {
+            let message = "the work was stopped: this is what was found until then";
+            message.to_owned()
+        });
+        let of_grid = match self.with_double_steps() {
+            Some(coarse) => vec![self.coarse_volume(), self.other_pieces(coarse)],
+            None => {
+                let message = "nothing is known of the error of the volume: make the number of steps along every axis \
+                               of ⟪grid⟫ a multiple of 4, as with 41 values, and the volume is compared with that of \
+                               larger steps";
+                vec![Some(message.to_owned())]
+            }
+        };
+        stopped.into_iter().chain(of_grid.into_iter().flatten()).chain(self.cut_by_box()).collect()
+    }
+
+    /// Sentence about a volume that still changes with the steps.
+    fn coarse_volume(&self) -> Option<String> {
+        let change = self.change_by_halving()?;
+        let message = format!(
+            "the grid is coarse for this set: halving its steps to {} m changed the volume by {} %; halve them again",
+            significant(self.volume().step_m, 4),
+            significant(100.0 * change, 2)
+        );
+        (change.abs() > COARSE).then_some(message)
+    }
+
+    /// Sentence about parts, holes and handles that are others with double steps.
+    fn other_pieces(&self, coarse: &VolumeRow) -> Option<String> {
+        let fine = self.volume();
+        let counts = |row: &VolumeRow| (row.parts, row.holes, row.handles);
+        let message = format!(
+            "the number of parts, holes or handles depends on the grid: {} with steps of {} m, {} with steps of {} m; \
+             halve the steps",
+            pieces(fine),
+            significant(fine.step_m, 4),
+            pieces(coarse),
+            significant(coarse.step_m, 4)
+        );
+        (counts(fine) != counts(coarse)).then_some(message)
+    }
+
+    /// Sentence about a set that reaches the box of the grid.
+    fn cut_by_box(&self) -> Option<String> {
+        let message = format!(
+            "the set reaches the box of the grid at {}: it may go on there; give a larger ⟪grid⟫",
+            self.touches.join(", ")
+        );
+        (!self.touches.is_empty()).then_some(message)
+    }
+}
+
+/// Largest step of a grid with several steps as one [m].
+fn step(set: &LevelSet, stride: usize) -> f64 {
+    set.grid().step().max() * stride as f64
+}
+
+/// Largest step with which a grid is searched at first [m].
+pub(super) fn first_step(grid: &PointGrid) -> f64 {
+    grid.step().max() * grid.largest_stride() as f64
+}
+
+/// Numbers of parts, holes and handles for the middle of a sentence.
+fn pieces(row: &VolumeRow) -> String {
+    let count = |number: Option<usize>, noun: &str| counted(number.unwrap_or(0), noun);
+    format!("{}, {} and {}", count(row.parts, "part"), count(row.holes, "hole"), count(row.handles, "handle"))
+}
+
+impl VolumeRow {
+    fn of_grid(mesh: &BoundaryMesh, step_m: f64) -> Self {
+        let (parts, holes) = (mesh.parts(), mesh.holes());
+        Self {
+            by: "grid",
+            step_m,
+            rays: None,
+            volume_m3: mesh.volume(),
+            area_m2: Some(mesh.area()),
+            centroid_m: mesh.centroid().map(Into::into),
+            parts: Some(parts.len()),
+            holes: Some(holes.len()),
+            handles: Some(parts.iter().chain(&holes).map(|piece| piece.handles).sum()),
+        }
+    }
+
+    fn of_rays(by: &'static str, rays: usize, step_m: f64, volume_m3: f64, hull: Option<&BoundaryMesh>) -> Self {
+        let area_m2 = hull.map(BoundaryMesh::area);
+        let centroid_m = hull.and_then(BoundaryMesh::centroid).map(Into::into);
+        Self { by, step_m, rays: Some(rays), volume_m3, area_m2, centroid_m, parts: None, holes: None, handles: None }
+    }
+
+    /// Columns of the volumes.
+    pub fn columns() -> Columns<Self> {
+        Columns::new([
+            column("by", "", "grid, rays, or hull of rays", |row: &Self| row.by).plain("by"),
+            column("step_m", "m", "largest step of the grid, or between points of a ray", |row: &Self| row.step_m)
+                .short("step", "m", 4),
+            column("rays", "1", "number of rays", |row: &Self| row.rays).plain("rays"),
+            column("volume_m3", "m³", "volume of the set", |row: &Self| row.volume_m3).significant("volume", "m³", 6),
+            column("area_m2", "m²", "area of its surface", |row: &Self| row.area_m2).significant("area", "m²", 6),
+            parts("centroid_{}_m", AXES, "m", "centroid of its volume, {}", |row: &Self| {
+                row.centroid_m.map_or([None; 3], |centroid| centroid.map(Some))
+            })
+            .decimals("centroid", "m", 3),
+            column("parts", "1", "number of parts that do not touch each other", |row: &Self| row.parts).plain("parts"),
+            column("holes", "1", "number of holes that the outside does not reach", |row: &Self| row.holes)
+                .plain("holes"),
+            column("handles", "1", "number of handles of all surfaces, 1 for a ring", |row: &Self| row.handles)
+                .plain("handles"),
+        ])
+    }
+}
+
+impl PartOfWorkspace {
+    fn of(part: SetPart) -> Self {
+        Self { volume_m3: part.volume, handles: part.handles }
+    }
+}
+
+impl InnerBox {
+    fn of([lower, upper]: [Vec3; 2]) -> Self {
+        Self { lower_m: lower.into(), upper_m: upper.into(), volume_m3: (upper - lower).product() }
+    }
+}
+
+impl SectionOfWorkspace {
+    fn of(surface: &BoundaryMesh, axis: usize, at_m: f64) -> Self {
+        let section = surface.section(axis, at_m);
+        let polygon = |points: &Vec<Vec3>| points.iter().map(|point| (*point).into()).collect();
+        Self {
+            axis: AXES[axis],
+            at_m,
+            area_m2: section.area,
+            polygons_m: section.polygons.iter().map(polygon).collect(),
+        }
+    }
+}
+
+impl RaysOfWorkspace {
+    pub(super) fn of(set: &RaySet, search: &RaysInBox) -> Self {
+        let rays = set.rays();
+        let hull = set.hull();
+        let (count, step) = (rays.len(), search.step);
+        let mut volumes = vec![VolumeRow::of_rays("rays", count, step, set.volume(), None)];
+        if let Some(hull) = &hull {
+            volumes.push(VolumeRow::of_rays("hull of rays", count, step, hull.volume(), Some(hull)));
+        }
+        Self {
+            center_m: search.center.into(),
+            count,
+            with_several_intervals: rays.iter().filter(|ray| ray.intervals.len() > 1).count(),
+            cut: rays.iter().filter(|ray| ray.is_cut()).count(),
+            directions: set.sphere().directions().iter().map(|ray| (*ray).into()).collect(),
+            intervals_m: rays.iter().map(|ray| ray.intervals.clone()).collect(),
+            volumes,
+            evaluations: set.evaluations(),
+        }
+    }
+}
+
+impl Tabled for Workspace {
+    fn tables() -> Vec<(&'static str, Vec<Column>)> {
+        vec![("", VolumeRow::columns().described())]
+    }
+
+    fn table(&self) -> ResultTable<'_> {
+        ResultTable::new(VolumeRow::columns(), &self.volumes)
+    }
+}
+
+found!(Workspace, "workspace");

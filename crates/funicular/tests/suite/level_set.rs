@@ -1,0 +1,279 @@
+//! Level sets against solids whose volumes, areas and sections have closed forms.
+
+use funicular::level_set::{BoundaryMesh, LevelSet, MAX_NODES, PointGrid, RaySet, RaysInBox, SearchEnd, Sphere};
+use funicular::math::Vec3;
+use proptest::prelude::*;
+use std::collections::BTreeMap;
+use std::f64::consts::PI;
+
+/// Grid of a cube about the origin.
+fn cube(half: f64, steps: usize) -> PointGrid {
+    PointGrid::new(Vec3::repeat(-half), Vec3::repeat(half), [steps; 3]).unwrap()
+}
+
+fn find(grid: PointGrid, inside: impl Fn(&Vec3) -> Option<f64>) -> LevelSet {
+    let mut evaluate = |points: &[Vec3]| Some(points.iter().map(&inside).collect());
+    LevelSet::find(grid, 1e-9, &mut evaluate).unwrap()
+}
+
+/// Every edge of a closed surface belongs to two triangles, which go along it in opposite directions.
+fn is_closed(mesh: &BoundaryMesh) -> bool {
+    let mut edges: BTreeMap<(usize, usize), i32> = BTreeMap::new();
+    for [a, b, c] in mesh.triangles() {
+        for (from, to) in [(*a, *b), (*b, *c), (*c, *a)] {
+            *edges.entry((from, to)).or_default() += 1;
+        }
+    }
+    edges.iter().all(|((from, to), count)| *count == 1 && edges.get(&(*to, *from)) == Some(&1))
+}
+
+fn ball(point: &Vec3) -> Option<f64> {
+    Some(1.0 - point.norm())
+}
+
+/// Ring about z with radii 1 and 0.4.
+fn ring(point: &Vec3) -> Option<f64> {
+    Some(0.4 - (point.xy().norm() - 1.0).hypot(point.z))
+}
+
+#[test]
+fn a_ball_has_its_volume_area_and_centroid() {
+    let middle = Vec3::new(0.03, -0.02, 0.05);
+    let volume = 4.0 / 3.0 * PI;
+    let mut before = f64::INFINITY;
+    for steps in [16, 32, 64] {
+        let set = find(cube(1.2, steps), |point| ball(&(point - middle)));
+        let mesh = set.boundary(1);
+        assert!(is_closed(&mesh));
+
+        // The vertices are on the ball, so the error is that of chords, of second order.
+        assert!(mesh.vertices().iter().all(|vertex| ((vertex - middle).norm() - 1.0).abs() < 1e-9));
+        let error = volume - mesh.volume();
+        assert!(error > 0.0 && error < before / 3.5, "{steps}: {error}");
+        before = error;
+        assert!((mesh.area() - 4.0 * PI).abs() < 4.0 * error);
+        assert!((mesh.centroid().unwrap() - middle).norm() < error);
+        assert!((mesh.parts().len(), mesh.holes().len(), mesh.parts()[0].handles) == (1, 0, 0));
+        assert_eq!((set.touches(), mesh.cut_area()), ([false; 6], 0.0));
+    }
+    assert!(before < 2e-3 * volume);
+}
+
+#[test]
+fn only_the_neighbourhood_of_the_boundary_is_evaluated() {
+    let set = find(cube(1.2, 96), ball);
+    let vertices = set.boundary(1).vertices().len();
+    let (nodes, all) = (set.evaluations() - 3 * vertices, 97_usize.pow(3));
+    assert!(nodes < all / 5, "{nodes} of {all} nodes, {vertices} vertices");
+}
+
+#[test]
+fn larger_steps_have_vertices_of_the_finest_ones() {
+    let set = find(cube(1.2, 24), ball);
+    assert_eq!(set.strides(), [1, 2, 4]);
+    let fine = set.boundary(1);
+    for stride in [2, 4] {
+        let coarse = set.boundary(stride);
+        assert!(is_closed(&coarse) && coarse.vertices().iter().all(|vertex| fine.vertices().contains(vertex)));
+        assert!(coarse.volume() < fine.volume());
+        let alone = find(cube(1.2, 24 / stride), ball).boundary(1);
+        assert!((coarse.volume() - alone.volume()).abs() < 1e-8 * alone.volume());
+    }
+    assert_eq!(find(cube(1.2, 30), ball).strides(), [1, 2]);
+    assert_eq!(find(cube(1.2, 31), ball).strides(), [1]);
+}
+
+#[test]
+fn a_slab_is_exact_and_cut_by_the_box() {
+    // The function is linear, so only rounding is left.
+    let normal = Vec3::new(0.3, 0.2, 1.0);
+    let set = find(cube(1.0, 12), |point| Some(0.1 - normal.dot(point)));
+    let mesh = set.boundary(1);
+    assert!(is_closed(&mesh));
+    assert!((mesh.volume() - 4.0 * 1.1).abs() < 1e-9, "{}", mesh.volume());
+    assert!((mesh.area() - 4.0 * normal.norm()).abs() < 1e-9);
+    assert!((mesh.cut_area() - (4.0 + 4.0 * 2.0 * 1.1)).abs() < 1e-9, "{}", mesh.cut_area());
+    assert_eq!(set.touches(), [true, true, true, true, true, false]);
+
+    // The whole box.
+    let mesh = find(cube(1.0, 4), |_| Some(1.0)).boundary(1);
+    assert!(is_closed(&mesh) && (mesh.volume() - 8.0).abs() < 1e-12 && mesh.area() == 0.0);
+    assert!((mesh.cut_area() - 24.0).abs() < 1e-12);
+    let nothing = find(cube(1.0, 4), |_| None);
+    assert_eq!((nothing.boundary(1).volume(), nothing.inner_box(), nothing.boundary(1).centroid()), (0.0, None, None));
+}
+
+#[test]
+fn a_box_that_fits_no_node_loses_only_its_edges() {
+    let half = Vec3::new(0.731, 0.577, 0.413);
+    let inside = |point: &Vec3| (0..3).map(|k| half[k] - point[k].abs()).reduce(f64::min);
+    let volume = 8.0 * half.product();
+    let mut before = f64::INFINITY;
+    for steps in [16, 32, 64] {
+        let error = volume - find(cube(1.0, steps), inside).boundary(1).volume();
+        // An edge loses at most half a square of a step.
+        let step = 2.0 / steps as f64;
+        assert!(error.abs() < 8.0 * half.sum() * 0.5 * step * step && error.abs() < before, "{steps}: {error}");
+        before = error.abs();
+    }
+}
+
+#[test]
+fn parts_holes_and_handles_are_counted() {
+    let two = |point: &Vec3| {
+        let distances = [-0.7, 0.7].map(|x| (point - Vec3::new(x, 0.0, 0.0)).norm());
+        Some(0.5 - distances[0].min(distances[1] + 0.2))
+    };
+    let mesh = find(cube(1.3, 40), two).boundary(1);
+    let volumes: Vec<f64> = mesh.parts().iter().map(|part| part.volume).collect();
+    assert!(volumes.len() == 2 && mesh.holes().is_empty());
+    assert!((volumes[1] / volumes[0] - (0.3_f64 / 0.5).powi(3)).abs() < 5e-3, "{volumes:?}");
+
+    let shell = |point: &Vec3| Some(0.3 - (point.norm() - 0.8).abs());
+    let mesh = find(cube(1.3, 40), shell).boundary(1);
+    assert!((mesh.parts().len(), mesh.holes().len()) == (1, 1));
+    assert!((mesh.holes()[0].volume / (4.0 / 3.0 * PI * 0.125) - 1.0).abs() < 0.01);
+    assert!((mesh.volume() / (4.0 / 3.0 * PI * (1.331 - 0.125)) - 1.0).abs() < 0.005);
+
+    let mesh = find(cube(1.6, 48), ring).boundary(1);
+    assert!((mesh.parts().len(), mesh.holes().len(), mesh.parts()[0].handles) == (1, 0, 1));
+    assert!((mesh.volume() / (2.0 * PI * PI * 0.16) - 1.0).abs() < 0.01);
+}
+
+#[test]
+fn a_missing_value_is_outside() {
+    // Beyond z = 0.31 there is no value: the cap of the ball is missing.
+    let height: f64 = 1.0 + 0.31;
+    let cut = |point: &Vec3| ball(point).filter(|_| point.z <= 0.31);
+    let mesh = find(cube(1.2, 48), cut).boundary(1);
+    assert!(is_closed(&mesh));
+    let volume = PI * height * height * (3.0 - height) / 3.0;
+    assert!((mesh.volume() / volume - 1.0).abs() < 4e-3, "{}", mesh.volume() / volume);
+    let [low, high] = mesh.bounds().unwrap();
+    assert!((high.z - 0.31).abs() < 1e-9 && (low.z + 1.0).abs() < 2e-3);
+}
+
+#[test]
+fn sections_have_the_areas_of_circles_and_of_a_ring_with_its_hole() {
+    let mesh = find(cube(1.2, 64), ball).boundary(1);
+    for (axis, at) in [(0, 0.0), (1, 0.5), (2, -0.71)] {
+        let section = mesh.section(axis, at);
+        assert!((section.area / (PI * (1.0 - at * at)) - 1.0).abs() < 3e-3 && section.polygons.len() == 1);
+        assert!(section.polygons[0].iter().all(|point| (point[axis] - at).abs() < 1e-15));
+    }
+    assert!(mesh.section(2, 1.1).polygons.is_empty());
+
+    let mesh = find(cube(1.6, 64), ring).boundary(1);
+    let section = mesh.section(2, 0.0);
+    assert!(section.polygons.len() == 2 && (section.area / (PI * (1.96 - 0.36)) - 1.0).abs() < 5e-3);
+}
+
+#[test]
+fn the_inner_box_of_a_ball_is_its_cube_within_a_step() {
+    let set = find(cube(1.2, 48), ball);
+    let [low, high] = set.inner_box().unwrap();
+    let corners = (0..8).map(|i| Vec3::from_fn(|k, _| if i >> k & 1 == 1 { high[k] } else { low[k] }));
+    assert!(corners.into_iter().all(|corner| corner.norm() <= 1.0));
+    let largest = (2.0 / 3.0_f64.sqrt()).powi(3);
+    let volume = (high - low).product();
+    assert!(volume < largest && volume > largest - 6.0 * 0.05 * largest.powf(2.0 / 3.0), "{volume} of {largest}");
+}
+
+#[test]
+fn spheres_cover_all_directions() {
+    assert_eq!(Sphere::numbers()[..8], [6, 12, 18, 42, 66, 162, 258, 642]);
+    for count in Sphere::numbers().into_iter().take(8) {
+        let sphere = Sphere::with_directions(count).unwrap();
+        assert_eq!(sphere.directions().len(), count);
+        assert!((sphere.solid_angles().iter().sum::<f64>() - 4.0 * PI).abs() < 1e-12, "{count}");
+        assert!(sphere.directions().iter().sum::<Vec3>().norm() < 1e-12);
+    }
+    assert!(Sphere::with_directions(100).is_none() && Sphere::with_directions(0).is_none());
+}
+
+fn along_rays(count: usize, step: f64, inside: impl Fn(&Vec3) -> Option<f64>) -> RaySet {
+    let search =
+        RaysInBox { center: Vec3::zeros(), bounds: [Vec3::repeat(-1.5), Vec3::repeat(1.5)], step, tolerance: 1e-11 };
+    let mut evaluate = |points: &[Vec3]| Some(points.iter().map(&inside).collect());
+    RaySet::find(Sphere::with_directions(count).unwrap(), &search, &mut evaluate).unwrap()
+}
+
+#[test]
+fn rays_find_every_interval() {
+    let set = along_rays(162, 0.1, ball);
+    assert!((set.volume() - 4.0 / 3.0 * PI).abs() < 1e-9);
+    assert!(set.rays().iter().all(|ray| ray.intervals.len() == 1 && !ray.is_cut()));
+    let hull = set.hull().unwrap();
+    assert!(is_closed(&hull) && hull.volume() < set.volume() && hull.volume() > 0.95 * set.volume());
+
+    // A ball within a shell: two intervals on each ray, and the hull is the ball.
+    let both = |point: &Vec3| Some((0.4 - point.norm()).max(0.2 - (point.norm() - 1.0).abs()));
+    let set = along_rays(42, 0.05, both);
+    let volume = 4.0 / 3.0 * PI * (0.064 + 1.728 - 0.512);
+    assert!((set.volume() - volume).abs() < 1e-9 && set.rays().iter().all(|ray| ray.intervals.len() == 2));
+    assert!(set.hull().unwrap().volume() < 4.0 / 3.0 * PI * 0.064);
+
+    // A centre outside the set, and a set that goes on behind the box.
+    let set = along_rays(12, 0.05, |point| Some(point.norm() - 0.5));
+    assert!(
+        set.hull().is_none() && set.rays().iter().all(|ray| ray.is_cut() && (ray.intervals[0][0] - 0.5).abs() < 1e-9)
+    );
+}
+
+#[test]
+fn work_that_is_stopped_leaves_what_there_is() {
+    let stopped_after = |calls: usize| {
+        let mut left = calls;
+        let mut evaluate = |points: &[Vec3]| {
+            left = left.checked_sub(1)?;
+            Some(points.iter().map(ball).collect())
+        };
+        LevelSet::find(cube(1.2, 32), 1e-9, &mut evaluate)
+    };
+    assert!(stopped_after(0).is_none());
+    let volume = 4.0 / 3.0 * PI;
+    let mut ends = Vec::new();
+    for calls in 1..30 {
+        let set = stopped_after(calls).unwrap();
+        let mesh = set.boundary(1);
+        assert!(is_closed(&mesh) && (mesh.volume() / volume - 1.0).abs() < 0.1, "{calls}");
+        ends.push(set.end());
+    }
+    ends.dedup();
+    assert_eq!(ends, [SearchEnd::Coarse, SearchEnd::Unpolished, SearchEnd::Complete]);
+}
+
+#[test]
+fn grids_without_a_volume_or_with_too_many_nodes_are_refused() {
+    let [low, high] = [Vec3::zeros(), Vec3::repeat(1.0)];
+    assert!(PointGrid::new(low, high, [1; 3]).is_some());
+    assert!(PointGrid::new(low, Vec3::new(1.0, 0.0, 1.0), [1; 3]).is_none());
+    assert!(PointGrid::new(low, high, [1, 0, 1]).is_none());
+    assert!(PointGrid::new(low, Vec3::repeat(f64::NAN), [1; 3]).is_none());
+    assert!(PointGrid::new(low, high, [MAX_NODES, 1, 1]).is_none());
+    assert!(PointGrid::new(low, high, [usize::MAX; 3]).is_none());
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(64))]
+
+    #[test]
+    fn the_boundary_of_any_function_is_closed(
+        signs in proptest::collection::vec(any::<Option<bool>>(), 5 * 5 * 5),
+    ) {
+        // Values at the nodes alone decide; between them the nearest node counts.
+        let value = |point: &Vec3| {
+            let [i, j, k] = [point.x, point.y, point.z].map(|at| (at + 2.0).round() as usize);
+            signs[i + 5 * j + 25 * k].map(|inside| if inside { 1.0 } else { -1.0 })
+        };
+        let set = find(cube(2.0, 4), value);
+        for stride in set.strides() {
+            let mesh = set.boundary(stride);
+            prop_assert!(is_closed(&mesh));
+            prop_assert!((-1e-12..=64.0 + 1e-12).contains(&mesh.volume()));
+            let pieces: f64 = mesh.parts().iter().map(|part| part.volume).sum::<f64>()
+                - mesh.holes().iter().map(|hole| hole.volume).sum::<f64>();
+            prop_assert!((pieces - mesh.volume()).abs() < 1e-9);
+        }
+    }
+}
