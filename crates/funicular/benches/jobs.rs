@@ -8,10 +8,12 @@ use funicular::clearance::{ClearanceKind, Surroundings};
 use funicular::dynamics::{Dynamics, Linearisation};
 use funicular::gradient::{Gradients, Hold};
 use funicular::math::Vec3;
+use funicular::path::{CourseForm, MotionLimits, PlatformPath};
 use funicular::response::{self, Quantity, Signal};
 use funicular::robot::parameters::Parameters;
 use funicular::robot::{Robot, RobotChange, State, TensionLimits};
 use funicular::statics::{self, Equilibrium, LoadCapacity, StaticModel, TensionRule};
+use funicular::trajectory::AlongPath;
 use funicular::{modes, robot::Pose};
 use std::hint::black_box;
 use std::time::Duration;
@@ -304,9 +306,34 @@ fn load_factors(c: &mut Criterion) {
     }
 }
 
+/// One time of a move of CoGiRo per iteration: tensions with the inertia, lengths and their rates; with and without the
+/// first frequency.
+fn trajectory(c: &mut Criterion) {
+    let robot = Robot::from_toml(funicular_robots::COGIRO).expect("the library's robot");
+    let limits = MotionLimits { speed: 2.0, acceleration: 2.0, jerk: 20.0, ..MotionLimits::default() };
+    let poses = [Pose::new([-2.0, -1.0, 1.2], [0.0; 3]), Pose::new([3.0, 1.5, 2.0], [0.0; 3])];
+    let path = PlatformPath::through(&poses, &limits, CourseForm::JerkLimited, 0.0).expect("a path");
+    let mut along = AlongPath::new(&robot, StaticModel::Catenary, TensionRule::Lowest, false);
+
+    let mut k = 0;
+    let mut next = || {
+        k = (k + 1) % 997;
+        path.at(path.duration() * k as f64 / 997.0)
+    };
+    c.bench_function("trajectory: one time of CoGiRo", |b| {
+        b.iter(|| along.at(black_box(&next())).expect("held").length_rates);
+    });
+    c.bench_function("trajectory: one time of CoGiRo with first frequency", |b| {
+        b.iter(|| {
+            let motion = along.at(black_box(&next())).expect("held");
+            modes::first(&robot, &motion.equilibrium).expect("vibrates").frequency_hz
+        });
+    });
+}
+
 criterion_group! {
     name = jobs;
     config = Criterion::default().warm_up_time(Duration::from_secs(1)).measurement_time(Duration::from_secs(3)).sample_size(30);
-    targets = one_catenary, statics_both_ways, tension_distribution, load_factors, distances, first_frequencies, first_frequencies_of_eight_cables, responses, natural_frequencies, catenary_dynamic_cables, gradients
+    targets = one_catenary, statics_both_ways, tension_distribution, load_factors, distances, trajectory, first_frequencies, first_frequencies_of_eight_cables, responses, natural_frequencies, catenary_dynamic_cables, gradients
 }
 criterion_main!(jobs);
