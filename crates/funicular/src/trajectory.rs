@@ -287,10 +287,9 @@ mod tests {
 
         let accelerated =
             PathPoint { acceleration_w: Vec6::new(0.0, 1.0, 0.0, 0.0, 0.0, 0.0), ..PathPoint::at_rest(&rest.pose) };
-        let of_ropes: f64 = (0..4)
-            .map(|i| -rope_inertia(&robot, i, &accelerated).y * 0.5 * robot.cables[i].chord_w(&rest.pose).norm())
-            .sum();
-        // The string's next term is (ωl/c)²/15.
+        let of_ropes: f64 =
+            (0..4).map(|i| -rope_inertia(&robot, i, &accelerated).y * 0.5 * rest.cables[i].unstrained_length).sum();
+        // The string's next term is (ωl/c)²/15; the load is per unstrained length.
         assert!((mass - of_ropes).abs() < 1e-3 * of_ropes, "{mass} {of_ropes}");
     }
 }

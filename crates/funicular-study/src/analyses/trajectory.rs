@@ -166,6 +166,8 @@ struct Planned<'a> {
     /// True if a minimum tension can be exceeded: where a rule aims at the minima, they are no limit of the motion.
     minimum_counts: bool,
     judges_clearance: bool,
+    /// True if the inertia is compared with the largest one that any tensions hold; only for tensions by choice.
+    judges_choice: bool,
 }
 
 impl<'a> Planned<'a> {
@@ -206,6 +208,7 @@ pub fn run(robot: Robot, request: &TrajectoryRequest, watch: &mut dyn Watch) -> 
         path,
         rope_inertia: request.motion.rope_inertia,
         judges_clearance: robot.judges_clearance(),
+        judges_choice: has_choice,
     };
 
     let planned = if request.motion.fastest { fastest::fastest(&asked, watch)? } else { asked.clone() };

@@ -70,15 +70,16 @@ pub(super) fn fastest<'a>(planned: &Planned<'a>, watch: &mut dyn Watch) -> Resul
     Ok(planned.slowed(slow))
 }
 
-/// True if the motion keeps all limits of tensions and winches. Distances do not depend on the speed but by the sag.
+/// True if the motion keeps all limits of tensions and winches. Distances do not depend on the speed but by the sag, and
+/// tensions by choice are found or not.
 fn keeps_limits(planned: &Planned, count: usize, watch: &mut dyn Watch) -> Result<bool> {
     let times = (0..=count).map(|k| planned.path.duration() * k as f64 / count as f64).collect();
-    let without_distances = Planned { judges_clearance: false, ..planned.clone() };
-    let samples = match MotionSamples::at(&without_distances, times, watch) {
+    let plain = Planned { judges_clearance: false, judges_choice: false, ..planned.clone() };
+    let samples = match MotionSamples::at(&plain, times, watch) {
         Ok(samples) => samples,
         Err(error) if ErrorKind::of(&error) == ErrorKind::NoSolution => return Ok(false),
         Err(error) => return Err(error),
     };
-    let within = |k: usize| samples.most_used(&without_distances, k).is_none_or(|(_, part)| part <= 1.0 + 1e-9);
+    let within = |k: usize| samples.most_used(&plain, k).is_none_or(|(_, part)| part <= 1.0 + 1e-9);
     Ok((0..=count).all(within))
 }

@@ -6,8 +6,9 @@ use crate::text::significant;
 use crate::watch::Watch;
 use anyhow::{Result, anyhow};
 use funicular::clearance::{Clearance, Surroundings};
-use funicular::robot::{Cable, LimitOfWinch, MotorLoad, Robot, WinchLimits};
-use funicular::statics::{Limit, TensionRange};
+use funicular::math::Vec3;
+use funicular::robot::{Cable, LimitOfWinch, Load, MotorLoad, RequiredLoads, Robot, WinchLimits};
+use funicular::statics::{Limit, LoadCapacity, TensionRange};
 use funicular::trajectory::{AlongPath, InMotion, length_accelerations};
 
 /// Times between two looks at whether the work shall stop.
@@ -21,6 +22,9 @@ pub(super) struct MotionSamples {
     pub(super) accelerations: Vec<Vec<f64>>,
     /// Nearest pair at every time, if distances are judged.
     pub(super) nearest: Vec<Option<Clearance>>,
+    /// Used part of what tensions within their limits can hold of the inertia, at every time; `None` where the tensions
+    /// are no matter of choice.
+    held: Vec<Option<(UsedLimit, f64)>>,
 }
 
 /// Winch of a cable at one time; without a winch in the file that of a plain drum at the anchor.
@@ -85,7 +89,10 @@ impl MotionSamples {
         let around = planned.judges_clearance.then(|| Surroundings::of(planned.robot));
         let nearest = |motion: &InMotion| around.as_ref().and_then(|around| around.least(&motion.equilibrium, None));
         let nearest = motions.iter().map(nearest).collect();
-        Ok(Self { times, motions, accelerations, nearest })
+        let held =
+            motions.iter().map(|motion| planned.judges_choice.then(|| part_of_inertia(planned, motion)).flatten());
+        let held = held.collect();
+        Ok(Self { times, motions, accelerations, nearest, held })
     }
 
     /// Winch of a cable at the time with this index.
@@ -105,23 +112,38 @@ impl MotionSamples {
         let of_cable = |i: usize| {
             let state = &self.motions[k].equilibrium.cables[i];
             let margin = TensionRange::of(robot, i, &state.chord_w()).margin(state);
-            let maximum = (UsedLimit::Tension(Limit::Maximum, i), margin.max / margin.range.maximum);
-            // The rule `lowest` aims at the minimum: it is used up wherever there is a choice.
-            let minimum = planned.minimum_counts.then(|| {
-                let part = if margin.min > 0.0 { margin.range.minimum / margin.min } else { f64::INFINITY };
-                (UsedLimit::Tension(Limit::Minimum, i), part)
-            });
+            let minimum = if margin.min > 0.0 { margin.range.minimum / margin.min } else { f64::INFINITY };
+            // Where tensions are a matter of choice, others may hold more.
+            let of_tension = self.held[k].is_none().then_some([
+                (UsedLimit::Tension(Limit::Maximum, i), margin.max / margin.range.maximum),
+                (UsedLimit::Tension(Limit::Minimum, i), if planned.minimum_counts { minimum } else { 0.0 }),
+            ]);
             let winch = self.winch(robot, k, i);
             let of_winch = limits_of(&robot.cables[i]).zip(winch.motor).map(|(limits, motor)| {
                 limits
                     .use_of(winch.speed, winch.acceleration, &motor)
                     .map(|(limit, part)| (UsedLimit::Winch(limit, i), part))
             });
-            [Some(maximum), minimum].into_iter().flatten().chain(of_winch.into_iter().flatten())
+            of_tension.into_iter().flatten().chain(of_winch.into_iter().flatten())
         };
         let clearance = self.nearest[k].as_ref().map(|pair| (UsedLimit::Clearance, part_of_clearance(pair)));
-        (0..robot.cables.len()).flat_map(of_cable).chain(clearance).max_by(|a, b| a.1.total_cmp(&b.1))
+        let further = clearance.into_iter().chain(self.held[k]);
+        (0..robot.cables.len()).flat_map(of_cable).chain(further).max_by(|a, b| a.1.total_cmp(&b.1))
     }
+}
+
+/// Inertia over the largest multiple of it that tensions within their limits hold, with a limit that binds there; `None`
+/// if the dead load alone is not held, or without inertia.
+fn part_of_inertia(planned: &Planned, motion: &InMotion) -> Option<(UsedLimit, f64)> {
+    let [force_w, moment_w] = motion.point.inertia(planned.robot);
+    let inertia = Load { force_w, moment_w, point_p: Vec3::zeros() };
+    let required = RequiredLoads { listed: vec![inertia], ..RequiredLoads::default() };
+    let robot = Robot { required, ..planned.robot.clone() };
+    let capacity = LoadCapacity::at(&robot, &motion.point.pose, planned.model, None).ok()?;
+    let found = capacity.load_factor().ok()?;
+    let binding = |limit: Limit| found.limits.iter().find(|at| at.limit == limit);
+    let at = binding(Limit::Maximum).or_else(|| binding(Limit::Minimum))?;
+    Some((UsedLimit::Tension(at.limit, at.cable), 1.0 / found.value))
 }
 
 /// Required distance over the distance of a pair.
