@@ -89,9 +89,7 @@ impl MotionSamples {
         let around = planned.judges_clearance.then(|| Surroundings::of(planned.robot));
         let nearest = |motion: &InMotion| around.as_ref().and_then(|around| around.least(&motion.equilibrium, None));
         let nearest = motions.iter().map(nearest).collect();
-        let held =
-            motions.iter().map(|motion| planned.judges_choice.then(|| part_of_inertia(planned, motion)).flatten());
-        let held = held.collect();
+        let held = if planned.judges_choice { parts_of_inertia(planned, &motions) } else { vec![None; motions.len()] };
         Ok(Self { times, motions, accelerations, nearest, held })
     }
 
@@ -132,18 +130,23 @@ impl MotionSamples {
     }
 }
 
-/// Inertia over the largest multiple of it that tensions within their limits hold, with a limit that binds there; `None`
-/// if the dead load alone is not held, or without inertia.
-fn part_of_inertia(planned: &Planned, motion: &InMotion) -> Option<(UsedLimit, f64)> {
-    let [force_w, moment_w] = motion.point.inertia(planned.robot);
-    let inertia = Load { force_w, moment_w, point_p: Vec3::zeros() };
-    let required = RequiredLoads { listed: vec![inertia], ..RequiredLoads::default() };
-    let robot = Robot { required, ..planned.robot.clone() };
-    let capacity = LoadCapacity::at(&robot, &motion.point.pose, planned.model, None).ok()?;
-    let found = capacity.load_factor().ok()?;
-    let binding = |limit: Limit| found.limits.iter().find(|at| at.limit == limit);
-    let at = binding(Limit::Maximum).or_else(|| binding(Limit::Minimum))?;
-    Some((UsedLimit::Tension(at.limit, at.cable), 1.0 / found.value))
+/// Inertia over the largest multiple of it that tensions within their limits hold, with a limit that binds there, at
+/// every time; `None` where the dead load alone is not held.
+fn parts_of_inertia(planned: &Planned, motions: &[InMotion]) -> Vec<Option<(UsedLimit, f64)>> {
+    let mut robot = Robot { required: RequiredLoads::default(), ..planned.robot.clone() };
+    let part = |motion: &InMotion| {
+        let [force_w, moment_w] = motion.point.inertia(planned.robot);
+        if [force_w, moment_w] == [Vec3::zeros(); 2] {
+            return Some((UsedLimit::Tension(Limit::Maximum, 0), 0.0));
+        }
+        robot.required.listed = vec![Load { force_w, moment_w, point_p: Vec3::zeros() }];
+        let capacity = LoadCapacity::at(&robot, &motion.point.pose, planned.model, None).ok()?;
+        let found = capacity.load_factor().ok()?;
+        let binding = |limit: Limit| found.limits.iter().find(|at| at.limit == limit);
+        let at = binding(Limit::Maximum).or_else(|| binding(Limit::Minimum))?;
+        Some((UsedLimit::Tension(at.limit, at.cable), 1.0 / found.value))
+    };
+    motions.iter().map(part).collect()
 }
 
 /// Required distance over the distance of a pair.
