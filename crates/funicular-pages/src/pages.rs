@@ -11,6 +11,7 @@ pub mod live;
 pub mod paper;
 pub mod plot;
 pub mod report;
+pub mod settle;
 pub(crate) mod table;
 pub mod trajectory;
 pub mod uncertainty;

@@ -1,4 +1,4 @@
-//! `settle`: text, CSV, and the file of the commanded lengths.
+//! `settle`: text, CSV, a page, and the file of the commanded lengths.
 
 use crate::args::{Cli, DrawArgs, SettleArgs};
 use crate::errors;
@@ -11,6 +11,7 @@ use funicular_files::endings::Kind;
 use funicular_pages::figures;
 use funicular_study::analyses::settle::{self, Commanded, Held, Settled, SettlingMode, Shaping};
 use funicular_study::request::{NumberColumns, Request, SettleRequest};
+use funicular_study::wording::{Words, worded};
 use serde_json::{Map, Value};
 use std::fmt::Write as _;
 
@@ -38,9 +39,11 @@ pub(super) fn run(of: &SettleRequest, args: &SettleArgs, mut guard: Guard) -> Re
     let DrawArgs { output, figure } = &args.drawn;
     let path = output.output_file.as_deref().filter(|_| output.format.is_none());
     let drawn = FigureSink::open(path, *figure, &mut guard)?;
-    let printed = match drawn {
-        Some(_) => None,
-        None => Some(Sink::open(output, &[Kind::Svg, Kind::Pdf], &mut guard)?),
+    let to_page = path.filter(|path| Kind::of(path) == Some(Kind::Html));
+    let page = to_page.map(|path| Target::open(Some(path), Content::PAGE, &mut guard)).transpose()?;
+    let printed = match (&drawn, &page) {
+        (None, None) => Some(Sink::open(output, &[Kind::Svg, Kind::Pdf, Kind::Html], &mut guard)?),
+        _ => None,
     };
     let opened = args.lengths.as_deref().map(|path| Target::open(Some(path), Content::LENGTHS, &mut guard));
     let lengths = opened.transpose()?;
@@ -52,6 +55,11 @@ pub(super) fn run(of: &SettleRequest, args: &SettleArgs, mut guard: Guard) -> Re
     }
     if let Some(drawn) = drawn {
         drawn.write(&figures::of_decay(&found))?;
+        found.warnings.iter().for_each(|warning| errors::warn(warning));
+    }
+    if let Some(page) = page {
+        let text = funicular_pages::pages::settle::page(&found, super::page::command_line()?)?;
+        page.write(worded(&text, Words::Program).as_bytes())?;
         found.warnings.iter().for_each(|warning| errors::warn(warning));
     }
     printed.map_or(Ok(()), |sink| sink.write(&found))

@@ -359,3 +359,17 @@ fn payloads_have_the_vibration_of_the_robot_that_carries_them() {
     assert!((number(&payloads[1]["amplitude_m"]) / sum(&heavier) - 1.0).abs() < 0.05, "{payloads:?}");
     assert!((number(&payloads[1]["frequency_hz"]) / number(&heavier["modes"][0]["frequency_hz"]) - 1.0).abs() < 1e-6);
 }
+
+#[test]
+fn a_page_shows_the_decay_and_the_lengths() {
+    let folder = tempfile::tempdir().unwrap();
+    let page = folder.path().join("decay.html").display().to_string();
+    let cogiro = robot("cogiro.toml");
+    let line =
+        ["settle", &cogiro, "--pose", "1,1,1.5", "--move-m", "0,0.05,0", "--profile-s", "1,0.3", "--below-hz", "6"];
+    succeed(&[&line[..], &["--sample-time-s", "0.05", "-o", &page]].concat());
+    let text = std::fs::read_to_string(&page).unwrap();
+    for part in ["decay after a move", "figure-decay-plot", "figure-lengths-plot", "table-modes", "--move-m"] {
+        assert!(text.contains(part), "{part}");
+    }
+}

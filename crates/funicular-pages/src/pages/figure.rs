@@ -93,6 +93,17 @@ pub(crate) fn line(name: &str, x: &[f64], y: &[f64], colour: &str, dash: &str) -
     })
 }
 
+/// Colours of the cables, repeated with other dashes if there are more cables.
+pub(crate) const CABLE_COLOURS: [&str; 7] =
+    [colour::BLUE, colour::VERMILION, colour::GREEN, colour::PURPLE, colour::ORANGE, colour::SKY, colour::BLACK];
+const CABLE_DASHES: [&str; 3] = ["solid", "dash", "dot"];
+
+/// Colour and dash of the line of cable `i` in a chart.
+pub(crate) fn cable_line_style(i: usize) -> (&'static str, &'static str) {
+    let round = i / CABLE_COLOURS.len();
+    (CABLE_COLOURS[i % CABLE_COLOURS.len()], CABLE_DASHES[round % CABLE_DASHES.len()])
+}
+
 /// Points drawn with a symbol.
 pub(crate) fn points(name: &str, x: &[f64], y: &[f64], colour: &str, symbol: &str) -> Value {
     json!({

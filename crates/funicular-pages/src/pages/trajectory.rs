@@ -1,7 +1,7 @@
 //! Page about a motion along a path: the moving robot, tensions, speeds and powers over time, and what limits them.
 
 use super::Shell;
-use super::figure::{PageFigure, axis, colour, line, plain, robot};
+use super::figure::{PageFigure, axis, cable_line_style, colour, line, plain, robot};
 use super::table::{PageTable, fixed, significant};
 use anyhow::Context as _;
 use askama::Template;
@@ -17,11 +17,6 @@ const CONTENTS: &[(&str, &str)] = &[
     ("limits", "Limits"),
     ("repeat", "How to repeat"),
 ];
-
-/// Colours of the cables, and dashes after each round of colours.
-const COLOURS: [&str; 7] =
-    [colour::BLUE, colour::VERMILION, colour::GREEN, colour::PURPLE, colour::ORANGE, colour::SKY, colour::BLACK];
-const DASHES: [&str; 3] = ["solid", "dash", "dot"];
 
 #[derive(Template)]
 #[template(path = "trajectory.html")]
@@ -137,7 +132,7 @@ fn of_cables(
 ) -> PageFigure {
     let lines = found.cables.iter().enumerate().map(|(i, name)| {
         let values: Vec<f64> = found.rows.iter().map(|row| value(row, i).unwrap_or(f64::NAN)).collect();
-        let (colour, dash) = (COLOURS[i % COLOURS.len()], DASHES[i / COLOURS.len() % DASHES.len()]);
+        let (colour, dash) = cable_line_style(i);
         line(&plain(name), &times(found), &values, colour, dash)
     });
     figure(id, caption, title, &lines.collect::<Vec<Value>>(), true)

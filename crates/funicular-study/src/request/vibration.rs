@@ -169,7 +169,7 @@ declared! {
         "funicular settle robots/cogiro.toml --release-n 0,0,-196 --tolerance-m 1e-4 --below-hz 20 -o settling.csv",
         "funicular settle robots/yuan2014-4mm.toml --stop-m-s 0,0.2,0 --profile-s 0.4,0.1 --below-hz 10",
         "funicular settle robots/yuan2014-4mm.toml --move-m 0,0.05,0 --profile-s 1.2,0.3,0.1 --below-hz 10 \\\n    --shaper zv --tolerance-m 1e-4 --sample-time-s 0.01 --lengths lengths.csv",
-        "funicular settle robots/yuan2014-4mm.toml --trajectory lengths.csv --below-hz 10 --robust-payload-kg 0.5,1",
+        "funicular settle robots/yuan2014-4mm.toml --trajectory lengths.csv --below-hz 10 --robust-payload-kg 0.5,1 -o decay.html",
     }
 }
 

@@ -1,6 +1,6 @@
 //! Figures of the robot in space, to scale and with hanging cables.
 
-use super::{PageFigure, colour, plain, rounded};
+use super::{CABLE_COLOURS, PageFigure, colour, plain, rounded};
 use crate::figures::bodies::BodySurface;
 use crate::figures::drive::DriveLines;
 use crate::figures::hull::faces;
@@ -14,10 +14,6 @@ use serde_json::{Value, json};
 
 /// Number of points drawn along a cable; its curve is smooth, and a straight cable needs only two.
 const SAMPLES: u32 = 48;
-/// Colours of the cables, repeated if there are more cables.
-const CABLE_COLOURS: [&str; 7] =
-    [colour::BLUE, colour::VERMILION, colour::GREEN, colour::PURPLE, colour::ORANGE, colour::SKY, colour::BLACK];
-
 /// Figure of the complete robot.
 pub(crate) fn complete(robot: &Robot, equilibrium: &Equilibrium) -> PageFigure {
     let drawn = Drawn::of(robot, equilibrium);
