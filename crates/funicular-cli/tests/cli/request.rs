@@ -3,6 +3,7 @@
 use super::{robot, run, run_with, stderr, stdout, succeed};
 
 /// Command lines that print their result.
+#[expect(clippy::too_many_lines, reason = "a table")]
 fn command_lines() -> Vec<Vec<String>> {
     let cogiro = robot("cogiro.toml");
     let lines: [&[&str]; 24] = [

@@ -27,11 +27,13 @@ fn is_closed(mesh: &BoundaryMesh) -> bool {
     edges.iter().all(|((from, to), count)| *count == 1 && edges.get(&(*to, *from)) == Some(&1))
 }
 
+#[expect(clippy::unnecessary_wraps, reason = "a function of a point may have no value")]
 fn ball(point: &Vec3) -> Option<f64> {
     Some(1.0 - point.norm())
 }
 
 /// Ring about z with radii 1 and 0.4.
+#[expect(clippy::unnecessary_wraps, reason = "a function of a point may have no value")]
 fn ring(point: &Vec3) -> Option<f64> {
     Some(0.4 - (point.xy().norm() - 1.0).hypot(point.z))
 }
