@@ -186,7 +186,7 @@ fn what_the_grid_leaves_open_is_said() {
         "--static-model",
         "ideal",
         "--at-most",
-        "unstrained_length_1_m=1.2",
+        "unstrained_length_1_m=0.8",
         "--grid",
         "x=-1.2:1.2:13",
         "--grid",
