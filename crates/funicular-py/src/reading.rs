@@ -262,15 +262,13 @@ fn of_kind(kind: Kind, name: &str, value: &Bound<'_, PyAny>, cables: &[String]) 
         }
         Kind::Columns => columns(name, value)?,
         Kind::Masses => json!(value.extract::<arrays::FirstLastCount>()?.masses(name, usize::MAX)?),
-        // A request in JSON has a list of axes.
-        Kind::Axes if value.cast::<PyList>().is_ok() => any(name, value, 0)?,
+        // A request in JSON has a list of axes, and of limits.
+        Kind::Axes | Kind::Limits if value.cast::<PyList>().is_ok() => any(name, value, 0)?,
         Kind::Axes => {
             let axes = value.extract::<sweep::Axes>()?;
             serde_json::to_value(&axes.0).map_err(|error| errors::input(error.to_string()))?
         }
         Kind::Sizes => json!(sizes(name, value)?),
-        // A request in JSON has a list of limits.
-        Kind::Limits if value.cast::<PyList>().is_ok() => any(name, value, 0)?,
         Kind::Limits => limits(name, value)?,
         Kind::Any => any(name, value, 0)?,
     })

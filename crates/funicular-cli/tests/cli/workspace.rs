@@ -186,13 +186,13 @@ fn what_the_grid_leaves_open_is_said() {
         "--static-model",
         "ideal",
         "--at-most",
-        "unstrained_length_1_m=0.9",
+        "unstrained_length_1_m=0.8",
         "--grid",
-        "x=-1.2:1.2:9",
+        "x=-1.2:1.2:13",
         "--grid",
-        "y=-1.2:1.2:9",
+        "y=-1.2:1.2:13",
         "--grid",
-        "z=-1.2:1.2:9",
+        "z=-1.2:1.2:13",
     ]);
     assert!(coarse.contains("the grid is coarse for this set"), "{coarse}");
     let alone = warned(&["workspace", &cube, "--static-model", "ideal", "--grid", "x=-1.2:1.2:10"]);

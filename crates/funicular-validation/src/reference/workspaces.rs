@@ -70,6 +70,8 @@ pub(crate) struct RequiredBoxOfCogiro {
     pub(crate) box_m: [[f64; 3]; 2],
     pub(crate) step_m: f64,
     pub(crate) volume_m3: f64,
+    /// Volume with half of these steps.
+    pub(crate) halved_volume_m3: f64,
     pub(crate) center_m: [f64; 3],
     /// Ends of the rays along +x, -x, +y, -y, +z, -z.
     pub(crate) ends_m: [f64; 6],

@@ -3,6 +3,10 @@
 use super::grid::PointGrid;
 use super::{Evaluate, is_inside};
 
+/// Distance of the values of a cell from zero, over their range, below which the boundary may bulge into the cell: a
+/// ball does so by a quarter of a step over its radius, so that steps up to the radius are covered.
+const BULGE: f64 = 0.25;
+
 /// What is known of a node.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Knowledge {
@@ -39,6 +43,16 @@ impl GridNodes {
 
         let all = (0..count).filter(|index| grid.at(*index).iter().all(|at| at % stride == 0));
         nodes.add(grid, &all.collect::<Vec<_>>(), evaluate)?;
+
+        // A set that shows no node at the largest stride is looked for with every step of the grid.
+        while nodes.stride > 1 && !(0..count).any(|index| nodes.is_inside(index)) {
+            let stride = nodes.stride / 2;
+            let further = (0..count).filter(|index| {
+                nodes.knowledge[*index] == Knowledge::Nothing && grid.at(*index).iter().all(|at| at % stride == 0)
+            });
+            nodes.add(grid, &further.collect::<Vec<_>>(), evaluate)?;
+            nodes.stride = stride;
+        }
 
         while nodes.stride > 1 {
             let before = nodes.stride;
@@ -88,13 +102,31 @@ impl GridNodes {
         let before = self.stride;
         self.stride = before / 2;
         self.assume(grid, before);
-        let mut wanted = self.unknown_nodes(grid, &self.crossed_cells(grid, before), before);
+        let near: Vec<[usize; 3]> =
+            grid.cells(before).filter(|cell| self.may_be_crossed(grid, *cell, before)).collect();
+        let mut wanted = self.unknown_nodes(grid, &near, before);
 
         while !wanted.is_empty() {
             self.add(grid, &wanted, evaluate)?;
             wanted = self.unknown_nodes(grid, &self.crossed_cells(grid, self.stride), self.stride);
         }
         Some(())
+    }
+
+    /// True for a cell whose corners do not agree, or whose values come so near to zero that a curved boundary may bulge
+    /// into it between them.
+    fn may_be_crossed(&self, grid: &PointGrid, cell: [usize; 3], stride: usize) -> bool {
+        let corners = Self::corners(grid, cell, stride);
+        let first = self.is_inside(corners[0]);
+        if corners[1..].iter().any(|corner| self.is_inside(*corner) != first) {
+            return true;
+        }
+        let Some(values) = corners.iter().map(|corner| self.value(*corner)).collect::<Option<Vec<f64>>>() else {
+            return false;
+        };
+        let [low, high] = [values.iter().copied().reduce(f64::min), values.iter().copied().reduce(f64::max)];
+        let (Some(low), Some(high)) = (low, high) else { return false };
+        low.abs().min(high.abs()) < BULGE * (high - low)
     }
 
     /// Cells whose corners do not all agree.

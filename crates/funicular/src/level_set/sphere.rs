@@ -108,7 +108,9 @@ impl Sphere {
             let [a, b, c] = triangle.map(|i| self.directions[i]);
             // A. van Oosterom, J. Strackee, The solid angle of a plane triangle, IEEE Trans. Biomed. Eng. 30 (1983).
             let angle = 2.0 * a.dot(&b.cross(&c)).atan2(1.0 + a.dot(&b) + b.dot(&c) + c.dot(&a));
-            triangle.iter().for_each(|i| angles[*i] += angle / 3.0);
+            for i in triangle {
+                angles[*i] += angle / 3.0;
+            }
         }
         angles
     }

@@ -262,14 +262,13 @@ impl Workspace {
             let message = "the work was stopped: this is what was found until then";
             message.to_owned()
         });
-        let of_grid = match self.with_double_steps() {
-            Some(coarse) => vec![self.coarse_volume(), self.other_pieces(coarse)],
-            None => {
-                let message = "nothing is known of the error of the volume: make the number of steps along every axis \
-                               of ⟪grid⟫ a multiple of 4, as with 41 values, and the volume is compared with that of \
-                               larger steps";
-                vec![Some(message.to_owned())]
-            }
+        let of_grid = if let Some(coarse) = self.with_double_steps() {
+            vec![self.coarse_volume(), self.other_pieces(coarse)]
+        } else {
+            let message = "nothing is known of the error of the volume: make the number of steps along every axis of \
+                           ⟪grid⟫ a multiple of 4, as with 41 values, and the volume is compared with that of larger \
+                           steps";
+            vec![Some(message.to_owned())]
         };
         stopped.into_iter().chain(of_grid.into_iter().flatten()).chain(self.cut_by_box()).collect()
     }

@@ -274,7 +274,7 @@ fn bounds_of_the_load_factor_from_facets_alone_enclose_it() {
     let mut loaded = with_box(limited(100.0), 150.0, 30.0);
     loaded.required.payload = RequiredPayload { min_mass: 50.0, max_mass: 80.0, ..RequiredPayload::default() };
     for (robot, widest) in
-        [(with_box(limited(100.0), 150.0, 30.0), 2e-3), (with_box(heavy, 100.0, 20.0), 0.5), (loaded, 2e-3)]
+        [(with_box(limited(100.0), 150.0, 30.0), 1e-2), (with_box(heavy, 100.0, 20.0), 0.5), (loaded, 1e-2)]
     {
         let mut compared = 0;
         for pose in poses(60, [5.0, 3.5, 2.0], [0.0, 0.0, 2.0]) {
