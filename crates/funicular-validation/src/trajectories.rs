@@ -74,7 +74,7 @@ fn along_path(case: &Case, robot: &Robot, of: &MovingRobot) -> Result<[Compariso
             let pairs: Vec<(f64, f64)> = pairs.collect();
             let size = match kind {
                 DifferenceKind::Absolute => 1.0,
-                _ => pairs.iter().fold(0.0, |most: f64, (their, _)| most.max(their.abs())),
+                DifferenceKind::Relative => pairs.iter().fold(0.0, |most: f64, (their, _)| most.max(their.abs())),
             };
             let worst = super::worst(pairs.iter().map(|(their, our)| (our - their).abs() / size));
             let (their, our) = pairs[0];

@@ -318,7 +318,7 @@ fn trajectory(c: &mut Criterion) {
     let mut k = 0;
     let mut next = || {
         k = (k + 1) % 997;
-        path.at(path.duration() * k as f64 / 997.0)
+        path.at(path.duration() * f64::from(k) / 997.0)
     };
     c.bench_function("trajectory: one time of CoGiRo", |b| {
         b.iter(|| along.at(black_box(&next())).expect("held").length_rates);

@@ -235,15 +235,17 @@ mod tests {
 
     /// Point mass without weight, held by four taut cables in the plane y = 0.
     fn plane_robot() -> Robot {
-        let mut text = "name = \"plane\"\ngravity_m_s2 = [0, 0, 0]\n[platform]\nmass_kg = 5\nmotion = \"point-mass\"\n\
-                        [materials.rope]\naxial_stiffness_n = 4e5\nmass_kg_per_m = 0.05\n"
-            .to_owned();
-        for (k, [x, z]) in [[-4.0, 3.0], [4.0, 3.0], [-4.0, -3.0], [4.0, -3.0]].iter().enumerate() {
-            text += &format!(
-                "[[cables]]\nname = \"{k}\"\nmaterial = \"rope\"\nanchor_m = [{x}, 0.0, {z}]\nunstrained_length_m = 4.99\n"
-            );
-        }
-        Robot::from_toml(&text).unwrap()
+        let head = "name = \"plane\"\ngravity_m_s2 = [0, 0, 0]\n[platform]\nmass_kg = 5\nmotion = \"point-mass\"\n\
+                    [materials.rope]\naxial_stiffness_n = 4e5\nmass_kg_per_m = 0.05\n";
+        let cable = |(k, [x, z]): (usize, [f64; 2])| {
+            format!(
+                "[[cables]]\nname = \"{k}\"\nmaterial = \"rope\"\nanchor_m = [{x}, 0.0, {z}]\n\
+                 unstrained_length_m = 4.99\n"
+            )
+        };
+        let corners = [[-4.0, 3.0], [4.0, 3.0], [-4.0, -3.0], [4.0, -3.0]];
+        let cables: String = corners.into_iter().enumerate().map(cable).collect();
+        Robot::from_toml(&format!("{head}{cables}")).unwrap()
     }
 
     #[test]

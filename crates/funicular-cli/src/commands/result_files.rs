@@ -9,6 +9,7 @@ use funicular_files::endings::Kind;
 use std::path::{Path, PathBuf};
 
 /// File that a command writes besides its result.
+#[derive(Clone, Copy)]
 pub(super) struct OtherFile<'a> {
     /// Key of its option.
     key: &'static str,

@@ -39,7 +39,9 @@ pub(super) fn request(cli: &Cli, further: Map<String, Value>) -> Result<Request>
 /// Runs `trajectory`: prints the motion, and writes the lengths and the page.
 pub(super) fn run(of: &TrajectoryRequest, args: &TrajectoryArgs, guard: &mut Guard) -> Result<()> {
     for (what, path) in [("the path", &args.path), ("the poses", &args.via)] {
-        path.iter().for_each(|path| guard.reads(what, path));
+        if let Some(path) = path {
+            guard.reads(what, path);
+        }
     }
     // Errors of the robot file are reported before errors of the destinations.
     let robot = of.robot.read()?.robot;

@@ -154,14 +154,12 @@ fn in_plan(point: [f64; 2], from: [f64; 2], to: [f64; 2]) -> f64 {
 fn distances_from_the_columns_of_a_hall_are_those_of_its_plan() {
     let file = fs::read_to_string(super::project("docs/quick-start/hall.toml")).unwrap();
     let columns = [("east", [4.0, 2.2]), ("west", [-5.0, -1.8])];
-    let tables: String = columns
-        .iter()
-        .map(|(name, [x, y])| {
-            format!(
-                "[obstacles.{name}]\nshape = \"cylinder\"\nposition_m = [{x}, {y}, 4.0]\ndiameter_m = 0.5\nlength_m = 9.0\n"
-            )
-        })
-        .collect();
+    let table = |(name, [x, y]): &(&str, [f64; 2])| {
+        format!(
+            "[obstacles.{name}]\nshape = \"cylinder\"\nposition_m = [{x}, {y}, 4.0]\ndiameter_m = 0.5\nlength_m = 9.0\n"
+        )
+    };
+    let tables = columns.iter().map(table).collect::<Vec<_>>().concat();
     // Two cables at each corner of the hall, and of the platform.
     let corners = [[1.0, 1.0], [-1.0, 1.0], [-1.0, -1.0], [1.0, -1.0]];
     let cables: Vec<(String, [f64; 2])> = (0..8).map(|i| ((i + 1).to_string(), corners[i / 2])).collect();

@@ -97,30 +97,23 @@ fn winches(found: &TrajectoryResult) -> Vec<PageFigure> {
 
 /// Used part of the limits, first frequency, and distance of the nearest pair.
 fn limits(found: &TrajectoryResult) -> Vec<PageFigure> {
-    let all: [(&str, &str, &str, fn(&TrajectoryRow) -> Option<f64>); 3] = [
-        (
-            "figure-used",
-            "Used part of the limit that is nearest at each time: above 1 it is exceeded.",
-            "used part",
-            |row| row.used_part,
-        ),
-        (
-            "figure-frequency",
-            "First natural frequency at rest under the tensions of each time.",
-            "frequency [Hz]",
-            |row| row.first_frequency_hz,
-        ),
-        ("figure-clearance", "Distance of the nearest pair beyond the required one.", "margin [m]", |row| {
-            row.clearance_margin_m
-        }),
-    ];
-    let there = all.into_iter().filter(|(.., value)| found.rows.iter().any(|row| value(row).is_some()));
-    there
-        .map(|(id, caption, title, value)| {
+    let one = |(id, caption, title): (&str, &str, &str), value: fn(&TrajectoryRow) -> Option<f64>| {
+        found.rows.iter().any(|row| value(row).is_some()).then(|| {
             let values: Vec<f64> = found.rows.iter().map(|row| value(row).unwrap_or(f64::NAN)).collect();
             figure(id, caption, title, &[line("", &times(found), &values, colour::BLUE, "solid")], false)
         })
-        .collect()
+    };
+    let used = "Used part of the limit that is nearest at each time: above 1 it is exceeded.";
+    let frequency = "First natural frequency at rest under the tensions of each time.";
+    let clearance = "Distance of the nearest pair beyond the required one.";
+    [
+        one(("figure-used", used, "used part"), |row| row.used_part),
+        one(("figure-frequency", frequency, "frequency [Hz]"), |row| row.first_frequency_hz),
+        one(("figure-clearance", clearance, "margin [m]"), |row| row.clearance_margin_m),
+    ]
+    .into_iter()
+    .flatten()
+    .collect()
 }
 
 /// Figure with a line for every cable.

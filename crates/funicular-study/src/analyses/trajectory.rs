@@ -163,11 +163,18 @@ struct Planned<'a> {
     rule: TensionRule,
     path: PlatformPath,
     rope_inertia: bool,
-    /// True if a minimum tension can be exceeded: where a rule aims at the minima, they are no limit of the motion.
-    minimum_counts: bool,
-    judges_clearance: bool,
-    /// True if the inertia is compared with the largest one that any tensions hold; only for tensions by choice.
-    judges_choice: bool,
+    judged: Judged,
+}
+
+/// Limits of which the used part is told.
+#[derive(Debug, Clone, Copy)]
+struct Judged {
+    /// Minimum tensions; where a rule aims at them, they are no limit of the motion.
+    minimum_tensions: bool,
+    /// Distances.
+    clearance: bool,
+    /// Inertia, compared with the largest one that any tensions hold; only for tensions by choice.
+    inertia: bool,
 }
 
 impl<'a> Planned<'a> {
@@ -203,12 +210,14 @@ pub fn run(robot: Robot, request: &TrajectoryRequest, watch: &mut dyn Watch) -> 
     let asked = Planned {
         robot,
         model: start.model,
-        minimum_counts: !(has_choice && rule == TensionRule::Lowest),
+        judged: Judged {
+            minimum_tensions: !(has_choice && rule == TensionRule::Lowest),
+            clearance: robot.judges_clearance(),
+            inertia: has_choice,
+        },
         rule,
         path,
         rope_inertia: request.motion.rope_inertia,
-        judges_clearance: robot.judges_clearance(),
-        judges_choice: has_choice,
     };
 
     let planned = if request.motion.fastest { fastest::fastest(&asked, watch)? } else { asked.clone() };
@@ -216,7 +225,7 @@ pub fn run(robot: Robot, request: &TrajectoryRequest, watch: &mut dyn Watch) -> 
     let own = times.map(|times| times.iter().map(|time| time * factor).collect());
     let times = sample_times(planned.path.duration(), request.motion.sample_time_s, own)?;
     let samples = MotionSamples::at(&planned, times, watch)?;
-    found(&planned, &at_rest, samples, request)
+    found(&planned, &at_rest, &samples, request)
 }
 
 /// Times of the rows [s].
@@ -238,7 +247,7 @@ fn sample_times(duration: f64, step: Option<f64>, own: Option<Vec<f64>>) -> Resu
 fn found(
     planned: &Planned,
     at_rest: &AtRest,
-    samples: MotionSamples,
+    samples: &MotionSamples,
     request: &TrajectoryRequest,
 ) -> Result<TrajectoryResult> {
     let robot = planned.robot;
@@ -247,9 +256,9 @@ fn found(
         .motion
         .station_time_s
         .unwrap_or_else(|| samples.times.windows(2).map(|pair| pair[1] - pair[0]).fold(0.0, f64::max));
-    let stations = Stations::of(planned, &samples, interval, request.motion.length_tolerance_m)?;
-    let quasi_static = quasi_static(planned, &samples);
-    let warnings = warnings(at_rest, &samples, request, quasi_static.as_ref());
+    let stations = Stations::of(planned, samples, interval, request.motion.length_tolerance_m)?;
+    let quasi_static = quasi_static(planned, samples);
+    let warnings = warnings(at_rest, samples, request, quasi_static.as_ref());
 
     Ok(TrajectoryResult {
         robot: robot.name.clone(),
@@ -257,17 +266,17 @@ fn found(
         origin: Origin::of(at_rest),
         duration_s: planned.path.duration(),
         within_limits: used.iter().flatten().all(|(_, part)| *part <= 1.0 + ROUNDING),
-        most_used: most_used(robot, &samples, &used),
-        extremes: extremes(robot, &samples),
-        sums: power_sums(robot, &samples),
-        nearest: nearest(robot, &samples),
-        limit_changes: limit_changes(planned, &samples)?,
+        most_used: most_used(robot, samples, &used),
+        extremes: extremes(robot, samples),
+        sums: power_sums(robot, samples),
+        nearest: nearest(robot, samples),
+        limit_changes: limit_changes(planned, samples)?,
         quasi_static,
         stations,
         misses_m: planned.path.misses(),
         cables: robot.cables.iter().map(|cable| cable.name.clone()).collect(),
-        rows: (0..samples.times.len()).map(|k| TrajectoryRow::of(robot, &samples, k, used[k].as_ref())).collect(),
-        frames: frames(&samples),
+        rows: (0..samples.times.len()).map(|k| TrajectoryRow::of(robot, samples, k, used[k].as_ref())).collect(),
+        frames: frames(samples),
         warnings,
     })
 }
@@ -348,17 +357,16 @@ fn limit_changes(planned: &Planned, samples: &MotionSamples) -> Result<Vec<Limit
     let mut along = planned.along();
     let mut found = Vec::new();
     for (pair, times) in samples.motions.windows(2).zip(samples.times.windows(2)) {
-        let (mut before, mut after, [mut from, mut to]) =
-            (pair[0].at_limit.clone(), pair[1].at_limit.clone(), [times[0], times[1]]);
-        if before == after || found.len() >= MAX_CHANGES {
+        let (before, mut after, [mut from, mut to]) =
+            (&pair[0].at_limit, pair[1].at_limit.clone(), [times[0], times[1]]);
+        if *before == after || found.len() >= MAX_CHANGES {
             continue;
         }
         for _ in 0..HALVINGS {
             let middle = 0.5 * (from + to);
             let at = samples::in_motion(&mut along, planned, middle)?.at_limit;
-            if at == before { from = middle } else { (to, after) = (middle, at) }
+            if at == *before { from = middle } else { (to, after) = (middle, at) }
         }
-        before = pair[0].at_limit.clone();
         for (i, (before, after)) in before.iter().zip(&after).enumerate().filter(|(_, (before, after))| before != after)
         {
             let cable = planned.robot.cables[i].name.clone();

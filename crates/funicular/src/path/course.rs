@@ -63,9 +63,6 @@ pub(super) enum Course {
     Quintic { duration: f64 },
 }
 
-/// Coefficients of the quintic course over τ = t/T, from τ³ on.
-const QUINTIC: [f64; 3] = [10.0, -15.0, 6.0];
-
 /// Largest rate, and magnitudes of its first and second derivative, of the quintic course in the time 1: at τ = 1/2, at
 /// τ = 1/2 ± √3/6, at τ = 0.
 const QUINTIC_PEAKS: [f64; 3] = [1.875, 5.773_502_691_896_258, 60.0];
@@ -127,14 +124,13 @@ impl Course {
                 if tau <= 0.0 || tau >= 1.0 {
                     return [f64::from(u8::from(tau >= 1.0)), 0.0, 0.0, 0.0];
                 }
-                std::array::from_fn(|order| {
-                    let terms = QUINTIC.iter().zip(3_i32..).map(|(coefficient, power)| {
-                        let order = order as i32;
-                        let falling: f64 = (0..order).map(|k| f64::from(power - k)).product();
-                        coefficient * falling * tau.powi(power - order)
-                    });
-                    terms.sum::<f64>() / duration.powi(order as i32)
-                })
+                let left = 1.0 - tau;
+                [
+                    tau.powi(3) * (10.0 - tau * (15.0 - 6.0 * tau)),
+                    30.0 * (tau * left).powi(2) / duration,
+                    60.0 * tau * left * (1.0 - 2.0 * tau) / duration.powi(2),
+                    (60.0 - 360.0 * tau * left) / duration.powi(3),
+                ]
             }
         }
     }

@@ -185,7 +185,8 @@ fn of_polynomial(times: &[f64], values: &[RowNumbers], end: usize) -> [RowNumber
 
     // In units of the span of these rows, so that the powers are of one size.
     let span = times[near.end - 1] - times[near.start];
-    let powers = DMat::from_fn(count, count, |i, j| ((times[first + i] - times[end]) / span).powi(j as i32));
+    let power = |i: usize, j: usize| std::iter::repeat_n((times[first + i] - times[end]) / span, j).product();
+    let powers = DMat::from_fn(count, count, power);
     let given = DMat::from_fn(count, COUNT, |i, k| values[first + i][k]);
     let solved = powers.lu().solve(&given).unwrap_or_else(|| DMat::zeros(count, COUNT));
     let of = |order: usize, k: usize| if order < count { solved[(order, k)] } else { 0.0 };

@@ -86,10 +86,10 @@ impl MotionSamples {
         let rates: Vec<Vec<f64>> = motions.iter().map(|motion| motion.length_rates.clone()).collect();
         let same_limits = |k: usize| motions[k].at_limit == motions[k + 1].at_limit;
         let accelerations = length_accelerations(&times, &lengths, &rates, same_limits);
-        let around = planned.judges_clearance.then(|| Surroundings::of(planned.robot));
+        let around = planned.judged.clearance.then(|| Surroundings::of(planned.robot));
         let nearest = |motion: &InMotion| around.as_ref().and_then(|around| around.least(&motion.equilibrium, None));
         let nearest = motions.iter().map(nearest).collect();
-        let held = if planned.judges_choice { parts_of_inertia(planned, &motions) } else { vec![None; motions.len()] };
+        let held = if planned.judged.inertia { parts_of_inertia(planned, &motions) } else { vec![None; motions.len()] };
         Ok(Self { times, motions, accelerations, nearest, held })
     }
 
@@ -114,7 +114,7 @@ impl MotionSamples {
             // Where tensions are a matter of choice, others may hold more.
             let of_tension = self.held[k].is_none().then_some([
                 (UsedLimit::Tension(Limit::Maximum, i), margin.max / margin.range.maximum),
-                (UsedLimit::Tension(Limit::Minimum, i), if planned.minimum_counts { minimum } else { 0.0 }),
+                (UsedLimit::Tension(Limit::Minimum, i), if planned.judged.minimum_tensions { minimum } else { 0.0 }),
             ]);
             let winch = self.winch(robot, k, i);
             let of_winch = limits_of(&robot.cables[i]).zip(winch.motor).map(|(limits, motor)| {
