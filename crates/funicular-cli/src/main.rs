@@ -50,8 +50,9 @@ fn report_usage(usage: &clap::Error) -> ExitCode {
 }
 
 /// Names that other programs have for a command, with its name here.
-const COMMANDS_OF_OTHERS: [(&[&str], &str); 4] = [
-    (&["workspace", "trajectory", "path"], "map"),
+const COMMANDS_OF_OTHERS: [(&[&str], &str); 5] = [
+    (&["grid"], "map"),
+    (&["path", "motion"], "trajectory"),
     (&["optimize", "optimise", "optimization"], "design"),
     (&["eigen", "frequencies", "modal"], "modes"),
     (&["equilibrium", "tensions"], "statics"),

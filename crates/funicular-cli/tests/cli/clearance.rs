@@ -153,7 +153,7 @@ fn in_plan(point: [f64; 2], from: [f64; 2], to: [f64; 2]) -> f64 {
 #[test]
 fn distances_from_the_columns_of_a_hall_are_those_of_its_plan() {
     let file = fs::read_to_string(super::project("docs/quick-start/hall.toml")).unwrap();
-    let columns = [("east", [4.0, 2.2]), ("west", [-5.0, -1.8])];
+    let columns = [("east", [6.0, 0.0]), ("west", [-6.0, 0.5])];
     let table = |(name, [x, y]): &(&str, [f64; 2])| {
         format!(
             "[obstacles.{name}]\nshape = \"cylinder\"\nposition_m = [{x}, {y}, 4.0]\ndiameter_m = 0.5\nlength_m = 9.0\n"

@@ -41,7 +41,10 @@ fn the_schema_of_columns_has_the_columns_of_a_map_with_every_quantity() {
     };
     let quantity = |table: &serde_json::Value| {
         let name = table["with"].as_str().unwrap();
-        name.replace(":N", ":1").replace(":MODEL", "").replace(":RESULT:PATH", ":first-frequency:platform.mass_kg")
+        name.replace(":N", ":1")
+            .replace(":MODEL", "")
+            .replace(":RESULT:PATH", ":first-frequency:platform.mass_kg")
+            .replace(":AXIS", ":x")
     };
     let quantities: Vec<String> = tables[1..].iter().map(quantity).collect();
     let text = succeed(

@@ -45,7 +45,8 @@ fn the_fastest_motion_uses_all_of_a_limit_and_a_faster_one_breaks_it() {
     let duration = number(&fastest["duration_s"]);
     let part = number(&fastest["most_used"]["part"]);
     assert_eq!((&fastest["most_used"]["limit"], &fastest["within_limits"]), (&"maximum-tension".into(), &true.into()));
-    assert!((0.998..=1.0).contains(&part), "{part}");
+    // The worst time lies between two rows.
+    assert!((0.99..=1.0).contains(&part), "{part}");
 
     let (cogiro, faster) = (robot("cogiro.toml"), (0.99 * duration).to_string());
     let line = [&["trajectory", &cogiro], &MOVE[..], &COURSE, &limit, &["--duration-s", &faster]].concat();

@@ -163,12 +163,12 @@ struct Planned<'a> {
     rule: TensionRule,
     path: PlatformPath,
     rope_inertia: bool,
-    judged: Judged,
+    judged: JudgedLimits,
 }
 
 /// Limits of which the used part is told.
 #[derive(Debug, Clone, Copy)]
-struct Judged {
+struct JudgedLimits {
     /// Minimum tensions; where a rule aims at them, they are no limit of the motion.
     minimum_tensions: bool,
     /// Distances.
@@ -210,7 +210,7 @@ pub fn run(robot: Robot, request: &TrajectoryRequest, watch: &mut dyn Watch) -> 
     let asked = Planned {
         robot,
         model: start.model,
-        judged: Judged {
+        judged: JudgedLimits {
             minimum_tensions: !(has_choice && rule == TensionRule::Lowest),
             clearance: robot.judges_clearance(),
             inertia: has_choice,

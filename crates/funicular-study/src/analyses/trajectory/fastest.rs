@@ -1,7 +1,7 @@
 //! Shortest duration of a path that keeps all limits, by one factor of all its times.
 
 use super::samples::MotionSamples;
-use super::{Judged, Planned};
+use super::{JudgedLimits, Planned};
 use crate::error::{ErrorKind, NoSolution};
 use crate::watch::Watch;
 use anyhow::Result;
@@ -74,7 +74,8 @@ pub(super) fn fastest<'a>(planned: &Planned<'a>, watch: &mut dyn Watch) -> Resul
 /// tensions by choice are found or not.
 fn keeps_limits(planned: &Planned, count: usize, watch: &mut dyn Watch) -> Result<bool> {
     let times = (0..=count).map(|k| planned.path.duration() * k as f64 / count as f64).collect();
-    let plain = Planned { judged: Judged { clearance: false, inertia: false, ..planned.judged }, ..planned.clone() };
+    let plain =
+        Planned { judged: JudgedLimits { clearance: false, inertia: false, ..planned.judged }, ..planned.clone() };
     let samples = match MotionSamples::at(&plain, times, watch) {
         Ok(samples) => samples,
         Err(error) if ErrorKind::of(&error) == ErrorKind::NoSolution => return Ok(false),
