@@ -218,8 +218,8 @@ fn an_earlier_name_is_answered_with_the_present_name() {
 
     // Commands by the names that other programs have for them, and numbers without commas.
     for (line, tip) in [
-        ("workspace ROBOT", "a similar subcommand exists: 'map'"),
-        ("trajectory ROBOT", "a similar subcommand exists: 'map'"),
+        ("grid ROBOT", "a similar subcommand exists: 'map'"),
+        ("path ROBOT", "a similar subcommand exists: 'trajectory'"),
         ("optimize ROBOT", "a similar subcommand exists: 'design'"),
         ("statics ROBOT --pose 0 0 5", "separated by commas alone: `--pose 0,0,5`"),
         ("statics ROBOT --pose 0 -1.5 5", "separated by commas alone: `--pose 0,0,5`"),
