@@ -180,6 +180,19 @@ impl PlatformPath {
         own * self.slowness
     }
 
+    /// Times at which the jerk jumps [s], ascending: there the rates of the lengths jump, because tensions and sag follow
+    /// the acceleration. None within a table.
+    pub fn jumps_of_jerk(&self) -> Vec<f64> {
+        let own = match &self.shape {
+            PathShape::Moves(moves) => moves.corner_times(),
+            PathShape::Circle(circle) => circle.corner_times(),
+            PathShape::Table(_) => Vec::new(),
+        };
+        let mut times: Vec<f64> = own.iter().map(|time| time * self.slowness).collect();
+        times.sort_by(f64::total_cmp);
+        times
+    }
+
     /// Motion at a time [s]; at rest before the begin and after the end, where a table holds its first or last motion.
     pub fn at(&self, time: f64) -> PathPoint {
         let own = time / self.slowness;

@@ -354,8 +354,12 @@ fn nearest(robot: &Robot, samples: &MotionSamples) -> Option<Nearest> {
 /// # Errors
 /// A time at which the cables do not hold the platform.
 fn limit_changes(planned: &Planned, samples: &MotionSamples) -> Result<Vec<LimitChange>> {
-    let mut along = planned.along();
     let mut found = Vec::new();
+    if !planned.judged.inertia {
+        // Tensions that are no matter of choice pass their limits smoothly.
+        return Ok(found);
+    }
+    let mut along = planned.along();
     for (pair, times) in samples.motions.windows(2).zip(samples.times.windows(2)) {
         let (before, mut after, [mut from, mut to]) =
             (&pair[0].at_limit, pair[1].at_limit.clone(), [times[0], times[1]]);

@@ -79,6 +79,11 @@ impl Circle {
         self.course.duration()
     }
 
+    /// Times at which the jerk jumps [s].
+    pub(super) fn corner_times(&self) -> Vec<f64> {
+        self.course.corner_times()
+    }
+
     pub(super) fn at(&self, time: f64) -> PathPoint {
         let [done, rate, second, third] = self.course.at(time).map(|of| self.angle * of);
         let (sin, cos) = done.sin_cos();

@@ -115,6 +115,14 @@ impl Course {
         }
     }
 
+    /// Times at which the jerk jumps [s].
+    pub(super) fn corner_times(&self) -> Vec<f64> {
+        match self {
+            Self::JerkLimited(profile) => profile.corner_times().collect(),
+            Self::Quintic { duration } => vec![0.0, *duration],
+        }
+    }
+
     /// Part that is done at a time [s], with three derivatives.
     pub(super) fn at(&self, time: f64) -> [f64; 4] {
         match self {

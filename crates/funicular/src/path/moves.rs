@@ -59,6 +59,11 @@ impl Moves {
         self.moves.iter().map(TimedMove::ends).fold(0.0, f64::max)
     }
 
+    /// Times at which the jerk jumps [s].
+    pub(super) fn corner_times(&self) -> Vec<f64> {
+        self.moves.iter().flat_map(|of| of.course.corner_times().into_iter().map(|time| of.begins + time)).collect()
+    }
+
     /// Sum of the translations, and the turns one after the other: a later turn acts on what the earlier ones have
     /// done.
     pub(super) fn at(&self, time: f64) -> PathPoint {

@@ -70,6 +70,11 @@ impl Profile {
         self.boxes.iter().sum::<f64>() - self.boxes.iter().copied().fold(0.0, f64::max)
     }
 
+    /// Times at which the derivative with the number of the boxes jumps, or a lower one [s].
+    pub(super) fn corner_times(&self) -> impl Iterator<Item = f64> + '_ {
+        self.impulses.iter().flat_map(|impulse| self.corners().map(|(_, at)| impulse.time + at))
+    }
+
     /// Part of the change that is done at a time [s], 0 to 1.
     pub fn done(&self, time: f64) -> f64 {
         self.derivative(time, 0)

@@ -104,6 +104,22 @@ fn a_move_reaches_its_limits_and_not_more() {
 }
 
 #[test]
+fn the_jerk_jumps_where_it_is_said_and_nowhere_else() {
+    for path in [through(CourseForm::JerkLimited, 0.5), circle(CourseForm::Quintic).slowed(1.3)] {
+        let jumps = path.jumps_of_jerk();
+        assert!(jumps.windows(2).all(|pair| pair[0] <= pair[1]) && jumps.len() >= 2);
+        let step = 1e-5 * path.duration();
+        for k in 1..40_000 {
+            let (before, after) =
+                (path.duration() * f64::from(k) / 40_000.0, path.duration() * f64::from(k + 1) / 40_000.0);
+            let change = (path.at(after).jerk_w - path.at(before).jerk_w).norm();
+            let is_near = jumps.iter().any(|jump| (before - step..=after + step).contains(jump));
+            assert!(is_near || change < 0.2, "{before}: {change}");
+        }
+    }
+}
+
+#[test]
 fn a_profile_without_jerk_limit_is_a_trapezoid_and_without_rate_limit_a_triangle() {
     assert!((Profile::limited(0.5, 1.0, f64::INFINITY).duration() - 2.5).abs() < 1e-14);
     let triangle = Profile::limited(f64::INFINITY, 1.0, f64::INFINITY);

@@ -84,8 +84,13 @@ impl MotionSamples {
 
         let lengths: Vec<Vec<f64>> = motions.iter().map(lengths).collect();
         let rates: Vec<Vec<f64>> = motions.iter().map(|motion| motion.length_rates.clone()).collect();
-        let same_limits = |k: usize| motions[k].at_limit == motions[k + 1].at_limit;
-        let accelerations = length_accelerations(&times, &lengths, &rates, same_limits);
+        let jumps = planned.path.jumps_of_jerk();
+        let is_smooth = |k: usize| {
+            let next = jumps.partition_point(|jump| *jump <= times[k]);
+            let jumps_between = jumps.get(next).is_some_and(|jump| *jump < times[k + 1]);
+            motions[k].at_limit == motions[k + 1].at_limit && !jumps_between
+        };
+        let accelerations = length_accelerations(&times, &lengths, &rates, is_smooth);
         let around = planned.judged.clearance.then(|| Surroundings::of(planned.robot));
         let nearest = |motion: &InMotion| around.as_ref().and_then(|around| around.least(&motion.equilibrium, None));
         let nearest = motions.iter().map(nearest).collect();
