@@ -1414,6 +1414,77 @@ class Robot(Analyses):
 
         The other parameters are those of `map`.
         """
+    def trajectory(self, /, path: str | PathLike[str] | Mapping[str, ArrayLike] | Callable[[float], ArrayLike] | None = None, move_to: Pose | ArrayLike | None = None, pose: Pose | ArrayLike | None = None, *, via: ArrayLike | None = None, lift_m: SupportsFloat | SupportsIndex | None = None, blend: SupportsFloat | SupportsIndex | None = None, circle_center_m: ArrayLike | None = None, circle_axis: ArrayLike | None = None, turns: SupportsFloat | SupportsIndex | None = None, course: Literal['jerk-limited', 'quintic'] = "jerk-limited", speed_m_s: SupportsFloat | SupportsIndex | None = None, acceleration_m_s2: SupportsFloat | SupportsIndex | None = None, jerk_m_s3: SupportsFloat | SupportsIndex | None = None, angular_speed_rad_s: SupportsFloat | SupportsIndex | None = None, angular_acceleration_rad_s2: SupportsFloat | SupportsIndex | None = None, angular_jerk_rad_s3: SupportsFloat | SupportsIndex | None = None, duration_s: SupportsFloat | SupportsIndex | None = None, fastest: bool = False, rope_inertia: bool = False, sample_time_s: SupportsFloat | SupportsIndex | None = None, station_time_s: SupportsFloat | SupportsIndex | None = None, length_tolerance_m: SupportsFloat | SupportsIndex | None = None, lengths_m: ArrayLike | None = None, hold_lengths_of_pose: bool = False, mass_kg: SupportsFloat | SupportsIndex | None = None, static_model: StaticModel = "catenary", force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, wind_m_s: ArrayLike | None = None, cable_load_n_per_m: ArrayLike | None = None, tension_rule: TensionRule | None = None, target_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None) -> Results:
+        """
+        Computes the motion along a path: lengths with their rates, tensions with the inertia, winches, and what limits them.
+
+        Parameters
+        ----------
+        path
+            Path over time: columns `t_s`, `x_m`, `y_m`, `z_m` and, where the platform turns, `roll_deg`, `pitch_deg`,
+            `yaw_deg`, as a mapping, a data frame or a CSV file; or a function of the time [s] that returns x, y, z [m] or
+            x, y, z, roll, pitch, yaw [m, degrees]. A function needs `duration_s` and `sample_time_s`. A spline of the
+            fifth degree passes the rows.
+        move_to
+            Pose x,y,z[,roll,pitch,yaw] [m, degrees] to which the platform moves from the pose of the state, from rest
+            to rest.
+        via
+            Poses on the way to `move_to`: position [m] and roll, pitch, yaw [degrees].
+        lift_m
+            Pick and place: lift the platform by this height [m], carry it to `move_to`, and lower it there.
+        blend
+            Part of the time of slowing down by which the next move begins earlier, so that the path rounds the corner:
+            0 stops at every pose of the way, 1 rounds most; 0 if not given.
+        circle_center_m
+            Centre of a circle on which the platform moves from the pose of the state, from rest to rest [m].
+        circle_axis
+            Direction of the axis of the circle; positive turns go round it by the right-hand rule; 0.0, 0.0, 1.0 if not
+            given.
+        turns
+            Number of turns on the circle; negative turns go the other way; 1 if not given.
+        course
+            Form of the course of every move: `jerk-limited` (seven phases of constant jerk: the fastest course within
+            the limits); `quintic` (polynomial of the fifth degree).
+        speed_m_s
+            Largest speed of the platform origin [m/s]; if not given: none.
+        acceleration_m_s2
+            Largest acceleration of the origin [m/s²]; if not given: none.
+        jerk_m_s3
+            Largest rate of the acceleration [m/s³]; if not given: none: the acceleration and with it the tensions jump.
+        angular_speed_rad_s
+            Largest angular velocity of the platform [rad/s]; if not given: none.
+        angular_acceleration_rad_s2
+            Largest angular acceleration [rad/s²]; if not given: none.
+        angular_jerk_rad_s3
+            Largest rate of the angular acceleration [rad/s³]; if not given: none.
+        duration_s
+            Duration of the whole path [s]: all its times are multiplied by one factor; if not given: that of the limits
+            or of the table.
+        fastest
+            Find the shortest duration that keeps all limits of tensions and winches, by one factor of all times.
+        rope_inertia
+            Add the inertia of the ropes across them, as of taut strings, to that of the platform.
+        sample_time_s
+            Time between the rows of the result [s]; if not given: the rows of the table, or a two-hundredth of the
+            duration.
+        station_time_s
+            Time between the lengths that a controller gets [s]; between them it changes the lengths in straight lines;
+            if not given: that between the rows.
+        length_tolerance_m
+            Error of a length between two of them for which their number is listed [m]; 0.0001 if not given.
+
+        The other parameters are those of `Robot.equilibrium`.
+
+        Returns
+        -------
+        The keys of the program's JSON: `within_limits`, `most_used`, `extremes`, `stations`, `limit_changes`, and `rows` with
+        a number or a list with a number per cable at every time.
+
+        Raises
+        ------
+        StaticsError
+            The cables do not hold the platform at some time of the path.
+        """
     def uncertainty(self, /, deviations: Any = None, tolerances: Any = None, of: Result | Sequence[Result] | None = None, *, hold: Hold = "lengths", below_hz: SupportsFloat | SupportsIndex | None = None, at_hz: ArrayLike | None = None, input: str | None = None, output: str | None = None, input_point_m: ArrayLike | None = None, output_point_m: ArrayLike | None = None, poses: ArrayLike | None = None, method: Method = "automatic", samples: SupportsIndex | None = None, seed: SupportsIndex | None = None, lengths_m: ArrayLike | None = None, pose: Pose | ArrayLike | None = None, hold_lengths_of_pose: bool = False, mass_kg: SupportsFloat | SupportsIndex | None = None, static_model: StaticModel = "catenary", force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, wind_m_s: ArrayLike | None = None, cable_load_n_per_m: ArrayLike | None = None, tension_rule: TensionRule | None = None, target_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, cable_model: CableModel | None = None, assembly: Assembly = "consistent", in_plane_only: bool = False, winches: Winches = "as-given", samples_file: str | PathLike[str] | None = None, resume: bool = False, discard: bool = False, threads: SupportsIndex | None = None, progress: Callable[[int, int], object] | None = None) -> Uncertainty:
         """
         Computes the deviations of results from deviations or tolerances of numbers of the robot file.
@@ -1478,6 +1549,99 @@ class Robot(Analyses):
             The robot has no equilibrium.
         FileError
             The file of the samples cannot be written, or belongs to other work.
+        """
+    def workspace(self, /, at_least: Mapping[str, SupportsFloat | SupportsIndex] | None = None, at_most: Mapping[str, SupportsFloat | SupportsIndex] | None = None, grid: Mapping[str, ArrayLike] | None = None, *, step_m: SupportsFloat | SupportsIndex | None = None, orientations: Literal['all', 'some'] = "all", vertex_tolerance_m: SupportsFloat | SupportsIndex | None = None, rays: SupportsIndex | None = None, center_m: ArrayLike | None = None, section: Mapping[str, ArrayLike] | None = None, up_to_hz: SupportsFloat | SupportsIndex | None = None, platform_share: SupportsFloat | SupportsIndex | None = None, payload_center_m: ArrayLike | None = None, required_force_n: ArrayLike | None = None, required_moment_n_m: ArrayLike | None = None, required_shape: Literal['box', 'ellipsoid'] | None = None, required_payload_min_kg: SupportsFloat | SupportsIndex | None = None, required_payload_max_kg: SupportsFloat | SupportsIndex | None = None, required_payload_center_m: ArrayLike | None = None, required_payload_center_reach_m: ArrayLike | None = None, required_acceleration_m_s2: ArrayLike | None = None, required_angular_acceleration_rad_s2: ArrayLike | None = None, required_wind_speed_m_s: SupportsFloat | SupportsIndex | None = None, required_velocity_m_s: ArrayLike | None = None, required_angular_velocity_rad_s: ArrayLike | None = None, pose: Pose | ArrayLike | None = None, mass_kg: SupportsFloat | SupportsIndex | None = None, static_model: StaticModel = "catenary", force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, wind_m_s: ArrayLike | None = None, cable_load_n_per_m: ArrayLike | None = None, tension_rule: TensionRule | None = None, target_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, cable_model: CableModel | None = None, assembly: Assembly = "consistent", in_plane_only: bool = False, winches: Winches = "as-given", compare: Robot | None = None, surface: str | PathLike[str] | Sequence[str | PathLike[str]] = (), page: str | PathLike[str] | None = None, threads: SupportsIndex | None = None, progress: Callable[[int, int], object] | None = None) -> Results:
+        """
+        Finds all positions at which quantities keep their limits: surface, volume, parts and holes.
+
+        Without a limit the positions are those at which tensions within their limits hold the platform, with the required
+        loads if there are any.
+
+        Parameters
+        ----------
+        at_least, at_most
+            Least and greatest values: a mapping from quantities of `map`, or their columns, to numbers.
+        grid
+            Axes of the grid: a mapping from x, y, z [m] to (first, last, number of values), and from roll, pitch, yaw
+            [degrees] to such ranges or to lists of angles.
+        step_m
+            Step of the grid along axes that `grid` does not give [m]; if not given: a fortieth of the longest side.
+        orientations
+            Orientations of the grid that have to be possible at a position: `all` (positions at which every orientation
+            of the grid is possible (total orientation workspace)); `some` (positions at which one of them is possible
+            (inclusive orientation workspace)).
+        vertex_tolerance_m
+            Tolerance of the vertices along the edges of the grid, and of the ends of rays [m]; if not given: a
+            hundredth of the smallest step.
+        rays
+            Number of rays from `center_m` for a second volume: 6, 18, 66, 258, 1026 … or 12, 42, 162, 642, 2562 …;
+            every interval of a ray inside the set is kept.
+        center_m
+            Point from which the rays go out [m]; if not given: the centroid of the set.
+        section
+            Sections: a mapping from x, y or z to a list of coordinates [m].
+        up_to_hz
+            Upper limit of the search for natural frequencies [Hz]; 1000 if not given.
+        platform_share
+            Minimum fraction of the kinetic energy in the platform for a mode that counts as a mode of the platform; 0.5
+            if not given.
+        payload_center_m
+            Centre of mass of the payload, platform frame [m]; if not given: that of the platform.
+        required_force_n
+            Largest required force, both ways along each world axis [N].
+        required_moment_n_m
+            Largest required moment about the platform origin, both ways about each world axis [N m].
+        required_shape
+            Shape of the set of required forces and moments: `box` (every component varies by itself); `ellipsoid`
+            (ellipsoid with these half axes; a ball if they are equal); if not given: from the robot file, or box.
+        required_payload_min_kg
+            Minimum required payload [kg], which is always carried.
+        required_payload_max_kg
+            Maximum required payload [kg].
+        required_payload_center_m
+            Middle of the centres of mass of the required payload, platform frame [m].
+        required_payload_center_reach_m
+            Largest distance of the centre of mass of the payload from this middle, both ways along each axis of the
+            platform [m].
+        required_acceleration_m_s2
+            Largest required acceleration of the platform origin from rest, both ways along each world axis [m/s²].
+        required_angular_acceleration_rad_s2
+            Largest required angular acceleration from rest, both ways about each world axis [rad/s²].
+        required_wind_speed_m_s
+            Speed of the required wind from every horizontal direction on the platform [m/s].
+        required_velocity_m_s
+            Largest required velocity of the platform origin, both ways along each world axis [m/s].
+        required_angular_velocity_rad_s
+            Largest required angular velocity, both ways about each world axis [rad/s].
+        compare
+            Robot whose set is compared with this one on the same grid.
+        surface
+            Files of the closed surface, .stl, .ply or .vtp.
+        page
+            HTML file of a page with the surface, the volumes and the sections.
+        threads
+            Number of threads of this process; one per processor if not given.
+        progress
+            Function that is called with the number of positions that are done, and of those known to be needed.
+
+        The other parameters are those of `Robot.equilibrium` and of `Equilibrium.stiffness`.
+
+        Returns
+        -------
+        The keys of the program's JSON: `volumes` with the steps or the number of rays of each, `parts`, `holes`,
+        `touches`, `bounds_m`, `inner_box`, `sections`, `rays`, `compared`; `vertices_m` (n, 3) and `triangles` (m, 3) of the closed
+        surface, whose first `triangles_of_surface` lie on the set and the others on the box of the grid.
+
+        Raises
+        ------
+        InputError
+            A quantity, an axis or another argument is wrong; the message says which and what to give.
+        NoSolutionError
+            No position of the grid meets the conditions.
+
+        References
+        ----------
+        docs/theory.md, section 10b.
         """
 
 @final
