@@ -14,7 +14,7 @@ OUTPUT |= {"--figure-width-mm", "--font-size-pt", "--figure-mode", "--fitted", "
 # Options without a value.
 SWITCHES = {
     *("--log", "--adaptive", "--all", "--in-plane-only", "--print-request", "--resume", "--discard"),
-    *("--platform", "--hold-lengths-of-pose", "--friction-interval", "--rigid-cables"),
+    *("--platform", "--hold-lengths-of-pose", "--friction-interval", "--rigid-cables", "--rope-inertia", "--fastest"),
 }
 # Options that may be given several times.
 LISTS = {"reduce": {"--input", "--output"}, "gust": {"--output"}, "identify": {"--profile"}}
@@ -102,8 +102,8 @@ def call(line: str) -> tuple[str, list[str], dict[str, Any], dict[str, Any]]:
             keywords.setdefault(key, {})[axis] = steps(text)
         elif word == "--quantity":
             keywords["quantities"] = next(rest).split(",")
-        elif word == "--poses":
-            keywords["poses"] = read_poses(next(rest))
+        elif word in ("--poses", "--via"):
+            keywords[key] = read_poses(next(rest))
         elif command == "design" and word == "--change":
             keywords.setdefault(key, []).append(chosen(next(rest)))
         elif command == "identify" and word in ("--fit", "--prior", "--measured", "--node", "--response"):

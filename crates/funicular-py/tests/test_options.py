@@ -83,6 +83,7 @@ OTHERS: dict[tuple[str | None, str], tuple[str, Callable[..., Any]]] = {
     ("identify", "--output-file"): ("`json.dumps(result.details)`", funicular.Identified.to_dict),
     ("identify", "--fitted"): ("`result.robot_file`, `result.robot`", funicular.Identified.to_dict),
     ("identify", "--page"): ("`result.page(path)`", funicular.Identified.page),
+    ("trajectory", "--lengths"): ("`unstrained_lengths_m` of the rows", Robot.trajectory),
     ("settle", "--lengths"): ("`lengths` of the result", Equilibrium.settle),
     ("design", "--output-file"): ("`json.dumps(result.details)`", funicular.Designed.to_dict),
     ("design", "--designed"): ("`result.robot_file`, `result.robot`", funicular.Designed.to_dict),

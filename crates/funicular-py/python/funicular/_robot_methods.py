@@ -138,7 +138,9 @@ def speeds(of: Any, given: Given) -> Results:
 
 
 @declared(Robot, "trajectory", positional=("path", "move_to", "pose"), without=("path",), others=_AS_REST)
-def trajectory(of: Any, given: Given, path: File | Mapping[str, ArrayLike] | Callable[[float], ArrayLike] | None = None) -> Results:
+def trajectory(
+    of: Any, given: Given, path: File | Mapping[str, ArrayLike] | Callable[[float], ArrayLike] | None = None, page: File | None = None
+) -> Results:
     """Computes the motion along a path: lengths with their rates, tensions with the inertia, winches, and what limits them.
 
     Parameters
@@ -148,6 +150,8 @@ def trajectory(of: Any, given: Given, path: File | Mapping[str, ArrayLike] | Cal
         `yaw_deg`, as a mapping, a data frame or a CSV file; or a function of the time [s] that returns x, y, z [m] or
         x, y, z, roll, pitch, yaw [m, degrees]. A function needs `duration_s` and `sample_time_s`. A spline of the
         fifth degree passes the rows.
+    page
+        HTML file of a page with the moving robot, and tensions, speeds and powers over time.
 
     Returns
     -------
@@ -163,7 +167,7 @@ def trajectory(of: Any, given: Given, path: File | Mapping[str, ArrayLike] | Cal
         path = _sampled(path, given)
     if path is not None:
         given["path"] = path
-    return _results.results(of._answer("trajectory", given))
+    return _results.results(of._trajectory(given, page))
 
 
 def _sampled(path: Callable[[float], ArrayLike], given: Given) -> dict[str, ArrayLike]:

@@ -14,6 +14,7 @@ use crate::threads::Threads;
 use funicular_files::{Begin, UncertaintyOutcome, UncertaintyRun, WorkspaceRun};
 use funicular_formats::surface::{self, SurfaceFormat};
 use funicular_pages::pages;
+use funicular_study::analyses::trajectory;
 use funicular_study::analyses::uncertainty::UncertaintyStudy;
 use funicular_study::analyses::workspace::{Workspace, WorkspaceStudy};
 use funicular_study::request::{Request, UncertaintyRequest};
@@ -111,6 +112,30 @@ impl PyRobot {
             return Err(errors::input("give `resume` or `discard`, not both: one keeps the robots".to_owned()));
         }
         sampled(py, request, samples, threads, progress)
+    }
+
+    /// Motion along a path, whose page goes to a file.
+    #[pyo3(name = "_trajectory")]
+    fn trajectory<'py>(
+        &self,
+        py: Python<'py>,
+        given: &Bound<'py, PyDict>,
+        page: Option<PathBuf>,
+    ) -> PyResult<TextKeyed<'py>> {
+        let Request::Trajectory(request) = self.request_of("trajectory", given)? else {
+            unreachable!("the request is of trajectory")
+        };
+        let found = py.detach(|| {
+            let mut watch = CtrlC::new();
+            trajectory::run((*self.robot).clone(), &request, &mut watch).map_err(|error| watch.or(&error.into()))
+        })?;
+        if let Some(path) = page {
+            let command_line = format!("robot.trajectory(…, page={:?})", path.display().to_string());
+            let page = pages::trajectory::page(&self.robot, &found, command_line);
+            let page = page.map_err(|error| errors::study(&error))?;
+            answers::write_bytes(path, worded(&page, Words::Python).as_bytes())?;
+        }
+        answers::plain(py, &found)
     }
 
     /// Workspace, found on all threads, with calls of `progress`; its surface goes to files.

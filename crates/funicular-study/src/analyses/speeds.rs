@@ -143,7 +143,9 @@ pub fn run(robot: Robot, request: &SpeedsRequest) -> Result<Speeds> {
     }
     let at_rest = at_rest::equilibrium(robot, &request.robot, &request.state, &request.tensions)?;
     let AtRest { robot, equilibrium: rest, rule, .. } = &at_rest;
-    let speeds = WinchSpeeds::at(robot, rest, rule.as_ref()).map_err(no_solution)?;
+    // Lengths that are held have tensions of their own.
+    let rule = rule.as_ref().filter(|_| at_rest.held_pose.is_none());
+    let speeds = WinchSpeeds::at(robot, rest, rule).map_err(no_solution)?;
 
     let half_widths = robot.required.twists_w();
     let asks = half_widths != Vec6::zeros();
@@ -166,7 +168,7 @@ pub fn run(robot: Robot, request: &SpeedsRequest) -> Result<Speeds> {
 
 /// Warning of rates that are not those of the rule.
 fn kink(at_rest: &AtRest, speeds: &WinchSpeeds) -> Option<String> {
-    let rule = at_rest.rule.as_ref().filter(|_| !speeds.follows_rule)?;
+    let rule = at_rest.rule.as_ref().filter(|_| at_rest.held_pose.is_none() && !speeds.follows_rule)?;
     Some(format!(
         "the rule `{}` has no derivatives at this equilibrium: the rates are those of tensions that change least along the \
          cables; they differ by the change of stretch and sag alone",
