@@ -127,7 +127,7 @@ impl PyRobot {
         };
         let found = py.detach(|| {
             let mut watch = CtrlC::new();
-            trajectory::run((*self.robot).clone(), &request, &mut watch).map_err(|error| watch.or(&error.into()))
+            trajectory::run((*self.robot).clone(), &request, &mut watch).map_err(|error| watch.or(&error))
         })?;
         if let Some(path) = page {
             let command_line = format!("robot.trajectory(…, page={:?})", path.display().to_string());
