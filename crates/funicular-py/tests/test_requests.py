@@ -34,7 +34,7 @@ REQUIRED = (
 )
 COURSE = (
     "--course quintic --speed-m-s 1 --acceleration-m-s2 2 --jerk-m-s3 30 --angular-speed-rad-s 0.5 "
-    "--angular-acceleration-rad-s2 1 --angular-jerk-rad-s3 9 --duration-s 2 --rope-inertia --sample-time-s 0.25 "
+    "--angular-acceleration-rad-s2 1 --angular-jerk-rad-s3 9 --duration-s 6 --rope-inertia --sample-time-s 0.25 "
     "--station-time-s 0.1 --length-tolerance-m 1e-3"
 )
 CIRCLE = (
@@ -99,6 +99,11 @@ MORE = [
     "funicular clearance robots/cogiro.toml --pose 0,0,1.5 --move-to 1,0.5,1.5,0,0,10",
     "funicular workspace robots/cogiro.toml --grid z=-1:4:9 --step-m 1.5 --at-least load-factor=1 --required-force-n 150,150,150 --rays 18 --section z=1,2",
     "funicular workspace robots/ipanema2.toml --step-m 1 --at-most tension-max=2500 --grid yaw=-5,5 --orientations some --max-tension-n 3000",
+    f"funicular workspace robots/cogiro.toml {TENSIONS} {STATE} {REQUIRED} --step-m 3 --vertex-tolerance-m 0.01 --rays 6 "
+    "--center-m 0,0,1.5 --payload-center-m 0,0,-0.1",
+    f"funicular workspace robots/cogiro.toml --step-m 3.5 --at-least first-platform-frequency=0.2 --max-tension-n 4000 {MODEL} "
+    "--up-to-hz 50 --platform-share 0.6",
+    f"funicular workspace robots/cogiro-winches.toml --step-m 3.5 --at-least speed-factor=1 --max-tension-n 4000 {VELOCITIES}",
     f"funicular statics robots/cogiro.toml {TENSIONS} --hold-lengths-of-pose --mass-kg 250 --set platform.mass_kg=200",
     f"funicular stiffness robots/cogiro.toml {TENSIONS} --hold-lengths-of-pose --mass-kg 250",
     f"funicular modes robots/cogiro.toml --below-hz 5 {TENSIONS} --hold-lengths-of-pose --mass-kg 250 --platform-share 0.9",
@@ -228,7 +233,7 @@ def test_every_command_that_computes_has_a_line(executable: str) -> None:
                 used = any(option in line.split() for line in of_command)
                 same = ("--set", "--static-model", "--lengths-m", "--pose", "--in-plane-only")
                 is_refused = (command, option) == ("loads", "--hold-lengths-of-pose")
-                if not used and not is_refused and option not in (*same, "--cable-set"):
+                if not used and not is_refused and option not in (*same, "--cable-set", "--compare", "--compare-set"):
                     lacking.append((command, option))
     assert lacking == []
 

@@ -128,8 +128,8 @@ pub(crate) struct TrajectoryArgs {
     #[command(flatten)]
     pub(crate) sink: OutputArgs,
 
-    /// Write the lengths for a controller to FILE.csv: t_s, and unstrained_length_NAME_m of every cable [m]; `settle` reads
-    /// it as its --trajectory
+    /// Write the lengths for a controller to FILE.csv: t_s, and unstrained_length_NAME_m of every cable [m], a
+    /// trajectory for `settle`
     #[arg(long, value_name = "FILE.csv", help_heading = "Output")]
     pub(crate) lengths: Option<PathBuf>,
 
