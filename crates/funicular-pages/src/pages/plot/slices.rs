@@ -103,6 +103,7 @@ fn colour_of(code: u8) -> &'static str {
         "dead-load" => "#c9c4e8",
         "required-load" => "#cfe6df",
         "interference" => "#e8b4a0",
+        "no-speed" => "#c4d8d8",
         "no-gusts" => "#d9d6ec",
         "negative-tension" => colour::VERMILION,
         "tension-limits" => colour::PURPLE,
