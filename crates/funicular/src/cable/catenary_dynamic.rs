@@ -21,6 +21,7 @@ mod drive_motion;
 mod drive_signals;
 mod families;
 mod internal_motion;
+mod lossy_poles;
 mod mesh;
 mod moving_end;
 mod partition;
@@ -39,6 +40,7 @@ pub use drive_signals::DriveSignal;
 pub(crate) use drive_signals::EndDirections;
 pub(crate) use internal_motion::InternalMotion;
 pub use internal_motion::{Displacements, Stations};
+pub(crate) use lossy_poles::{LossyBesidePoles, LossyFamily, LossyPoles};
 pub(crate) use mesh::{POINTS_BEYOND_DEGREE, ellipse, has_tension, smooth_pieces};
 pub use moving_end::{EndAlong, EndSideways, MovingEnd};
 pub use poles::PoleResidue;
@@ -54,6 +56,7 @@ use families::{Families, StationPositions};
 use mesh::Mesh;
 use std::f64::consts::TAU;
 use std::ops::Range;
+use std::sync::OnceLock;
 use thiserror::Error;
 
 /// Dynamic stiffness of both ends of a cable as poles and residues, in plane and out of plane.
@@ -149,6 +152,19 @@ pub struct CatenaryDynamicEnd {
     pub(crate) shapes: Option<Box<Stations>>,
     /// True if the model has no inertia of the cable, which then has no poles.
     pub(crate) is_at_rest: bool,
+    /// Poles with the loss of the stretch, once something has asked for them; `None` inside if it has none of its own.
+    lossy: Derived<Option<LossyFamily>>,
+}
+
+/// Value that follows from the others of a type and is computed when it is first asked for: it does not count in
+/// comparisons.
+#[derive(Debug, Clone, Default)]
+struct Derived<T>(OnceLock<T>);
+
+impl<T> PartialEq for Derived<T> {
+    fn eq(&self, _: &Self) -> bool {
+        true
+    }
 }
 
 /// Choice of what is kept of the clamped modes of a cable once its poles and residues are known.
@@ -242,6 +258,7 @@ impl CatenaryDynamicEnd {
             directions,
             shapes,
             is_at_rest,
+            lossy: Derived::default(),
         })
     }
 
@@ -274,6 +291,7 @@ impl CatenaryDynamicEnd {
             directions,
             shapes: None,
             is_at_rest: false,
+            lossy: Derived::default(),
         })
     }
 
@@ -312,13 +330,14 @@ impl CatenaryDynamicEnd {
             directions: EndDirections::along_chord(),
             shapes: None,
             is_at_rest: false,
+            lossy: Derived::default(),
         }
     }
 
     /// Copy that keeps the poles below x and has a few poles in place of the others: see [`PoleResidue::compressed`].
     /// The replacing poles represent the losses of the drive and its `signals`, too.
     pub(crate) fn with_poles_below(&self, x: f64, signals: &[EndSignal]) -> Self {
-        let mut cut = Self { shapes: None, ..self.clone() };
+        let mut cut = Self { shapes: None, lossy: Derived::default(), ..self.clone() };
         let [of_plane, of_normal, of_coupled] = self.forces_on_modes(signals);
         let CatenaryDynamic { in_plane, out_of_plane, coupled, .. } = &self.cable;
         let below = [in_plane.poles_below(x), out_of_plane.poles_below(x)];

@@ -15,8 +15,10 @@
 
 use super::supports::{Supports, SupportsAt};
 use super::{DynamicCableAt, Dynamics, NEAR_POLE_FRACTION, add_local};
-use crate::cable::catenary_dynamic::{CatenaryDynamicEnd, DriveAt, Family, NearPole, NearRanges};
-use crate::math::{CDMat, CMat6, CVec6, Complex, Vec6, order};
+use crate::cable::catenary_dynamic::{
+    CatenaryDynamicEnd, DriveAt, Family, LossyBesidePoles, LossyFamily, NearPole, NearRanges,
+};
+use crate::math::{CDMat, CMat6, CVec6, Complex, order};
 
 /// What is computed of a bordered dynamic stiffness.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -61,8 +63,7 @@ impl Dynamics {
     /// Motion at a simple zero ω [rad/s], for cables that are catenary-dynamic or do not depend on frequency; of size
     /// one.
     pub(crate) fn damped_motion(&self, omega: Complex) -> Option<DampedMotion> {
-        let no_poles = vec![Vec::new(); self.terms.len()];
-        let Bordered { value, slope, .. } = self.bordered(omega, 1.0, &no_poles, BorderedFor::Motion);
+        let Bordered { value, slope, .. } = self.bordered(omega, 1.0, 0.0, BorderedFor::Motion);
         // Poles near ω, as the border has them.
         let mut near = Vec::new();
         for (t, term) in self.terms.iter().enumerate() {
@@ -120,18 +121,21 @@ impl Dynamics {
         (damping.square_with_slope(omega, mass_per_length).0, damping.square_by_values(omega, mass_per_length))
     }
 
-    /// Squares of the clamped frequencies below ω [rad/s] of each cable whose stiffness depends on frequency.
-    pub(crate) fn poles_below(&self, omega: f64) -> Vec<Vec<f64>> {
-        self.terms.iter().map(|term| term.form.poles_below(omega)).collect()
+    /// Finds the poles of the cables with constant loss factors, if the determinant at this many frequencies is worth
+    /// them.
+    pub(crate) fn find_lossy_poles(&self, frequencies: usize) {
+        for form in self.terms.iter().filter_map(|term| term.form.by_poles()) {
+            form.lossy_family(frequencies);
+        }
     }
 
-    /// Logarithmic derivative (d/dω) ln f at ω. f is det D times the product of ω_k² − ω_c² over the `poles` of
-    /// [`poles_below`](Self::poles_below).
+    /// Logarithmic derivative (d/dω) ln f at ω. f is det D times the product of ω_k² − ω_c² over all clamped modes of
+    /// the cables below `poles_below` [rad/s].
     ///
     /// The zeros of f are the damped natural frequencies, with their multiplicity, and f has no pole in their region.
     /// `losses` is the fraction of the damping that acts: 1 all, 0 none.
-    pub(crate) fn logarithmic_slope(&self, omega: Complex, losses: f64, poles: &[Vec<f64>]) -> Complex {
-        let Bordered { value, slope, pole_slope, .. } = self.bordered(omega, losses, poles, BorderedFor::Slope);
+    pub(crate) fn logarithmic_slope(&self, omega: Complex, losses: f64, poles_below: f64) -> Complex {
+        let Bordered { value, slope, pole_slope, .. } = self.bordered(omega, losses, poles_below, BorderedFor::Slope);
         match value.lu().solve(&slope) {
             Some(solved) => solved.trace() + pole_slope,
             None => Complex::new(f64::INFINITY, 0.0),
@@ -139,18 +143,16 @@ impl Dynamics {
     }
 
     /// Phase of f of [`logarithmic_slope`](Self::logarithmic_slope) [rad], up to multiples of 2π.
-    pub(crate) fn phase(&self, omega: Complex, losses: f64, poles: &[Vec<f64>]) -> f64 {
-        let Bordered { value, pole_phase, .. } = self.bordered(omega, losses, poles, BorderedFor::Determinant);
+    pub(crate) fn phase(&self, omega: Complex, losses: f64, poles_below: f64) -> f64 {
+        let Bordered { value, pole_phase, .. } = self.bordered(omega, losses, poles_below, BorderedFor::Determinant);
         value.lu().determinant().arg() + pole_phase
     }
 
-    /// Bordered dynamic stiffness at a complex ω [rad/s] with the fraction `losses` of the damping. `poles` are the
-    /// squares of the clamped frequencies of each cable whose factors complete the determinant.
-    fn bordered(&self, omega: Complex, losses: f64, poles: &[Vec<f64>], purpose: BorderedFor) -> Bordered {
+    /// Bordered dynamic stiffness at a complex ω [rad/s] with the fraction `losses` of the damping. The clamped modes of
+    /// the cables below `poles_below` [rad/s] complete the determinant.
+    fn bordered(&self, omega: Complex, losses: f64, poles_below: f64, purpose: BorderedFor) -> Bordered {
         let mut parts = BorderedParts::of_platform(self, omega, losses, purpose);
-        for (t, poles) in poles.iter().enumerate() {
-            parts.add_cable(t, poles);
-        }
+        (0..self.terms.len()).for_each(|t| parts.add_cable(t, poles_below));
         parts.assembled()
     }
 }
@@ -179,11 +181,11 @@ struct BorderedParts<'d> {
 /// Pole near ω, whose clamped mode is an unknown of its own.
 struct BorderRow {
     /// g_k in the platform's coordinates [√kg].
-    participation: Vec6,
+    participation: CVec6,
     /// g_k over the displacements of the supports [√kg]; empty on a rigid frame.
     on_supports: Vec<f64>,
-    /// ω_k² [rad²/s²].
-    pole: f64,
+    /// ω_k², or with a constant loss factor λ_k [rad²/s²].
+    pole: Complex,
     /// Square ω_c² of its cable, and its derivative.
     square: (Complex, Complex),
 }
@@ -213,11 +215,16 @@ impl<'d> BorderedParts<'d> {
     }
 
     /// Adds cable `t` of those whose stiffness depends on frequency.
-    fn add_cable(&mut self, t: usize, poles: &[f64]) {
+    fn add_cable(&mut self, t: usize, poles_below: f64) {
         let term = &self.dynamics.terms[t];
         let (damping, mass_per_length) = self.dynamics.damping[term.cable];
         let square = damping.times(self.losses).square_with_slope(self.omega, mass_per_length);
         self.squares.push(square);
+        if let Some((form, lossy)) = self.lossy_family(term) {
+            let beside = form.lossy_beside_poles(lossy, square.0, NEAR_POLE_FRACTION, poles_below * poles_below);
+            self.add_lossy_cable(term, &beside, square);
+            return;
+        }
 
         // Stiffness without the poles near ω.
         let (stiffness, near) = term.form.complex_beside_poles(square.0, NEAR_POLE_FRACTION);
@@ -229,7 +236,7 @@ impl<'d> BorderedParts<'d> {
 
         // Poles that are not near are factors of the product.
         let is_near = |pole: f64| near.iter().any(|near| near.pole.to_bits() == pole.to_bits());
-        for pole in poles.iter().filter(|pole| !is_near(**pole)) {
+        for pole in term.form.poles_below(poles_below).iter().filter(|pole| !is_near(**pole)) {
             let gap = pole - square.0;
             self.pole_slope -= square.1 / gap;
             self.pole_phase += gap.arg();
@@ -239,9 +246,40 @@ impl<'d> BorderedParts<'d> {
         self.drives.extend(self.drive_rows(t, square, &near));
         let supports = self.dynamics.supports();
         self.borders.extend(near.iter().map(|near| BorderRow {
-            participation: term.vector(near.direction),
+            participation: term.vector(near.direction).map(Complex::from),
             on_supports: supports.map_or_else(Vec::new, |supports| supports.participation(t, near)),
-            pole: near.pole,
+            pole: near.pole.into(),
+            square,
+        }));
+    }
+
+    /// Poles of a cable with a constant loss of its stretch, where they say all and are known: for the determinant with
+    /// all of the damping, and on a rigid frame.
+    fn lossy_family(&self, term: &'d DynamicCableAt) -> Option<(&'d CatenaryDynamicEnd, &'d LossyFamily)> {
+        if self.purpose == BorderedFor::Motion || self.losses != 1.0 || self.dynamics.supports().is_some() {
+            return None;
+        }
+        let form = term.form.by_poles()?;
+        Some((form, form.lossy_family(0)?))
+    }
+
+    /// Adds a cable by its poles with loss.
+    fn add_lossy_cable(&mut self, term: &DynamicCableAt, beside: &LossyBesidePoles, square: (Complex, Complex)) {
+        add_local(&mut self.value, term, &beside.stiffness);
+        if self.purpose != BorderedFor::Determinant {
+            add_local(&mut self.slope, term, &beside.mass.map(|mass| -square.1 * mass));
+        }
+        for pole in &beside.others {
+            let gap = pole - square.0;
+            self.pole_slope -= square.1 / gap;
+            self.pole_phase += gap.arg();
+        }
+
+        let axes = term.axes();
+        self.borders.extend(beside.near.iter().map(|(pole, direction)| BorderRow {
+            participation: CVec6::from_fn(|i, _| direction.iter().zip(axes).map(|(g, axis)| g * axis[i]).sum()),
+            on_supports: Vec::new(),
+            pole: *pole,
             square,
         }));
     }
@@ -325,10 +363,10 @@ impl BorderRow {
         value[(own, own)] = self.pole - square;
         slope[(own, own)] = -square_slope;
 
-        let by_platform = self.participation.iter().take(dof).enumerate();
-        let by_supports = self.on_supports.iter().enumerate().map(|(j, g)| (first_support + j, g));
+        let by_platform = self.participation.iter().copied().take(dof).enumerate();
+        let by_supports = self.on_supports.iter().enumerate().map(|(j, g)| (first_support + j, (*g).into()));
         for (other, g) in by_platform.chain(by_supports) {
-            for (matrix, entry) in [(&mut *value, -square * *g), (&mut *slope, -square_slope * *g)] {
+            for (matrix, entry) in [(&mut *value, -square * g), (&mut *slope, -square_slope * g)] {
                 matrix[(other, own)] = entry;
                 matrix[(own, other)] = entry;
             }

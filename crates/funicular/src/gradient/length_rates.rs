@@ -18,7 +18,8 @@ use crate::statics::{Equilibrium, StaticModel, TensionRule};
 /// use funicular::statics::{self, StaticModel, TensionRule};
 ///
 /// let robot = Robot::from_toml(funicular_robots::COGIRO)?;
-/// let rest = statics::solve(&robot, StaticModel::Catenary, None)?.equilibrium;
+/// let pose = statics::solve(&robot, StaticModel::Catenary, None)?.equilibrium.pose;
+/// let rest = statics::distribute_tensions(&robot, &pose, StaticModel::Catenary, &TensionRule::Lowest)?;
 /// let rates = LengthRates::of(&robot, &rest, &TensionRule::Lowest)?;
 /// let upwards = Vec6::new(0.0, 0.0, 0.5, 0.0, 0.0, 0.0); // m/s
 /// assert!(rates.of_twist(&upwards).iter().all(|rate| *rate < 0.0)); // m/s; every cable gets shorter

@@ -116,6 +116,8 @@ const FIRST_ANGLE: f64 = 0.3;
 /// ([`ONE_ZERO`]) and far less than [`MAX_STEP`]. Angle of that start [rad]: on no axis.
 const BESIDE: f64 = 1e-3;
 const BESIDE_ANGLE: f64 = 0.7;
+/// Number of evaluations of the determinant per mode: steps of its search and points on the boundary of the region.
+const EVALUATIONS_PER_MODE: usize = 8;
 /// Ratio to the frequency limit up to which poles are divided out of det D, so that no remaining pole is near a zero.
 const POLES_BEYOND: f64 = 1.3;
 
@@ -149,10 +151,11 @@ pub fn damped_modes(dynamics: &Dynamics, undamped: &Modes) -> DampedModes {
     }
     let strongest = sought.iter().map(|mode| mode.damping_ratio).fold(0.0, f64::max);
     let steps = (strongest / STEP_OF_DAMPING).ceil().clamp(1.0, MAX_STEPS);
+    dynamics.find_lossy_poles(EVALUATIONS_PER_MODE * sought.len());
     let mut search = ZeroSearch {
         dynamics,
         losses: 1.0 / steps,
-        poles: dynamics.poles_below(POLES_BEYOND * limit),
+        poles_below: POLES_BEYOND * limit,
         foreign: Vec::new(),
         may_grow: dynamics.has_delays(),
     };
@@ -196,8 +199,8 @@ struct ZeroSearch<'a> {
     dynamics: &'a Dynamics,
     /// Fraction of the damping that acts in the present step.
     losses: f64,
-    /// Poles of each cable whose stiffness depends on frequency.
-    poles: Vec<Vec<f64>>,
+    /// Frequency up to which the clamped modes of the cables are divided out [rad/s].
+    poles_below: f64,
     /// Zeros outside the region at which a search has ended; they are divided out, too.
     foreign: Vec<Complex>,
     /// True if a motion may grow, because the control of a motor has a delay. Otherwise every motion decays.
@@ -276,7 +279,7 @@ impl ZeroSearch<'_> {
                     .map(|other| other.members.len() as f64 / (omega - other.omega))
                     .sum();
                 let foreign: Complex = self.foreign.iter().map(|zero| 1.0 / (omega - zero)).sum();
-                let slope = self.dynamics.logarithmic_slope(omega, self.losses, &self.poles) - others - foreign;
+                let slope = self.dynamics.logarithmic_slope(omega, self.losses, self.poles_below) - others - foreign;
                 let step = zeros[i].members.len() as f64 / slope;
 
                 if !(step.re.is_finite() && step.im.is_finite()) {
@@ -404,7 +407,7 @@ impl ZeroSearch<'_> {
         for k in 0..POINTS {
             let at = Complex::from_polar(radius, TAU * k as f64 / POINTS as f64);
             let mut power =
-                self.dynamics.logarithmic_slope(zero.omega + at, self.losses, &self.poles) * at / POINTS as f64;
+                self.dynamics.logarithmic_slope(zero.omega + at, self.losses, self.poles_below) * at / POINTS as f64;
             for moment in &mut moments {
                 *moment += power;
                 power *= at;
@@ -486,7 +489,7 @@ impl ZeroSearch<'_> {
 
         // Total change of the phase along the boundary.
         let phase = |omega: Complex| {
-            self.dynamics.phase(omega, 1.0, &self.poles) - self.dynamics.phase(omega, 0.0, &self.poles)
+            self.dynamics.phase(omega, 1.0, self.poles_below) - self.dynamics.phase(omega, 0.0, self.poles_below)
         };
         let mut turned = 0.0;
         for (from, to) in corners.iter().zip(corners.iter().cycle().skip(1)) {

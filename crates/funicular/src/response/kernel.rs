@@ -1,10 +1,10 @@
 //! Receptance at many frequencies; [`LANES`] of them are computed side by side.
 
 use super::receptance;
-use crate::cable::catenary_dynamic::{CatenaryDynamicEnd, PoleResidue};
+use crate::cable::catenary_dynamic::{CatenaryDynamicEnd, LossyFamily, LossyPoles, PoleResidue};
 use crate::cable::shallow_dynamic::{self, Entire, SERIES_BELOW, ShallowDynamic};
 use crate::cable::{DynamicCable, LocalStiffness};
-use crate::dynamics::Dynamics;
+use crate::dynamics::{DynamicCableAt, Dynamics};
 use crate::math::simd::complex::{Complexes, SIN_COS_LIMIT, TANH_LIMIT, sin_cos, tanh};
 use crate::math::simd::{LANES, Lane};
 use crate::math::{CMat6, Complex, Vec6};
@@ -36,10 +36,13 @@ struct Prepared<'a> {
     mass: [f64; 21],
     platform_damping: [f64; 21],
     products: Vec<Products>,
+    /// Poles of each term with a constant loss of its stretch.
+    lossy: Vec<Option<&'a LossyFamily>>,
 }
 
 impl<'a> Prepared<'a> {
-    fn new(dynamics: &'a Dynamics) -> Self {
+    /// Data for this number of frequencies.
+    fn new(dynamics: &'a Dynamics, frequencies: usize) -> Self {
         let lower = |f: &dyn Fn(usize, usize) -> f64| {
             let mut entries = [0.0; 21];
             for j in 0..6 {
@@ -69,6 +72,7 @@ impl<'a> Prepared<'a> {
                 }
             })
             .collect();
+        let lossy = |term: &'a DynamicCableAt| term.form().by_poles()?.lossy_family(frequencies);
 
         Self {
             dynamics,
@@ -76,6 +80,7 @@ impl<'a> Prepared<'a> {
             mass: lower(&|i, j| mass[(i, j)]),
             platform_damping: lower(&|i, j| damping[(i, j)]),
             products,
+            lossy: dynamics.terms().iter().map(lossy).collect(),
         }
     }
 
@@ -87,14 +92,14 @@ impl<'a> Prepared<'a> {
             im: from_fn(|i| omega[i] * self.platform_damping[k]),
         });
 
-        for (term, products) in self.dynamics.terms().iter().zip(&self.products) {
+        for ((term, products), lossy) in self.dynamics.terms().iter().zip(&self.products).zip(&self.lossy) {
             let (k, in_plane_only, coupled) = match term.form() {
                 DynamicCable::ShallowDynamic(form) => {
                     (shallow_dynamic::stiffness(entire(form, omega), &form.sag), form.in_plane_only, false)
                 }
                 DynamicCable::CatenaryDynamic(form) => {
-                    let mut k = catenary_dynamic(form, omega);
-                    if form.has_drive_losses() {
+                    let mut k = catenary_dynamic(form, *lossy, omega);
+                    if lossy.is_none() && form.has_drive_losses() {
                         add_drive(&mut k, form, omega);
                     }
                     (k, form.in_plane_only, form.coupled().is_some())
@@ -119,6 +124,14 @@ impl<'a> Prepared<'a> {
         d
     }
 
+    /// Factors as by [`factorise`]. A loss factor takes nothing at rest, where the complex poles do not hold.
+    #[inline(always)]
+    fn factorise(&self, d: &mut [Complexes; 21], omega: &Lane) -> [bool; LANES] {
+        let accurate = factorise(d);
+        let is_lossy = self.lossy.iter().any(Option::is_some);
+        from_fn(|i| accurate[i] && !(is_lossy && omega[i] == 0.0))
+    }
+
     /// Subtracts the stiffness that the platform loses because supports yield, lane by lane.
     #[inline(never)]
     fn take_off_supports(&self, d: &mut [Complexes; 21], omega: &Lane) {
@@ -134,19 +147,25 @@ impl<'a> Prepared<'a> {
     }
 }
 
-/// Stiffness of a catenary-dynamic cable at each lane.
+/// Stiffness of a catenary-dynamic cable at each lane. `lossy` has its poles with a constant loss of the stretch.
 #[inline(always)]
-fn catenary_dynamic(form: &CatenaryDynamicEnd, omega: &Lane) -> LocalStiffness<Complexes> {
+fn catenary_dynamic(form: &CatenaryDynamicEnd, lossy: Option<&LossyFamily>, omega: &Lane) -> LocalStiffness<Complexes> {
     let (mut re, mut im) = ([0.0; LANES], [0.0; LANES]);
     for i in 0..LANES {
         (re[i], im[i]) = form.damping.square(omega[i], form.mass_per_length);
     }
     let x = Complexes { re, im };
     if let Some(family) = form.coupled() {
-        let [axial, coupling, normal, along, across, out_of_plane] = pole_sum(family, &x);
+        let [axial, coupling, normal, along, across, out_of_plane] = match lossy {
+            Some(LossyFamily::Coupled(lossy)) => lossy_pole_sum(lossy, &x),
+            _ => pole_sum(family, &x),
+        };
         return LocalStiffness { axial, coupling, normal, out_of_plane, across: [along, across] };
     }
-    let [axial, coupling, normal] = pole_sum(form.in_plane(), &x);
+    let [axial, coupling, normal] = match lossy {
+        Some(LossyFamily::InPlane(lossy)) => lossy_pole_sum(lossy, &x),
+        _ => pole_sum(form.in_plane(), &x),
+    };
     let out_of_plane = match form.out_of_plane() {
         Some(family) => pole_sum(family, &x)[0],
         None => Complexes::ZERO,
@@ -187,6 +206,21 @@ fn pole_sum<const N: usize, const E: usize>(of: &PoleResidue<N, E>, x: &Complexe
     }
     let (stiffness, mass): ([f64; E], [f64; E]) = (of.start_stiffness(), of.start_mass());
     from_fn(|e| Complexes::real(stiffness[e]) - *x * (Complexes::real(mass[e]) + *x * sums[e]))
+}
+
+/// Entries of `K − x M − x² Σ g gᵀ/(λ_k − x)` with complex poles at each lane.
+#[inline(always)]
+fn lossy_pole_sum<const D: usize, const E: usize>(of: &LossyPoles<D, E>, x: &Complexes) -> [Complexes; E] {
+    let mut sums = [Complexes::ZERO; E];
+    for (k, pole) in of.poles.iter().enumerate() {
+        let gap = Complexes { re: from_fn(|i| pole.re - x.re[i]), im: from_fn(|i| pole.im - x.im[i]) };
+        let factor = gap.inverse();
+        for (sum, residues) in sums.iter_mut().zip(&of.residues) {
+            sum.add_product(&factor, residues[k]);
+        }
+    }
+    let constant = |value: Complex| Complexes { re: [value.re; LANES], im: [value.im; LANES] };
+    from_fn(|e| constant(of.stiffness[e]) - *x * (constant(of.mass[e]) + *x * sums[e]))
 }
 
 /// Functions of γ of the shallow-dynamic model at each lane, divided by cosh Im √γ.
@@ -290,7 +324,7 @@ pub(super) fn one_entry(dynamics: &Dynamics, frequencies_hz: &[f64], input: &Vec
 
     let mut values = vec![Complex::new(0.0, 0.0); frequencies_hz.len()];
     let entries = OneEntry {
-        prepared: Prepared::new(dynamics),
+        prepared: Prepared::new(dynamics, frequencies_hz.len()),
         frequencies_hz,
         force: vector(input),
         motion: vector(output),
@@ -322,7 +356,7 @@ pub(super) fn entries(
 
     let mut rows = vec![vec![Complex::new(0.0, 0.0); frequencies_hz.len()]; inputs.len() * outputs.len()];
     let entries = Entries {
-        prepared: Prepared::new(dynamics),
+        prepared: Prepared::new(dynamics, frequencies_hz.len()),
         frequencies_hz,
         forces: inputs.iter().map(vector).collect(),
         motions: outputs.iter().map(vector).collect(),
@@ -345,7 +379,11 @@ fn plain_entry(dynamics: &Dynamics, omega: f64, input: &Vec6, output: &Vec6) -> 
 /// Complete receptance at each frequency [Hz].
 pub(super) fn all_entries(dynamics: &Dynamics, frequencies_hz: &[f64]) -> Vec<CMat6> {
     let mut values = vec![CMat6::zeros(); frequencies_hz.len()];
-    pulp::Arch::new().dispatch(AllEntries { prepared: Prepared::new(dynamics), frequencies_hz, values: &mut values });
+    pulp::Arch::new().dispatch(AllEntries {
+        prepared: Prepared::new(dynamics, frequencies_hz.len()),
+        frequencies_hz,
+        values: &mut values,
+    });
     values
 }
 
@@ -369,7 +407,7 @@ impl pulp::NullaryFnOnce for OneEntry<'_> {
         for (block, values) in frequencies_hz.chunks(LANES).zip(values.chunks_mut(LANES)) {
             let omega = angular(block);
             let mut d = prepared.dynamic_stiffness(&omega);
-            let accurate = factorise(&mut d);
+            let accurate = prepared.factorise(&mut d, &omega);
             let sum = product(&d, &forward(&d, &force), &forward(&d, &motion));
             for (i, value) in values.iter_mut().enumerate() {
                 *value = if accurate[i] { sum.lane(i) } else { plain(omega[i]) };
@@ -399,7 +437,7 @@ impl pulp::NullaryFnOnce for Entries<'_> {
         for (block, start) in frequencies_hz.chunks(LANES).zip((0..).step_by(LANES)) {
             let omega = angular(block);
             let mut d = prepared.dynamic_stiffness(&omega);
-            let accurate = factorise(&mut d);
+            let accurate = prepared.factorise(&mut d, &omega);
             for (z, force) in forwards.iter_mut().zip(&forces) {
                 *z = forward(&d, force);
             }
@@ -437,7 +475,7 @@ impl pulp::NullaryFnOnce for AllEntries<'_> {
             let omega = angular(block);
             let mut d = prepared.dynamic_stiffness(&omega);
 
-            let accurate = factorise(&mut d);
+            let accurate = prepared.factorise(&mut d, &omega);
             let inverse = invert(&d);
             for (i, value) in values.iter_mut().enumerate() {
                 *value = if accurate[i] { of_lane(dynamics, &inverse, i) } else { receptance(dynamics, omega[i]) };

@@ -4,6 +4,7 @@ use funicular::cable::{CableModel, DynamicCable, EndStiffness, Sag};
 use funicular::dynamics::{Dynamics, Linearisation};
 use funicular::math::{Complex, Mat3};
 use funicular::modes::{self, damped};
+use funicular::response;
 use funicular::robot::{Damping, Robot, StretchLoss, WinchMode};
 use funicular::statics::{self, Equilibrium, StaticModel};
 use std::f64::consts::TAU;
@@ -212,6 +213,29 @@ fn the_loss_takes_energy_at_every_frequency() {
             let [a, b, c, o] = k.map(|entry| entry.im);
             let lost = Mat3::new(a, b, 0.0, b, c, 0.0, 0.0, 0.0, o).symmetric_eigenvalues();
             assert!(lost.min() > -1e-9 * lost.max() && lost.max() > 0.0, "{model}, {hz} Hz: {lost}");
+        }
+    }
+}
+
+/// Many frequencies at once use the complex poles of cables with a constant loss factor; one frequency solves with the
+/// moments of the strain. Both are the same at every frequency, at rest too, where nothing is lost.
+#[test]
+fn complex_poles_of_cables_give_the_responses_of_single_frequencies() {
+    let models = [CableModel::CatenaryDynamic, CableModel::ShallowDynamic, CableModel::CatenaryStatic];
+    for text in [funicular_robots::YUAN2014_4MM, funicular_robots::COGIRO, funicular_robots::COGIRO_WINCHES] {
+        for (damping, factor) in [(Damping::Ratio(0.003), 0.02), (Damping::Viscous(0.05), 0.3)] {
+            let (robot, rest) = lossy(text, damping, StretchLoss { factor, time: 0.0 });
+            for model in models {
+                let dynamics = linearised(&robot, &rest, model, 20.0);
+                let frequencies: Vec<f64> = (0..1501).map(|k| 0.013 * f64::from(k)).collect();
+                let many = response::receptances(&dynamics, &frequencies).unwrap();
+
+                for (hz, matrix) in frequencies.iter().zip(&many).step_by(37) {
+                    let one = response::receptance(&dynamics, hz * TAU);
+                    let gap = (matrix - one).norm() / one.norm();
+                    assert!(gap < 1e-10, "{}, {model}, loss factor {factor}, {hz} Hz: {gap}", robot.name);
+                }
+            }
         }
     }
 }

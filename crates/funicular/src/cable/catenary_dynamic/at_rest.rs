@@ -5,8 +5,8 @@
 
 use super::stretch::StrainMoments;
 use super::{
-    CatenaryDynamic, CatenaryDynamicEnd, CatenaryDynamicError, Displacements, DriveMotion, EndDirections, MovingEnd,
-    PoleResidue,
+    CatenaryDynamic, CatenaryDynamicEnd, CatenaryDynamicError, Derived, Displacements, DriveMotion, EndDirections,
+    MovingEnd, PoleResidue,
 };
 use crate::cable::{LocalAxes, LocalStiffness};
 use crate::catenary::Catenary;
@@ -109,6 +109,7 @@ impl CatenaryDynamicEnd {
             directions: EndDirections::along_chord(),
             shapes: None,
             is_at_rest: true,
+            lossy: Derived::default(),
         })
     }
 }

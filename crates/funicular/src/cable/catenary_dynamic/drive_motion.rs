@@ -344,9 +344,11 @@ impl CatenaryDynamicEnd {
     /// True if the undamped model does not describe the cable with its drive completely: masses of the drive that do
     /// not share the damping of the cable, losses of its control, or of the stretch of the rope.
     pub(crate) fn has_drive_losses(&self) -> bool {
-        if self.has_strains() && self.stretch_loss.is_some() {
-            return true;
-        }
+        (self.has_strains() && self.stretch_loss.is_some()) || self.has_losses_of_end()
+    }
+
+    /// True if masses of the drive do not share the damping of the cable, or its control has losses.
+    pub(super) fn has_losses_of_end(&self) -> bool {
         let Some(end) = &self.cable.end else { return false };
         let damped_cable = self.damping.ratio_at(1.0, self.mass_per_length) > 0.0;
         (damped_cable && end.has_mass()) || end.chain().is_some_and(DriveChain::has_losses)

@@ -27,11 +27,16 @@ const ENTRIES: [(usize, usize); 6] = [(0, 0), (0, 1), (1, 1), (0, 2), (1, 2), (2
 
 /// Entries of the start's block of a symmetric matrix over both ends.
 #[inline(always)]
-fn at_start<const N: usize, const E: usize>(matrix: &[[f64; N]; N]) -> [f64; E] {
+pub(super) fn at_start<const N: usize, const E: usize>(matrix: &[[f64; N]; N]) -> [f64; E] {
     from_fn(|e| {
         let (i, j) = ENTRIES[e];
         matrix[i][j]
     })
+}
+
+/// Row and column of each entry of the start's block.
+pub(super) fn entry_indices<const E: usize>() -> [(usize, usize); E] {
+    from_fn(|e| ENTRIES[e])
 }
 
 /// 1/(pole − x) with one division, at a tenth of the time of the division of complex numbers.

@@ -42,6 +42,15 @@ impl Complexes {
         Self { re: from_fn(|i| self.re[i] * n[i]), im: from_fn(|i| -self.im[i] * n[i]) }
     }
 
+    /// Adds `factor * k` to `self`, k the same complex number in all lanes.
+    #[inline(always)]
+    pub(crate) fn add_product(&mut self, factor: &Self, k: Complex) {
+        for i in 0..LANES {
+            self.re[i] += factor.re[i] * k.re - factor.im[i] * k.im;
+            self.im[i] += factor.re[i] * k.im + factor.im[i] * k.re;
+        }
+    }
+
     /// Adds `factor * k` to `self`, k real.
     #[inline(always)]
     pub(crate) fn add_scaled(&mut self, factor: &Self, k: f64) {
