@@ -23,6 +23,8 @@ pub struct CalibrationFrame {
     conditions: DMat,
     /// Orthonormal basis of the changes that keep the conditions, as columns.
     pub(super) free: DMat,
+    /// True for inner conditions.
+    pub is_inner: bool,
     /// Cables whose anchors the conditions hold, in their order; empty for inner conditions.
     pub held: Vec<usize>,
     /// Number of coordinates that the conditions hold for each of these cables.
@@ -58,7 +60,18 @@ impl Calibration {
             FrameChoice::Inner => (motions.transpose(), Vec::new(), Vec::new()),
             FrameChoice::Anchors(order) => self.conditions(&motions, order),
         };
-        Ok(CalibrationFrame { free: null_space(&conditions), motions, conditions, held, held_coordinates })
+        let is_inner = *choice == FrameChoice::Inner;
+        Ok(CalibrationFrame { free: null_space(&conditions), motions, conditions, is_inner, held, held_coordinates })
+    }
+
+    /// Frame with the free motions of a fit, which turn about its own anchors; inner conditions are then those of the fit.
+    pub fn frame_about(&self, frame: &CalibrationFrame, fit: &super::CalibrationFit) -> CalibrationFrame {
+        let motions = self.free_motions(&fit.values, &fit.poses, false);
+        if motions.ncols() != frame.motions.ncols() {
+            return frame.clone();
+        }
+        let conditions = if frame.is_inner { motions.transpose() } else { frame.conditions.clone() };
+        CalibrationFrame { free: null_space(&conditions), motions, conditions, ..frame.clone() }
     }
 
     /// Poses in general position, at which no accident hides a motion.
@@ -274,6 +287,20 @@ struct MotionField {
 }
 
 impl CalibrationFrame {
+    /// True if the conditions hold an unknown by itself.
+    pub fn holds(&self, unknown: usize) -> bool {
+        self.free.row(unknown).norm() <= NEW_CONDITION
+    }
+
+    /// Gives the unknowns that the conditions hold one by one their starting values, without rounding.
+    pub(super) fn hold(&self, values: &mut [f64], start: &[f64]) {
+        for (k, (value, start)) in values.iter_mut().zip(start).enumerate() {
+            if self.holds(k) {
+                *value = *start;
+            }
+        }
+    }
+
     /// Number of unknowns less that of the conditions.
     pub fn free_count(&self) -> usize {
         self.free.ncols()

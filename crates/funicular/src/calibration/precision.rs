@@ -160,6 +160,12 @@ impl CalibrationPrecision {
         self.covariance.trace().max(0.0).sqrt()
     }
 
+    /// Largest deviation of a combination of the unknowns, in the frame of the fit [m].
+    pub fn weakest(&self) -> f64 {
+        let eigenvalues = self.free_covariance.symmetric_eigenvalues();
+        if eigenvalues.is_empty() { 0.0 } else { eigenvalues.max().max(0.0).sqrt() }
+    }
+
     /// Each row left out of the fit.
     pub fn rows_left_out(&self, frame: &CalibrationFrame) -> Vec<LeftOutRow> {
         self.net.iter().map(|row| self.left_out(row, &frame.free)).collect()

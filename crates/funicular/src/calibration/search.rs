@@ -91,7 +91,8 @@ pub fn search(
     }
 
     let mut minima = minima.into_iter();
-    let (best, arrivals) = minima.next()?;
+    let (mut best, arrivals) = minima.next()?;
+    frame.hold(&mut best.values, &of.start());
     let others = minima.map(|(other, _)| other).filter(|other| other.chi2 < best.chi2 + FITS_AS_WELL).collect();
     Some(CalibrationSearch { best, others, starts: done, arrivals, from_nothing })
 }
