@@ -1,7 +1,7 @@
 //! Calibration from lengths whose poses are unknown: anchors, attachments, offsets and scale of the readings, found
 //! together with the pose of every row.
 //!
-//! The equations (Q1) to (Q11) are in section 17c of docs/theory.md. Cables are straight and rigid. A row of readings
+//! The equations (96a) to (96k) are in section 18d of docs/theory.md. Cables are straight and rigid. A row of readings
 //! has more cables than its pose has degrees of freedom; what is left of it after its pose is eliminated, its net rows,
 //! says something about the robot.
 
@@ -99,7 +99,9 @@ pub enum CalibrationError {
     #[error("{0}")]
     NoSuchUnknown(&'static str),
     /// The search has found no minimum.
-    #[error("no start of the search arrived at a minimum ({starts} starts): give anchors that are nearer, or poses of the rows")]
+    #[error(
+        "no start of the search arrived at a minimum ({starts} starts): give anchors that are nearer, or poses of the rows"
+    )]
     NoMinimum {
         /// Number of starts.
         starts: usize,
@@ -131,14 +133,8 @@ impl Calibration {
         let first = robot.cables.first().map_or(Vec3::zeros(), |cable| cable.attachment_p);
         let coincide = robot.cables.iter().all(|cable| (cable.attachment_p - first).norm() <= SAME_POINT * mean);
         let is_point = robot.platform.motion == PlatformMotion::PointMass || (coincide && !attachments);
-        let made = Self {
-            robot,
-            unknowns,
-            rows,
-            deviations,
-            scale_length: if mean > 0.0 { mean } else { 1.0 },
-            is_point,
-        };
+        let made =
+            Self { robot, unknowns, rows, deviations, scale_length: if mean > 0.0 { mean } else { 1.0 }, is_point };
         made.check()?;
         Ok(made)
     }
@@ -171,7 +167,7 @@ impl Calibration {
         Ok(())
     }
 
-    /// Refuses fewer data than unknowns (Q7).
+    /// Refuses fewer data than unknowns (96g).
     ///
     /// # Errors
     /// [`CalibrationError::TooFewRows`].
@@ -223,11 +219,8 @@ impl Calibration {
 
     /// Robot and readings with values of the unknowns.
     pub fn robot_at(&self, values: &[f64]) -> CalibratedRobot {
-        let mut calibrated = CalibratedRobot {
-            robot: self.robot.clone(),
-            offsets: vec![0.0; self.robot.cables.len()],
-            scale: 1.0,
-        };
+        let mut calibrated =
+            CalibratedRobot { robot: self.robot.clone(), offsets: vec![0.0; self.robot.cables.len()], scale: 1.0 };
         calibrated.set(&self.unknowns, values, self.scale_length);
         calibrated
     }

@@ -77,12 +77,7 @@ impl Printed for Calibrated {
         }
         text += &weak(self);
         let _ = write!(text, "\nRows\n{}\n", Table::of(&ReadingRow::columns(self.turns), &self.rows));
-        let _ = writeln!(
-            text,
-            "{} of {} arrived at this minimum.",
-            self.arrivals,
-            counted(self.starts, "start")
-        );
+        let _ = writeln!(text, "{} of {} arrived at this minimum.", self.arrivals, counted(self.starts, "start"));
         for minimum in &self.minima {
             let _ = writeln!(
                 text,

@@ -1,6 +1,6 @@
 //! `calibrate`: anchors, attachments, offsets and scale from readings of lengths at poses that nobody knows.
 //!
-//! docs/theory.md, section 17c, has the equations. `identify` takes measured results of states that are known; here every
+//! docs/theory.md, section 18d, has the equations. `identify` takes measured results of states that are known; here every
 //! row brings its own unknown pose.
 
 mod candidates;
@@ -148,9 +148,7 @@ pub fn run(request: &CalibrateRequest, watch: &mut dyn Watch) -> Result<Calibrat
     if watch.is_cancelled() {
         return Err(Cancelled.into());
     }
-    let found = found.ok_or_else(|| {
-        NoSolution(CalibrationError::NoMinimum { starts: request.starts }.to_string())
-    })?;
+    let found = found.ok_or_else(|| NoSolution(CalibrationError::NoMinimum { starts: request.starts }.to_string()))?;
 
     CalibrationReport::new(request, &of, &frame, &found, &candidates)?.results()
 }
@@ -182,9 +180,12 @@ fn unknowns(request: &CalibrateRequest, robot: &Robot) -> Result<Vec<Calibration
     let (axes, held) = (&axes, &held);
     let points = |is_anchor: bool| {
         (0..count).flat_map(move |cable| {
-            axes.iter().map(move |&axis| match is_anchor {
-                true => CalibrationUnknown::Anchor { cable, axis },
-                false => CalibrationUnknown::Attachment { cable, axis },
+            axes.iter().map(move |&axis| 
+                if is_anchor {
+                    CalibrationUnknown::Anchor { cable, axis }
+                } else {
+                    CalibrationUnknown::Attachment { cable, axis }
+                }
             })
         })
     };

@@ -1,4 +1,4 @@
-//! Elimination of the pose of a row by Householder reflections, which keeps all digits of a row (Q3).
+//! Elimination of the pose of a row by Householder reflections, which keeps all digits of a row (96c).
 
 use super::row::RowTerms;
 use crate::math::{DMat, DVec};

@@ -90,7 +90,15 @@ fn renamed_anchors(of: &Calibration, fit: &CalibrationFit) -> Option<CableExchan
     }
     let renamed = |cables: [usize; 2]| {
         let [x, y] = cables;
-        let names = move |a: usize| if a == x { y } else if a == y { x } else { a };
+        let names = move |a: usize| {
+            if a == x {
+                y
+            } else if a == y {
+                x
+            } else {
+                a
+            }
+        };
         CableExchange { cables, chi2: difference(&names) }
     };
     let best = pairs(count).map(renamed).min_by(|a, b| a.chi2.total_cmp(&b.chi2))?;

@@ -1,9 +1,9 @@
 //! Levenberg–Marquardt search over all unknowns of the robot and all poses at once, with the poses eliminated row by row:
 //! the cost of a step is linear in the number of rows.
 
+use super::Calibration;
 use super::elimination::EliminatedRow;
 use super::row::RowTerms;
-use super::Calibration;
 use crate::math::{DMat, DVec};
 use crate::robot::Pose;
 
@@ -23,8 +23,9 @@ const MIN_DECREASE: f64 = 1e-12;
 /// The same relative to χ², which is rounding of the sum of squares.
 const MIN_RELATIVE_DECREASE: f64 = 1e-14;
 
-/// Maximum number of iterations. Eight cables with offsets and 32 rows, started at the middle, take about 40.
-const MAX_ITERATIONS: usize = 300;
+/// Maximum number of iterations of a fit. Eight cables with offsets and 32 rows, started at the middle, take about 40;
+/// exchanged cables creep for hundreds.
+pub(super) const MAX_ITERATIONS: usize = 300;
 
 /// Result of one search.
 #[derive(Debug, Clone)]
@@ -61,6 +62,17 @@ impl Calibration {
     /// Elimination of separable unknowns: G. H. Golub, V. Pereyra, SIAM J. Numer. Anal. 10 (1973); damping: H. B.
     /// Nielsen (1999).
     pub(super) fn fit(&self, values: &[f64], poses: &[Pose], free: &DMat) -> CalibrationFit {
+        self.fit_within(MAX_ITERATIONS, values, poses, free)
+    }
+
+    /// The same with at most so many iterations.
+    pub(super) fn fit_within(
+        &self,
+        max_iterations: usize,
+        values: &[f64],
+        poses: &[Pose],
+        free: &DMat,
+    ) -> CalibrationFit {
         let mut fit = CalibrationFit {
             values: values.to_vec(),
             poses: poses.to_vec(),
@@ -73,7 +85,7 @@ impl Calibration {
         let mut scale = Scales::new(free.ncols(), self.rows.len(), self.coordinate_count());
         let (mut damping, mut growth) = (FIRST_DAMPING, 2.0);
 
-        while fit.iterations < MAX_ITERATIONS && fit.chi2.is_finite() {
+        while fit.iterations < max_iterations && fit.chi2.is_finite() {
             fit.iterations += 1;
             scale.grow(&at.rows, free);
             let step = scale.step(&at.rows, free, damping);

@@ -166,7 +166,9 @@ impl Calibration {
             field.known.extend(at.offsets.iter().map(|offset| offset / spread));
             fields.push(field);
             let longest = fields.iter().map(|of| of.known.len()).max().unwrap_or(0);
-            fields.iter_mut().for_each(|of| of.known.resize(longest, 0.0));
+            for field in &mut fields {
+                field.known.resize(longest, 0.0);
+            }
         }
         fields
     }
@@ -212,7 +214,9 @@ impl Calibration {
             }
             let mut fixes = motions.transpose() * row;
             let size = fixes.norm();
-            basis.iter().for_each(|known: &DVec| fixes -= known * known.dot(&fixes));
+            for known in &basis {
+                fixes -= known * known.dot(&fixes);
+            }
             if fixes.norm() <= NEW_CONDITION * size.max(NEW_CONDITION) {
                 continue;
             }
@@ -264,7 +268,7 @@ impl Calibration {
             // Across the direction, along the axes as far as possible.
             let mut across: Vec<Vec3> = axes.iter().map(|axis| axis - along * along.dot(axis)).collect();
             across.sort_by(|x, y| y.norm().total_cmp(&x.norm()));
-            let first = across.first().map(|of| of.normalize());
+            let first = across.first().map(Vec3::normalize);
             candidates.extend(first.and_then(|direction| row(*b, direction)));
             if let (Some(first), true) = (first, axes.len() == 3) {
                 candidates.extend(row(*b, along.cross(&first)));
@@ -311,7 +315,7 @@ impl CalibrationFrame {
         self.motions.ncols()
     }
 
-    /// Covariance of the unknowns with inner conditions, from that in any frame (Q4).
+    /// Covariance of the unknowns with inner conditions, from that in any frame (96d).
     pub fn inner(&self, covariance: &DMat) -> DMat {
         let project = self.inner_projection();
         &project * covariance * project.transpose()

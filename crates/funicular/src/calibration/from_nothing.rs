@@ -1,5 +1,5 @@
 //! Anchors and positions from nothing but lengths, for platforms whose cables end in one point: the table of squared
-//! lengths has the rank of the space (Q8), and what this leaves open is linear (Q9).
+//! lengths has the rank of the space (96h), and what this leaves open is linear (96i).
 
 use crate::math::{DMat, DVec};
 
@@ -74,13 +74,14 @@ fn unfold(squares: &DMat, dimension: usize) -> Option<(DMat, DMat)> {
     // H = CᵀC.
     let eigen = metric.symmetric_eigen();
     let largest = eigen.eigenvalues.max();
-    if !(largest > 0.0) {
+    if largest.is_nan() || largest <= 0.0 {
         return None;
     }
     let raised = eigen.eigenvalues.map(|value| value.max(FLAT * largest));
     let root = &eigen.eigenvectors * DMat::from_diagonal(&raised.map(f64::sqrt)) * eigen.eigenvectors.transpose();
-    let inverse =
-        &eigen.eigenvectors * DMat::from_diagonal(&raised.map(|value| 1.0 / value.sqrt())) * eigen.eigenvectors.transpose();
+    let inverse = &eigen.eigenvectors
+        * DMat::from_diagonal(&raised.map(|value| 1.0 / value.sqrt()))
+        * eigen.eigenvectors.transpose();
     let mean = &inverse * shift;
     let of_rows = u * &root;
     let mut of_columns = v * &inverse;

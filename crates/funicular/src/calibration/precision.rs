@@ -39,7 +39,7 @@ struct NetRow {
     directions: DMat,
 }
 
-/// Row left out of a fit, by the linearisation (Q10).
+/// Row left out of a fit, by the linearisation (96j).
 #[derive(Debug, Clone)]
 pub struct LeftOutRow {
     /// Decrease of χ² if the row is left out; `None` for a row that no other row checks.
@@ -186,9 +186,10 @@ impl CalibrationPrecision {
         // Residuals of the data, and their variances after the fit.
         let data = &row.directions * &row.residuals;
         let variances = (&row.directions * &rest * row.directions.transpose()).diagonal();
-        let normalised = data.iter().zip(variances.iter()).map(|(residual, variance)| {
-            if *variance > INDISPENSABLE { residual / variance.sqrt() } else { 0.0 }
-        });
+        let normalised = data
+            .iter()
+            .zip(variances.iter())
+            .map(|(residual, variance)| if *variance > INDISPENSABLE { residual / variance.sqrt() } else { 0.0 });
         LeftOutRow {
             chi2_drop: solved.map(|solved| row.residuals.dot(&solved)),
             degrees,

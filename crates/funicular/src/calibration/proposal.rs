@@ -1,4 +1,4 @@
-//! Poses that reduce the deviations most if they are measured next (Q11).
+//! Poses that reduce the deviations most if they are measured next (96k).
 
 use super::elimination::EliminatedRow;
 use super::frame::CalibrationFrame;

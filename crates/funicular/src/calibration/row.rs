@@ -1,6 +1,6 @@
 //! One row of measured readings: residuals and their derivatives by the unknowns of the robot and by the row's pose.
 
-use super::{Calibration, CalibratedRobot, CalibrationUnknown};
+use super::{CalibratedRobot, Calibration, CalibrationUnknown};
 use crate::math::{DMat, DVec, Vec6};
 use crate::platform::StraightCable;
 use crate::robot::Pose;
@@ -49,20 +49,19 @@ pub(super) struct RowTerms {
 }
 
 impl Calibration {
-    /// Residuals of a row at a pose, in deviations (Q1).
+    /// Residuals of a row at a pose, in deviations (96a).
     pub(super) fn residuals(&self, at: &CalibratedRobot, row: &MeasuredRow, pose: &Pose) -> DVec {
         let readings = row.readings.iter().enumerate().filter_map(|(i, reading)| {
             let length = at.robot.cables[i].straight_length(pose);
             Some(((length - at.offsets[i]) / at.scale - (*reading)?) / self.deviations.reading)
         });
-        let positions = (0..3).filter_map(|axis| {
-            Some((pose.position_w[axis] - row.position[axis]?) / self.deviations.position)
-        });
+        let positions =
+            (0..3).filter_map(|axis| Some((pose.position_w[axis] - row.position[axis]?) / self.deviations.position));
         DVec::from_vec(readings.chain(positions).collect())
     }
 
     /// Residuals of a row with their derivatives: a straight length changes with its anchor by the unit vector `u`
-    /// towards it, with the platform by −(u, RA × u), with the attachment by −Rᵀu (Q2).
+    /// towards it, with the platform by −(u, RA × u), with the attachment by −Rᵀu (96b).
     pub(super) fn row_terms(&self, at: &CalibratedRobot, row: &MeasuredRow, pose: &Pose) -> RowTerms {
         let residuals = self.residuals(at, row, pose);
         let (count, coordinates) = (residuals.len(), self.coordinates());

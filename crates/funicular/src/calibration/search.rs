@@ -6,10 +6,17 @@ use super::{Calibration, CalibrationFit, CalibrationUnknown, MeasuredRow, anchor
 use crate::math::{DMat, DVec, Vec3};
 use crate::robot::Pose;
 
-/// Arrivals at the best minimum that end the search.
-const ENOUGH_ARRIVALS: usize = 3;
+/// Arrivals at the best minimum that end the search: two if its χ² is one of noise.
+const ENOUGH_ARRIVALS: usize = 5;
+const ENOUGH_OF_NOISE: usize = 2;
 
-/// Rise of χ² up to which another minimum counts as one that fits.
+/// Deviations of χ² above its expectation up to which a minimum fits as noise does.
+const OF_NOISE: f64 = 3.0;
+
+/// Iterations of one start. Sound starts arrive within about 50; the best one goes on to its end.
+const ITERATIONS_OF_START: usize = 80;
+
+/// Rise of χ² up to which another minimum is kept, in the variance of the residuals.
 const FITS_AS_WELL: f64 = 20.0;
 
 /// Distance of two minima, relative to the spread of the anchors, up to which they are one.
@@ -19,7 +26,7 @@ const SAME_MINIMUM: f64 = 1e-5;
 const BETTER_POSE: f64 = 1.0;
 
 /// Shift of anchors in further starts, relative to their spread, and turn of the poses [rad].
-const START_SHIFT: f64 = 0.1;
+const START_SHIFT: f64 = 0.05;
 const START_TURN: f64 = 0.25;
 
 /// Number of other poses that a row tries.
@@ -30,7 +37,7 @@ const OTHER_POSES: usize = 6;
 pub struct CalibrationSearch {
     /// Best minimum.
     pub best: CalibrationFit,
-    /// Other minima whose χ² is at most 20 higher, by χ².
+    /// Other minima whose χ² is at most 20 higher, in the variance of the residuals, by χ².
     pub others: Vec<CalibrationFit>,
     /// Number of starts.
     pub starts: usize,
@@ -60,6 +67,7 @@ pub fn search(
     let from_nothing = nothing.is_some();
     let mut minima: Vec<(CalibrationFit, usize)> = Vec::new();
     let mut done = 0;
+    let noise = of.largest_of_noise(frame);
     for number in 0..starts.max(1) {
         if !progress(number, starts) && number > 0 {
             break;
@@ -67,11 +75,12 @@ pub fn search(
         let (values, poses) = match (number, &nothing) {
             (0, _) => (of.start(), of.start_poses()),
             (1, Some(nothing)) => nothing.clone(),
+            (1, None) | (2, Some(_)) => of.poses_first(),
             _ => of.moved_start(frame, number),
         };
         done += 1;
-        let found = of.polished(of.fit(&values, &poses, &frame.free), frame);
-        if !found.chi2.is_finite() || !found.converged {
+        let found = of.polished(of.fit_within(ITERATIONS_OF_START, &values, &poses, &frame.free), frame);
+        if !found.chi2.is_finite() {
             continue;
         }
         let found = of.canonical(found, frame);
@@ -85,15 +94,25 @@ pub fn search(
             None => minima.push((found, 1)),
         }
         minima.sort_by(|a, b| a.0.chi2.total_cmp(&b.0.chi2));
-        if minima.first().is_some_and(|(_, arrivals)| *arrivals >= ENOUGH_ARRIVALS) {
+        let enough = |(best, arrivals): &(CalibrationFit, usize)| {
+            *arrivals >= if best.chi2 <= noise { ENOUGH_OF_NOISE } else { ENOUGH_ARRIVALS }
+        };
+        if number > 0 && minima.first().is_some_and(enough) {
             break;
         }
     }
 
     let mut minima = minima.into_iter();
     let (mut best, arrivals) = minima.next()?;
+    if !best.converged {
+        best = of.canonical(of.fit(&best.values, &best.poses, &frame.free), frame);
+    }
     frame.hold(&mut best.values, &of.start());
-    let others = minima.map(|(other, _)| other).filter(|other| other.chi2 < best.chi2 + FITS_AS_WELL).collect();
+    let variance = (best.chi2 / of.degrees(frame).max(1) as f64).max(1.0);
+    let others = minima
+        .map(|(other, _)| other)
+        .filter(|other| other.converged && other.chi2 < best.chi2 + FITS_AS_WELL * variance)
+        .collect();
     Some(CalibrationSearch { best, others, starts: done, arrivals, from_nothing })
 }
 
@@ -102,6 +121,26 @@ impl Calibration {
     fn is_same(&self, a: &CalibrationFit, b: &CalibrationFit) -> bool {
         let apart = a.values.iter().zip(&b.values).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
         apart <= SAME_MINIMUM * self.anchor_spread() && (a.chi2 - b.chi2).abs() <= 1e-3 * (1.0 + a.chi2)
+    }
+
+    /// Number of data less that of the unknowns and the coordinates of all poses.
+    fn degrees(&self, frame: &CalibrationFrame) -> usize {
+        let data: usize = self.rows.iter().map(MeasuredRow::data_count).sum();
+        data.saturating_sub(frame.free_count() + self.rows.len() * self.coordinate_count())
+    }
+
+    /// χ² up to which a fit is one of noise.
+    fn largest_of_noise(&self, frame: &CalibrationFrame) -> f64 {
+        let degrees = self.degrees(frame) as f64;
+        degrees + OF_NOISE * (2.0 * degrees).sqrt()
+    }
+
+    /// Start with the values of the file, and for each row the pose that fits them best.
+    fn poses_first(&self) -> (Vec<f64>, Vec<Pose>) {
+        let values = self.start();
+        let rows = self.rows.iter().zip(self.start_poses());
+        let poses = rows.map(|(row, start)| self.pose_of_row(&values, row, &start).0).collect();
+        (values, poses)
     }
 
     /// Start with anchors that are moved along the free directions, and poses about the middle.
@@ -121,8 +160,11 @@ impl Calibration {
     fn nearby(&self, pose: &Pose, number: usize) -> Pose {
         let translations = self.axes().len();
         let step = DVec::from_fn(self.coordinate_count(), |c, _| {
-            let size =
-                if c < translations { 2.0 * START_SHIFT * self.anchor_spread() } else { START_TURN * self.coordinates().ell() };
+            let size = if c < translations {
+                2.0 * START_SHIFT * self.anchor_spread()
+            } else {
+                START_TURN * self.coordinates().ell()
+            };
             size * (2.0 * spread(number, 100 + c) - 1.0)
         });
         self.moved(pose, &step)
@@ -199,9 +241,12 @@ impl Calibration {
     fn is_free_figure(&self, frame: &CalibrationFrame) -> bool {
         let axes = self.axes();
         let all = if axes.len() == 2 { 3 } else { 6 };
-        let anchors = (0..self.robot.cables.len())
-            .all(|cable| axes.iter().all(|&axis| self.position_of(&CalibrationUnknown::Anchor { cable, axis }).is_some()));
-        self.is_point && anchors && frame.motion_count() == all
+        let anchors = (0..self.robot.cables.len()).all(|cable| {
+            axes.iter().all(|&axis| self.position_of(&CalibrationUnknown::Anchor { cable, axis }).is_some())
+        });
+        self.is_point
+            && anchors
+            && frame.motion_count() == all
             && self.robot.cables.iter().all(|cable| cable.anchor.is_fixed())
     }
 
@@ -221,15 +266,15 @@ impl Calibration {
             pose.position_w[axis] = -pose.position_w[axis];
         }
         if self.unlikeness(&found) <= self.unlikeness(&mirrored) {
-            return self.in_frame(found, frame);
+            return self.in_frame(&found, frame);
         }
-        self.in_frame(mirrored, frame)
+        self.in_frame(&mirrored, frame)
     }
 
     /// Fit that is turned towards the file and then placed by the conditions.
-    fn in_frame(&self, found: CalibrationFit, frame: &CalibrationFrame) -> CalibrationFit {
+    fn in_frame(&self, found: &CalibrationFit, frame: &CalibrationFrame) -> CalibrationFit {
         let axes = self.axes();
-        let (points, wanted) = self.figures(&found);
+        let (points, wanted) = self.figures(found);
         let alignment = Alignment::of(&points, &wanted, false);
         let at = self.robot_at(&found.values);
         let place = |point: &Vec3| {
@@ -248,7 +293,7 @@ impl Calibration {
             found.poses.iter().map(|pose| Pose { position_w: place(&pose.position_w), ..*pose }).collect();
         let (values, poses) = frame.placed(self, &values, &poses);
         let chi2 = self.chi2_at(&values, &poses);
-        CalibrationFit { values, poses, chi2, ..found }
+        CalibrationFit { values, poses, chi2, ..*found }
     }
 
     /// Anchors and mean position of a fit, and of the file, as rows.
@@ -283,8 +328,7 @@ impl Calibration {
         }
         let axes = self.axes();
         let count = self.robot.cables.len();
-        let lengths =
-            DMat::from_fn(self.rows.len(), count, |j, i| self.rows[j].readings[i].unwrap_or_default());
+        let lengths = DMat::from_fn(self.rows.len(), count, |j, i| self.rows[j].readings[i].unwrap_or_default());
         let (anchors, positions) = anchors_from_lengths(&lengths, axes.len())?;
 
         // Turned to the file, mirrored if need be.

@@ -38,7 +38,7 @@ impl CalibrationUnknown {
     }
 }
 
-/// Robot with calibrated values, and how its encoders count: `length = offset + scale · reading` (Q1).
+/// Robot with calibrated values, and how its encoders count: `length = offset + scale · reading` (96a).
 #[derive(Debug, Clone, PartialEq)]
 pub struct CalibratedRobot {
     /// Robot with these anchors and attachments.

@@ -142,8 +142,8 @@ impl Calibration {
         if has(CalibrationUnknown::Offset { cable: 0 }) {
             motions.push((CombinationPart::CommonOffset, field(&still, &|_| 1.0, 0.0)));
         }
-        for cable in 0..anchors.len() {
-            if let Some(along) = (anchors[cable] - poses).try_normalize(f64::MIN_POSITIVE)
+        for (cable, anchor) in anchors.iter().enumerate() {
+            if let Some(along) = (anchor - poses).try_normalize(f64::MIN_POSITIVE)
                 && has(CalibrationUnknown::Offset { cable })
             {
                 let moves = |i: usize| if i == cable { along } else { Vec3::zeros() };

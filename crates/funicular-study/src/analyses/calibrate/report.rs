@@ -9,8 +9,8 @@ use crate::set_values;
 use crate::text::{counted, significant};
 use anyhow::{Result, anyhow};
 use funicular::calibration::{
-    Calibration, CalibrationFit, CalibrationFrame, CalibrationPrecision, CalibrationSearch, CalibrationUnknown, WeakWalk,
-    proposals,
+    Calibration, CalibrationFit, CalibrationFrame, CalibrationPrecision, CalibrationSearch, CalibrationUnknown,
+    WeakWalk, proposals,
 };
 use funicular::math::{DMat, Vec3, rotation};
 use funicular::robot::Pose;
@@ -26,6 +26,9 @@ pub(super) const NOISE_DEVIATIONS: f64 = 3.0;
 
 /// Least factor of the deviations with which the walk along the weakest combination is more than rounding.
 const LEAST_FACTOR: f64 = 1e-6;
+
+/// Rise of χ² of another minimum below which the readings do not choose: three deviations of noise.
+const UNDECIDED: f64 = 9.0;
 
 /// Largest number of proposed poses while a wanted deviation is looked for.
 const MAX_PROPOSALS: usize = 100;
@@ -92,8 +95,9 @@ impl<'a> CalibrationReport<'a> {
     pub(super) fn results(&self) -> Result<Calibrated> {
         let walk = self.walk();
         let is_parabola = walk.as_ref().is_none_or(WeakWalk::is_parabola);
-        let is_determined = is_parabola && self.precision.lost.is_empty() && self.factor.is_some();
-        let values = self.values(is_parabola);
+        let is_one = !self.fits_otherwise();
+        let is_determined = is_parabola && is_one && self.precision.lost.is_empty() && self.factor.is_some();
+        let values = self.values(is_parabola && is_one);
         let rows = self.rows();
         let weak = self.weak();
         let inner = self.frame.inner(&self.precision.covariance);
@@ -137,6 +141,16 @@ impl<'a> CalibrationReport<'a> {
         })
     }
 
+    /// Rise of χ² of another minimum, in the variance of the residuals.
+    fn rise(&self, other: &CalibrationFit) -> f64 {
+        (other.chi2 - self.fit().chi2) / self.factor.unwrap_or(1.0).max(LEAST_FACTOR).powi(2)
+    }
+
+    /// True if another minimum fits so well that the readings do not choose between them.
+    pub(super) fn fits_otherwise(&self) -> bool {
+        self.found.others.iter().any(|other| self.rise(other) < UNDECIDED)
+    }
+
     fn walk(&self) -> Option<WeakWalk> {
         let factor = self.factor.filter(|factor| *factor > LEAST_FACTOR)?;
         if !self.precision.lost.is_empty() {
@@ -145,7 +159,7 @@ impl<'a> CalibrationReport<'a> {
         self.of.weak_walk(self.fit(), &self.frame, &self.precision, factor)
     }
 
-    fn values(&self, is_parabola: bool) -> Vec<CalibratedValue> {
+    fn values(&self, has_intervals: bool) -> Vec<CalibratedValue> {
         let start = self.of.start();
         let deviations = self.precision.deviations();
         let inner = self.frame.inner(&self.precision.covariance);
@@ -158,7 +172,7 @@ impl<'a> CalibrationReport<'a> {
             let held = self.frame.holds(k);
             let known = |deviation: f64| self.factor.filter(|_| !lost[k]).map(|factor| factor * deviation * unit);
             let deviation = known(deviations[k]).filter(|_| !held);
-            let reach = deviation.filter(|_| is_parabola).map(|deviation| self.quantile * deviation);
+            let reach = deviation.filter(|_| has_intervals).map(|deviation| self.quantile * deviation);
             CalibratedValue {
                 path: self.paths[k].0.clone(),
                 unit: self.paths[k].1,
@@ -261,8 +275,7 @@ impl<'a> CalibrationReport<'a> {
         }
         let weights: Vec<f64> = self.of.unknowns.iter().map(|unknown| self.weight(unknown)).collect();
         let count = if self.request.wanted_std_m.is_some() { MAX_PROPOSALS } else { self.request.propose };
-        let found =
-            proposals(self.of, self.fit(), &self.frame, &self.precision, &self.candidates, count, &weights);
+        let found = proposals(self.of, self.fit(), &self.frame, &self.precision, &self.candidates, count, &weights);
         let row = |(n, of): (usize, &funicular::calibration::ProposedPose)| {
             let pose = &self.candidates[of.candidate];
             let chosen = (0..weights.len()).filter(|&k| weights[k] > 0.0);
@@ -310,28 +323,27 @@ impl<'a> CalibrationReport<'a> {
         }
         let expected = degrees as f64;
         let spread = (2.0 * expected).sqrt();
-        match self.request.length_std_m {
-            None => format!(
+        if self.request.length_std_m.is_none() {
+            return format!(
                 "The readings fit to {residuals} r.m.s.; with {} of freedom this is a deviation of {} for each reading",
                 counted(degrees, "degree"),
                 in_mm(self.factor.unwrap_or(0.0) * self.of.deviations.reading)
-            ),
-            Some(_) => {
-                let fits = if chi2 > expected + NOISE_DEVIATIONS * spread { "do not fit" } else { "fit" };
-                format!(
-                    "The readings {fits} (χ² {}, expected {} ± {}; {residuals} r.m.s.)",
-                    significant(chi2, 4),
-                    degrees,
-                    significant(spread, 2)
-                )
-            }
+            );
         }
+        let fits = if chi2 > expected + NOISE_DEVIATIONS * spread { "do not fit" } else { "fit" };
+        format!(
+            "The readings {fits} (χ² {}, expected {} ± {}; {residuals} r.m.s.)",
+            significant(chi2, 4),
+            degrees,
+            significant(spread, 2)
+        )
     }
 
     /// Sentence on what the readings determine.
     fn determined_sentence(&self, values: &[CalibratedValue], weak: &[WeakRow], walk: Option<&WeakWalk>) -> String {
         if self.factor.is_none() {
-            return "The readings leave nothing that tells their deviation: give ⟪length_std_m⟫, or measure more rows".to_owned();
+            return "The readings leave nothing that tells their deviation: give ⟪length_std_m⟫, or measure more rows"
+                .to_owned();
         }
         if let Some(lost) = weak.first().filter(|row| row.deviation_m.is_none()) {
             return format!("These rows do not determine {}", lost.words);
@@ -342,6 +354,11 @@ impl<'a> CalibrationReport<'a> {
             format!("; weakest: {} (±{} together)", row.words, in_mm(row.deviation_m.unwrap_or_default()))
         });
         let known = words::range_mm(&deviations);
+        if self.fits_otherwise() {
+            return format!(
+                "Other values fit nearly as well (see the minima); about these ones the values are known to {known}{weakest}"
+            );
+        }
         if walk.is_some_and(|walk| !walk.is_parabola()) {
             return format!(
                 "The values are not determined, or χ² is curved: {known} by the linearisation{weakest}; a walk along it \

@@ -123,14 +123,18 @@ impl ReadingRow {
                 .read_if(turns),
             column("residual_rms_m", "m", "root mean square of the residuals of the row", |row: &Self| row.rms())
                 .shown("residual", "mm", |row, style| style.significant(1e3 * row.rms(), 3)),
-            column("chi2_drop", "1", "decrease of χ² if the row is left out", |row: &Self| row.chi2_drop)
-                .significant("χ² without it falls by", "", 3),
+            column("chi2_drop", "1", "decrease of χ² if the row is left out", |row: &Self| row.chi2_drop).significant(
+                "χ² without it falls by",
+                "",
+                3,
+            ),
             column("chi2_limit", "1", "largest decrease that noise gives with 95 %", |row: &Self| row.chi2_limit)
                 .significant("limit", "", 3),
-            column("shift_m", "m", "largest change of a value if the row is left out", |row: &Self| row.shift_m)
-                .shown("values move by", "mm", |row, style| {
-                    style.significant(row.shift_m.map(|shift| 1e3 * shift), 3)
-                }),
+            column("shift_m", "m", "largest change of a value if the row is left out", |row: &Self| row.shift_m).shown(
+                "values move by",
+                "mm",
+                |row, style| style.significant(row.shift_m.map(|shift| 1e3 * shift), 3),
+            ),
             column("remark", "", "outlier, or a row that no other row checks", remark).plain(""),
         ])
     }
@@ -200,10 +204,15 @@ impl ProposalRow {
             parts("{}_deg", ["roll", "pitch", "yaw"], "deg", "{} of the platform", |row: &Self| row.roll_pitch_yaw_deg)
                 .components("roll, pitch, yaw", "°", 3)
                 .read_if(turns),
-            column("total_m", "m", "root of the sum of the variances of the chosen values then", |row: &Self| row.total_m)
-                .shown("all together then ±", "mm", |row, style| style.significant(1e3 * row.total_m, 4)),
-            column("largest_m", "m", "largest deviation of a value then", |row: &Self| row.largest_m)
-                .shown("largest ±", "mm", |row, style| style.significant(1e3 * row.largest_m, 3)),
+            column("total_m", "m", "root of the sum of the variances of the chosen values then", |row: &Self| {
+                row.total_m
+            })
+            .shown("all together then ±", "mm", |row, style| style.significant(1e3 * row.total_m, 4)),
+            column("largest_m", "m", "largest deviation of a value then", |row: &Self| row.largest_m).shown(
+                "largest ±",
+                "mm",
+                |row, style| style.significant(1e3 * row.largest_m, 3),
+            ),
             column("largest_of", "", "value with the largest deviation", |row: &Self| row.largest_of.clone())
                 .plain("of"),
         ])

@@ -54,7 +54,8 @@ pub(super) fn rows(columns: &NumberColumns, robot: &Robot, measured: bool) -> Re
     // The column of each cable.
     let mut readings: Vec<Option<(&[f64], f64)>> = Vec::new();
     for cable in &robot.cables {
-        let mut given = names(&cable.name).into_iter().filter_map(|(name, unit)| Some((columns.get(&name)?, unit, name)));
+        let mut given =
+            names(&cable.name).into_iter().filter_map(|(name, unit)| Some((columns.get(&name)?, unit, name)));
         let first = given.next();
         if let (Some((_, _, one)), Some((_, _, other))) = (&first, given.next()) {
             return Err(fault(format!("there are columns `{one}` and `{other}`: keep one of them")));
@@ -62,10 +63,15 @@ pub(super) fn rows(columns: &NumberColumns, robot: &Robot, measured: bool) -> Re
         readings.push(first.map(|(values, unit, _)| (values.as_slice(), unit)));
     }
     let Some(count) = readings.iter().flatten().map(|(values, _)| values.len()).next() else {
-        return Err(fault("there is no column length_NAME_m or length_NAME_mm of a cable: give one per cable".to_owned()));
+        return Err(fault(
+            "there is no column length_NAME_m or length_NAME_mm of a cable: give one per cable".to_owned(),
+        ));
     };
     if let Some((name, values)) = columns.iter().find(|(_, values)| values.len() != count) {
-        return Err(fault(format!("`{name}` has {} values, other columns have {count}: give as many in all", values.len())));
+        return Err(fault(format!(
+            "`{name}` has {} values, other columns have {count}: give as many in all",
+            values.len()
+        )));
     }
     if !(1..=MAX_ROWS).contains(&count) {
         return Err(fault(format!("there are {count} rows: give 1 to {MAX_ROWS}")));
@@ -79,8 +85,11 @@ pub(super) fn rows(columns: &NumberColumns, robot: &Robot, measured: bool) -> Re
             let position = if measured { ["x_m", "y_m", "z_m"].map(coordinate) } else { [None; 3] };
             let made = MeasuredRow { readings: readings.iter().map(reading).collect(), position, start };
             for (name, values) in columns {
-                finite(values[row])
-                    .map_err(|reason| TableFault { key: KEY, row: Some(row), text: format!("`{name}`: {reason}") })?;
+                finite(values[row]).map_err(|reason| TableFault {
+                    key: KEY,
+                    row: Some(row),
+                    text: format!("`{name}`: {reason}"),
+                })?;
             }
             Ok(made)
         })
@@ -112,7 +121,7 @@ fn check_unit(rows: &[MeasuredRow], robot: &Robot) -> Result<(), String> {
     let mean = anchors.iter().sum::<funicular::math::Vec3>() / anchors.len().max(1) as f64;
     let size = middle(anchors.iter().map(|anchor| (anchor - mean).norm()).collect());
     let ratio = read / size;
-    if size <= 0.0 || !(ratio > OTHER_UNIT) {
+    if size <= 0.0 || ratio <= OTHER_UNIT {
         return Ok(());
     }
     let thousand = (ratio / 1000.0).ln().abs() < OTHER_UNIT.ln() / 2.0;
