@@ -180,7 +180,7 @@ fn unknowns(request: &CalibrateRequest, robot: &Robot) -> Result<Vec<Calibration
     let (axes, held) = (&axes, &held);
     let points = |is_anchor: bool| {
         (0..count).flat_map(move |cable| {
-            axes.iter().map(move |&axis| 
+            axes.iter().map(move |&axis| {
                 if is_anchor {
                     CalibrationUnknown::Anchor { cable, axis }
                 } else {
