@@ -1,11 +1,13 @@
 //! Calibration from lengths whose poses are unknown: anchors, attachments, offsets and scale of the readings, found
 //! together with the pose of every row.
 //!
-//! The equations (96a) to (96k) are in section 18d of docs/theory.md. Cables are straight and rigid. A row of readings
-//! has more cables than its pose has degrees of freedom; what is left of it after its pose is eliminated, its net rows,
-//! says something about the robot.
+//! The equations (96a) to (96k) are in section 18d of docs/theory.md. Straight rigid cables: a row of readings has more
+//! cables than its pose has degrees of freedom; what is left of it after its pose is eliminated, its net rows, says
+//! something about the robot. Elastic cables have a true length each in every row, so that tensions or coordinates have to
+//! be measured as well.
 
 mod curvature;
+mod elastic;
 mod elimination;
 mod exchange;
 mod fit;
@@ -33,6 +35,7 @@ pub use weak::{CombinationPart, WeakCombination};
 use crate::math::{DMat, Vec3};
 use crate::platform::Coordinates;
 use crate::robot::{PlatformMotion, Pose, Robot};
+use crate::statics::StaticModel;
 use thiserror::Error;
 
 /// Calibration: a robot with starting values, its unknowns, and the measured rows.
@@ -46,6 +49,8 @@ pub struct Calibration {
     pub rows: Vec<MeasuredRow>,
     /// Standard deviations of the data.
     pub deviations: ReadingDeviations,
+    /// Model of the cables: ideal ones are straight and rigid.
+    pub model: StaticModel,
     /// Length that makes the scale of the readings a length [m].
     scale_length: f64,
     /// True if the readings see no rotation: all cables end in one point of the platform.
@@ -76,6 +81,13 @@ pub enum CalibrationError {
         /// Index of the cable.
         cable: usize,
     },
+    /// Elastic cables without tensions or coordinates.
+    #[error(
+        "cables that stretch or sag have a true length each in every row, so that lengths alone say nothing about the \
+         robot: measure tensions too (one per row helps, all are best), or coordinates of the platform, or take straight \
+         rigid cables where stretch and sag are below the deviation of the readings"
+    )]
+    ElasticLengthsAlone,
     /// Rows whose poses their readings do not fix.
     #[error(
         "the data of row {row} do not fix its pose ({data} data, {coordinates} coordinates): give readings of more cables or \
@@ -126,6 +138,7 @@ impl Calibration {
         unknowns: Vec<CalibrationUnknown>,
         rows: Vec<MeasuredRow>,
         deviations: ReadingDeviations,
+        model: StaticModel,
     ) -> Result<Self, CalibrationError> {
         let readings: Vec<f64> = rows.iter().flat_map(|row| row.readings.iter().flatten().copied()).collect();
         let mean = readings.iter().map(|reading| reading.abs()).sum::<f64>() / readings.len().max(1) as f64;
@@ -133,8 +146,15 @@ impl Calibration {
         let first = robot.cables.first().map_or(Vec3::zeros(), |cable| cable.attachment_p);
         let coincide = robot.cables.iter().all(|cable| (cable.attachment_p - first).norm() <= SAME_POINT * mean);
         let is_point = robot.platform.motion == PlatformMotion::PointMass || (coincide && !attachments);
-        let made =
-            Self { robot, unknowns, rows, deviations, scale_length: if mean > 0.0 { mean } else { 1.0 }, is_point };
+        let made = Self {
+            robot,
+            unknowns,
+            rows,
+            deviations,
+            model,
+            scale_length: if mean > 0.0 { mean } else { 1.0 },
+            is_point,
+        };
         made.check()?;
         Ok(made)
     }
@@ -152,13 +172,23 @@ impl Calibration {
             let text = "a planar platform is calibrated in a coordinate plane only: turn the robot file into one";
             return Err(CalibrationError::NoSuchUnknown(text));
         }
+        let of_statics =
+            |of: &CalibrationUnknown| matches!(of, CalibrationUnknown::AxialStiffness | CalibrationUnknown::Mass);
+        if !self.is_elastic() && self.unknowns.iter().any(of_statics) {
+            let text = "straight rigid cables have neither stiffness nor tensions: choose an elastic static model with \
+                        measured tensions, or leave axial stiffness and mass out of the unknowns";
+            return Err(CalibrationError::NoSuchUnknown(text));
+        }
+        if self.is_elastic() && self.rows.iter().all(|row| row.data_count() == row.readings.iter().flatten().count()) {
+            return Err(CalibrationError::ElasticLengthsAlone);
+        }
         for cable in 0..self.robot.cables.len() {
             let is_read = self.rows.iter().any(|row| row.readings.get(cable).copied().flatten().is_some());
             if !is_read && self.unknowns.iter().any(|of| of.cable() == Some(cable)) {
                 return Err(CalibrationError::UnreadCable { cable });
             }
         }
-        let coordinates = self.coordinate_count();
+        let coordinates = self.row_unknown_count();
         for (j, row) in self.rows.iter().enumerate() {
             if row.data_count() < coordinates {
                 return Err(CalibrationError::OpenPose { row: j + 1, data: row.data_count(), coordinates });
@@ -173,12 +203,14 @@ impl Calibration {
     /// [`CalibrationError::TooFewRows`].
     pub fn check_count(&self, frame: &CalibrationFrame) -> Result<(), CalibrationError> {
         let data: usize = self.rows.iter().map(MeasuredRow::data_count).sum();
-        let poses = self.rows.len() * self.coordinate_count();
+        let poses = self.rows.len() * self.row_unknown_count();
         let unknowns = frame.free_count();
         if data >= unknowns + poses {
             return Ok(());
         }
-        let net = self.robot.cables.len().saturating_sub(self.coordinate_count());
+        let most = self.rows.iter().map(MeasuredRow::data_count).max().unwrap_or(0);
+        let full = if self.is_elastic() { most } else { most.max(self.robot.cables.len()) };
+        let net = full.saturating_sub(self.row_unknown_count());
         let needed = (net > 0).then(|| unknowns.div_ceil(net));
         Err(CalibrationError::TooFewRows { data, unknowns, poses, needed })
     }
@@ -191,6 +223,11 @@ impl Calibration {
             (_, true) | (PlatformMotion::Planar(_), false) => 3,
             (_, false) => 6,
         }
+    }
+
+    /// Number of unknowns of a row: coordinates of its pose, or the true lengths of elastic cables.
+    pub fn row_unknown_count(&self) -> usize {
+        if self.is_elastic() { self.robot.cables.len() } else { self.coordinate_count() }
     }
 
     /// True if all cables end in one point of the platform, so that the readings do not see it turn.
@@ -211,23 +248,35 @@ impl Calibration {
         }
     }
 
-    /// Values of the unknowns in the robot file: metres, and for the scale its value times a length.
+    /// Values of the unknowns in the robot file: metres, and for a scale or a factor its value or logarithm times a length.
     pub fn start(&self) -> Vec<f64> {
-        CalibratedRobot { robot: self.robot.clone(), offsets: vec![0.0; self.robot.cables.len()], scale: 1.0 }
-            .values(&self.unknowns, self.scale_length)
+        self.as_in_file().values(&self.unknowns, self.scale_length)
     }
 
     /// Robot and readings with values of the unknowns.
     pub fn robot_at(&self, values: &[f64]) -> CalibratedRobot {
-        let mut calibrated =
-            CalibratedRobot { robot: self.robot.clone(), offsets: vec![0.0; self.robot.cables.len()], scale: 1.0 };
+        let mut calibrated = self.as_in_file();
         calibrated.set(&self.unknowns, values, self.scale_length);
         calibrated
     }
 
-    /// Factor from a value of the vectors of results to the unit of an unknown: 1 for lengths, 1/length for the scale.
-    pub fn unit_of(&self, unknown: usize) -> f64 {
-        if self.unknowns[unknown] == CalibrationUnknown::Scale { 1.0 / self.scale_length } else { 1.0 }
+    /// Robot of the file, whose encoders count in metres from zero.
+    fn as_in_file(&self) -> CalibratedRobot {
+        let factors = [1.0; 2];
+        CalibratedRobot { robot: self.robot.clone(), offsets: vec![0.0; self.robot.cables.len()], scale: 1.0, factors }
+    }
+
+    /// Number that a value of the vectors of results means, and its derivative: metres as they are; a scale, or the factor
+    /// of axial stiffness or mass.
+    pub fn meaning(&self, unknown: usize, value: f64) -> [f64; 2] {
+        match self.unknowns[unknown] {
+            CalibrationUnknown::Scale => [value / self.scale_length, 1.0 / self.scale_length],
+            CalibrationUnknown::AxialStiffness | CalibrationUnknown::Mass => {
+                let factor = (value / self.scale_length).exp();
+                [factor, factor / self.scale_length]
+            }
+            _ => [value, 1.0],
+        }
     }
 
     /// Place of an unknown.

@@ -8,7 +8,7 @@ use std::fs;
 fn machine(more: &[&str]) -> Vec<String> {
     let (robot, belts) = (project("docs/calibration/machine.toml"), project("docs/calibration/belts.csv"));
     let words = ["calibrate", &robot, "--readings", &belts];
-    words.iter().chain(more).map(|word| (*word).to_owned()).collect()
+    words.into_iter().chain(more.iter().copied()).map(str::to_owned).collect()
 }
 
 fn found(more: &[&str]) -> Value {
@@ -27,10 +27,11 @@ fn refused(table: &str, more: &[&str]) -> String {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("table.csv").display().to_string();
     fs::write(&path, table).unwrap();
-    let words = [&["calibrate", &project("docs/calibration/machine.toml"), "--readings", &path][..], more].concat();
+    let robot = project("docs/calibration/machine.toml");
+    let words = [&["calibrate", &robot, "--readings", &path][..], more].concat();
     let refused = run(&words);
     assert_eq!(refused.status.code(), Some(2), "{}", stderr(&refused));
-    stderr(&refused)
+    stderr(&refused).to_owned()
 }
 
 #[test]

@@ -38,7 +38,7 @@ const KEY: &str = "readings";
 const ASSUMED_DEVIATION: f64 = 1e-3;
 
 /// Names of the unknowns.
-const UNKNOWNS: [&str; 4] = ["anchors", "attachments", "offsets", "scale"];
+const UNKNOWNS: [&str; 6] = ["anchors", "attachments", "offsets", "scale", "axial-stiffness", "mass"];
 
 /// Name of the inner frame.
 const INNER: &str = "inner";
@@ -121,6 +121,7 @@ found!(Calibrated, "calibrate");
 pub fn run(request: &CalibrateRequest, watch: &mut dyn Watch) -> Result<Calibrated> {
     request::check("length_std_m", request.length_std_m, crate::values::positive)?;
     request::check("position_std_m", request.position_std_m, crate::values::positive)?;
+    request::check_positive("tension_std_n", request.tension_std_n)?;
     request::check("wanted_std_m", request.wanted_std_m, crate::values::positive)?;
     let file = request.robot.read()?;
     let parameters = Parameters::from_toml(&file.text)?;
@@ -133,9 +134,13 @@ pub fn run(request: &CalibrateRequest, watch: &mut dyn Watch) -> Result<Calibrat
     let deviations = ReadingDeviations {
         reading: request.length_std_m.unwrap_or(ASSUMED_DEVIATION),
         position: request.position_std_m.unwrap_or(1.0),
+        tension: request.tension_std_n,
     };
     let named = |error: CalibrationError| in_words(&robot, error);
-    let of = Calibration::new(robot.clone(), unknowns, rows, deviations).map_err(named)?;
+    let of = Calibration::new(robot.clone(), unknowns, rows, deviations, request.static_model).map_err(named)?;
+    if of.is_elastic() && !matches!(candidates, candidates::Candidates::None) {
+        bail!("poses are proposed for straight rigid cables only: leave out ⟪propose⟫, or take ⟪static_model⟫ ideal");
+    }
     let frame = of.frame(&frame_choice(request, &robot)?).map_err(named)?;
     of.check_count(&frame).map_err(named)?;
 
@@ -200,9 +205,12 @@ fn unknowns(request: &CalibrateRequest, robot: &Robot) -> Result<Vec<Calibration
     if wants("offsets") {
         unknowns.extend((0..count).map(|cable| CalibrationUnknown::Offset { cable }));
     }
-    if wants("scale") {
-        unknowns.push(CalibrationUnknown::Scale);
-    }
+    let common = [
+        ("scale", CalibrationUnknown::Scale),
+        ("axial-stiffness", CalibrationUnknown::AxialStiffness),
+        ("mass", CalibrationUnknown::Mass),
+    ];
+    unknowns.extend(common.into_iter().filter(|(name, _)| wants(name)).map(|(_, unknown)| unknown));
     if unknowns.is_empty() {
         bail!("⟪hold_anchors⟫ holds every unknown: leave a cable out of it, or name further ⟪unknowns⟫");
     }

@@ -2,21 +2,24 @@
 
 use super::key::declared;
 use super::parts::{Axis, NumberColumns, RobotText};
+use funicular::statics::StaticModel;
 
 declared! {
     /// Anchors, attachments, offsets and scale from readings of cable lengths at poses that are not known.
     ///
-    /// Every row of ⟪readings⟫ belongs to one pose, which is found with the robot's numbers. Cables are straight and rigid.
-    /// The result says how well the readings fit and, apart from that, what they determine. docs/calibration.md explains
+    /// Every row of ⟪readings⟫ belongs to one pose, which is found with the robot's numbers. Cables are straight and rigid
+    /// unless ⟪static_model⟫ says otherwise; elastic ones need measured tensions or coordinates. The result says how well the readings fit and, apart from that, what they determine. docs/calibration.md explains
     /// tables, frames and the result.
     pub struct CalibrateRequest {
         /// Robot file, whose values are the start.
         robot: RobotText = RobotText::default() => (Data(shape::robot)).required();
         /// Readings, one row per pose: columns length_NAME_m [m] or length_NAME_mm [mm] of every cable; x_m, y_m, z_m and,
-        /// where the platform turns, roll_deg, pitch_deg, yaw_deg are poses at which the search begins.
+        /// where the platform turns, roll_deg, pitch_deg, yaw_deg are poses at which the search begins; tension_NAME_n are
+        /// tensions at the anchors [N], which elastic cables need.
         readings: NumberColumns = NumberColumns::new() => (Columns).required();
         /// Numbers to find, separated by commas: anchors, attachments, offsets (length of each cable at the reading zero),
-        /// scale (metres of length per metre of all readings).
+        /// scale (metres of length per metre of all readings); of elastic cables also axial-stiffness and mass, as factors of
+        /// those of the file.
         unknowns: Vec<String> = vec!["anchors".to_owned()] => (Texts).form("NAMES");
         /// Cables whose anchors are known, by their names, separated by commas.
         hold_anchors: Vec<String> = Vec::new() => (Texts).form("CABLES");
@@ -27,6 +30,11 @@ declared! {
         length_std_m: Option<f64> = None => (Number(Positive)).otherwise("that of the residuals");
         /// Standard deviation of the coordinates x_m, y_m, z_m [m]; with it they are measurements.
         position_std_m: Option<f64> = None => (Number(Positive)).otherwise("they only start the search");
+        /// Standard deviation of the measured tensions [N].
+        tension_std_n: f64 = 1.0 => (Number(Positive));
+        /// Static model of the cables: ideal ones are straight and rigid.
+        #[serde(with = "crate::names")]
+        static_model: StaticModel = StaticModel::Ideal => (name::<StaticModel>()).form("MODEL");
         /// Maximum number of starts of the search.
         starts: usize = 10 => (Count(1..=1000));
         /// Number of poses to propose that reduce the deviations most, one after the other.

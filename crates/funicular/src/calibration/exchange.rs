@@ -30,6 +30,9 @@ fn exchanged(row: &MeasuredRow, [a, b]: [usize; 2]) -> MeasuredRow {
 /// whose readings only rename anchors, by a figure that is nearer to the file by a factor of 4.
 pub fn cable_exchange(of: &Calibration, fit: &CalibrationFit, frame: &CalibrationFrame) -> Option<CableExchange> {
     let count = of.robot.cables.len();
+    if of.is_elastic() {
+        return None;
+    }
     if of.is_point() {
         return renamed_anchors(of, fit);
     }
@@ -53,6 +56,9 @@ pub fn cable_exchange(of: &Calibration, fit: &CalibrationFit, frame: &Calibratio
 
 /// Exchange of two cables in one row with which it fits, the unknowns held.
 pub fn row_exchange(of: &Calibration, fit: &CalibrationFit, row: usize) -> Option<CableExchange> {
+    if of.is_elastic() {
+        return None;
+    }
     let measured = &of.rows[row];
     let at = of.robot_at(&fit.values);
     let now = of.residuals(&at, measured, &fit.poses[row]).norm_squared();

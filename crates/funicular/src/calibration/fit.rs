@@ -2,6 +2,7 @@
 //! the cost of a step is linear in the number of rows.
 
 use super::Calibration;
+use super::elastic::RowState;
 use super::elimination::EliminatedRow;
 use super::row::RowTerms;
 use crate::math::{DMat, DVec};
@@ -34,6 +35,8 @@ pub struct CalibrationFit {
     pub values: Vec<f64>,
     /// Pose of each row.
     pub poses: Vec<Pose>,
+    /// Unstrained lengths of the cables in each row, if cables are elastic; else each is empty [m].
+    pub lengths: Vec<Vec<f64>>,
     /// Sum of the squares of the residuals, each divided by its standard deviation.
     pub chi2: f64,
     /// Number of iterations.
@@ -73,16 +76,18 @@ impl Calibration {
         poses: &[Pose],
         free: &DMat,
     ) -> CalibrationFit {
+        let mut states = self.states(values, poses);
         let mut fit = CalibrationFit {
             values: values.to_vec(),
             poses: poses.to_vec(),
+            lengths: states.iter().map(|state| state.lengths.clone()).collect(),
             chi2: f64::INFINITY,
             iterations: 0,
             converged: false,
         };
-        let mut at = self.linearised(&fit.values, &fit.poses);
+        let Some(mut at) = self.linearised(&fit.values, &states) else { return fit };
         fit.chi2 = at.chi2;
-        let mut scale = Scales::new(free.ncols(), self.rows.len(), self.coordinate_count());
+        let mut scale = Scales::new(free.ncols(), self.rows.len(), self.row_unknown_count());
         let (mut damping, mut growth) = (FIRST_DAMPING, 2.0);
 
         while fit.iterations < max_iterations && fit.chi2.is_finite() {
@@ -100,14 +105,17 @@ impl Calibration {
 
             // The step counts if χ² falls.
             let moved = DVec::from_column_slice(&fit.values) + free * &step.values;
-            let moved_poses: Vec<Pose> =
-                fit.poses.iter().zip(&step.poses).map(|(pose, step)| self.moved(pose, step)).collect();
-            let next = self.chi2_at(moved.as_slice(), &moved_poses);
-            let decrease = fit.chi2 - next;
-            if decrease > 0.0 {
+            let next_states: Vec<RowState> =
+                states.iter().zip(&step.poses).map(|(state, step)| self.moved_state(state, step)).collect();
+            let next = self.chi2_at(moved.as_slice(), &next_states);
+            let decrease = next.as_ref().map_or(f64::NAN, |(chi2, _)| fit.chi2 - chi2);
+            if decrease > 0.0
+                && let Some((_, next_states)) = next
+                && let Some(linearised) = self.linearised(moved.as_slice(), &next_states)
+            {
                 fit.values = moved.as_slice().to_vec();
-                fit.poses = moved_poses;
-                at = self.linearised(&fit.values, &fit.poses);
+                states = next_states;
+                at = linearised;
                 fit.chi2 = at.chi2;
                 damping *= (1.0 - (2.0 * decrease / step.predicted - 1.0).powi(3)).clamp(1.0 / 3.0, 2.0);
                 damping = damping.max(LAST_DAMPING * 1e-3);
@@ -125,40 +133,57 @@ impl Calibration {
                 }
             }
         }
+        fit.poses = states.iter().map(|state| state.pose).collect();
+        fit.lengths = states.into_iter().map(|state| state.lengths).collect();
         fit
     }
 
-    fn linearised(&self, values: &[f64], poses: &[Pose]) -> Linearised {
+    fn linearised(&self, values: &[f64], states: &[RowState]) -> Option<Linearised> {
         let robot = self.robot_at(values);
-        let rows: Vec<RowTerms> =
-            self.rows.iter().zip(poses).map(|(row, pose)| self.row_terms(&robot, row, pose)).collect();
+        let terms = self.rows.iter().zip(states).map(|(row, state)| self.terms_of(&robot, row, state));
+        let rows: Vec<RowTerms> = terms.collect::<Option<_>>()?;
         let chi2 = rows.iter().map(|row| row.residuals.norm_squared()).sum();
-        Linearised { rows, chi2 }
+        Some(Linearised { rows, chi2 })
     }
 
-    /// Linearisation of the rows.
-    pub(super) fn terms_at(&self, values: &[f64], poses: &[Pose]) -> Vec<RowTerms> {
-        self.linearised(values, poses).rows
+    /// Linearisation of the rows of a fit; empty without equilibria.
+    pub(super) fn terms_at(&self, fit: &CalibrationFit) -> Vec<RowTerms> {
+        self.linearised(&fit.values, &states_of(fit)).map_or_else(Vec::new, |linearised| linearised.rows)
     }
 
-    /// χ² at a point.
-    pub(super) fn chi2_at(&self, values: &[f64], poses: &[Pose]) -> f64 {
+    /// χ² at a point, with the states of the rows at rest; `None` without an equilibrium.
+    fn chi2_at(&self, values: &[f64], states: &[RowState]) -> Option<(f64, Vec<RowState>)> {
         let robot = self.robot_at(values);
-        self.rows.iter().zip(poses).map(|(row, pose)| self.residuals(&robot, row, pose).norm_squared()).sum()
+        let (mut chi2, mut at_rest) = (0.0, Vec::with_capacity(states.len()));
+        for (row, state) in self.rows.iter().zip(states) {
+            let (residuals, state) = self.row_residuals(&robot, row, state)?;
+            chi2 += residuals.norm_squared();
+            at_rest.push(state);
+        }
+        Some((chi2, at_rest))
     }
 
-    /// Residuals of every row at a fit, computed less measured, in the units of the data [m]: readings of the cables that
-    /// were read, then measured coordinates.
+    /// Residuals of every row at a fit, computed less measured, in the units of the data: readings of the cables that
+    /// were read [m], measured coordinates [m], tensions [N].
     pub fn residuals_of(&self, fit: &CalibrationFit) -> Vec<Vec<f64>> {
-        let robot = self.robot_at(&fit.values);
-        let of_row = |(row, pose): (&super::MeasuredRow, &Pose)| {
+        let of_row = |(row, terms): (&super::MeasuredRow, &RowTerms)| {
             let read = row.readings.iter().flatten().count();
-            let scaled = self.residuals(&robot, row, pose);
-            let unit = |k: usize| if k < read { self.deviations.reading } else { self.deviations.position };
-            scaled.iter().enumerate().map(|(k, residual)| residual * unit(k)).collect()
+            let placed = row.position.iter().flatten().count();
+            let unit = |k: usize| match k {
+                k if k < read => self.deviations.reading,
+                k if k < read + placed => self.deviations.position,
+                _ => self.deviations.tension,
+            };
+            terms.residuals.iter().enumerate().map(|(k, residual)| residual * unit(k)).collect()
         };
-        self.rows.iter().zip(&fit.poses).map(of_row).collect()
+        self.rows.iter().zip(&self.terms_at(fit)).map(of_row).collect()
     }
+}
+
+/// States of the rows of a fit.
+fn states_of(fit: &CalibrationFit) -> Vec<RowState> {
+    let states = fit.poses.iter().enumerate();
+    states.map(|(j, pose)| RowState { pose: *pose, lengths: fit.lengths.get(j).cloned().unwrap_or_default() }).collect()
 }
 
 /// Decrease of χ² relative to χ² below which rounding decides whether it falls.

@@ -1,5 +1,6 @@
 //! Freedom of the frame: motions of the whole robot that change no datum, and the conditions that take their place.
 
+use super::elastic::RowState;
 use super::{Calibration, CalibrationError, CalibrationUnknown, null_space};
 use crate::math::{DMat, DVec, Vec3};
 use crate::robot::{PlatformMotion, Pose};
@@ -92,7 +93,14 @@ impl Calibration {
     /// Motions that change no datum, orthonormal columns; with the size of the robot among them if asked.
     fn free_motions(&self, values: &[f64], poses: &[Pose], with_size: bool) -> DMat {
         let fields = self.motion_fields(values, with_size);
-        let terms = self.terms_at(values, poses);
+        let at = self.robot_at(values);
+        let straight = |pose: &Pose| at.robot.cables.iter().map(|cable| cable.straight_length(pose)).collect();
+        let state = |pose: &Pose| RowState {
+            pose: *pose,
+            lengths: if self.is_elastic() { straight(pose) } else { Vec::new() },
+        };
+        let rows = self.rows.iter().zip(poses);
+        let terms: Vec<_> = rows.filter_map(|(row, pose)| self.terms_of(&at, row, &state(pose))).collect();
         let identity = DMat::identity(values.len(), values.len());
         let net: Vec<DMat> =
             terms.iter().map(|row| super::elimination::EliminatedRow::of(row, &identity, None).net).collect();
@@ -178,7 +186,7 @@ impl Calibration {
         let unknowns = DVec::from_fn(self.unknowns.len(), |k, _| match self.unknowns[k] {
             CalibrationUnknown::Anchor { cable, axis } => anchor(cable)[axis],
             CalibrationUnknown::Attachment { cable, axis } => attachment(cable)[axis],
-            CalibrationUnknown::Offset { .. } => 0.0,
+            CalibrationUnknown::Offset { .. } | CalibrationUnknown::AxialStiffness | CalibrationUnknown::Mass => 0.0,
             CalibrationUnknown::Scale => scale * self.scale_length,
         });
         let is_known = |of: CalibrationUnknown| !self.unknowns.contains(&of);

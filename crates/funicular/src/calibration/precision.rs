@@ -66,7 +66,7 @@ pub struct AnchorDistance {
 impl Calibration {
     /// Precision of a fit.
     pub fn precision(&self, fit: &CalibrationFit, frame: &CalibrationFrame) -> CalibrationPrecision {
-        let terms = self.terms_at(&fit.values, &fit.poses);
+        let terms = self.terms_at(fit);
         let (mut net, mut open_rows) = (Vec::with_capacity(terms.len()), Vec::new());
         for (j, terms) in terms.iter().enumerate() {
             let row = EliminatedRow::with_directions(terms, &frame.free);

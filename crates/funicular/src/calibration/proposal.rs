@@ -30,6 +30,10 @@ pub fn proposals(
     count: usize,
     weights: &[f64],
 ) -> Vec<ProposedPose> {
+    // A pose of elastic cables has tensions of its own choice.
+    if of.is_elastic() {
+        return Vec::new();
+    }
     let robot = of.robot_at(&fit.values);
     let reading = |pose: &Pose| -> Vec<f64> {
         let cables = robot.robot.cables.iter().zip(&robot.offsets);

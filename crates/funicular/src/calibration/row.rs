@@ -12,6 +12,8 @@ pub struct MeasuredRow {
     pub readings: Vec<Option<f64>>,
     /// Measured coordinates of the platform origin, world axes [m].
     pub position: [Option<f64>; 3],
+    /// Tension of each cable at its anchor [N]; `None` where it was not measured, empty if none was.
+    pub tensions: Vec<Option<f64>>,
     /// Pose at which the search begins.
     pub start: Option<Pose>,
 }
@@ -24,7 +26,8 @@ impl MeasuredRow {
 
     /// Number of data.
     pub fn data_count(&self) -> usize {
-        self.readings.iter().flatten().count() + self.position.iter().flatten().count()
+        let tensions = self.tensions.iter().flatten().count();
+        self.readings.iter().flatten().count() + self.position.iter().flatten().count() + tensions
     }
 }
 
@@ -35,6 +38,8 @@ pub struct ReadingDeviations {
     pub reading: f64,
     /// Of a measured coordinate of the platform [m].
     pub position: f64,
+    /// Of a measured tension [N].
+    pub tension: f64,
 }
 
 /// Residuals of one row and their derivatives, each divided by the standard deviation of its datum.

@@ -75,7 +75,7 @@ pub fn search(
         let (values, poses) = match (number, &nothing) {
             (0, _) => (of.start(), of.start_poses()),
             (1, Some(nothing)) => nothing.clone(),
-            (1, None) | (2, Some(_)) => of.poses_first(),
+            (1, None) | (2, Some(_)) if !of.is_elastic() => of.poses_first(),
             _ => of.moved_start(frame, number),
         };
         done += 1;
@@ -126,7 +126,7 @@ impl Calibration {
     /// Number of data less that of the unknowns and the coordinates of all poses.
     fn degrees(&self, frame: &CalibrationFrame) -> usize {
         let data: usize = self.rows.iter().map(MeasuredRow::data_count).sum();
-        data.saturating_sub(frame.free_count() + self.rows.len() * self.coordinate_count())
+        data.saturating_sub(frame.free_count() + self.rows.len() * self.row_unknown_count())
     }
 
     /// χ² up to which a fit is one of noise.
@@ -207,6 +207,9 @@ impl Calibration {
 
     /// Fit in which no row has a better pose elsewhere: rows that have take it, and everything is fitted again.
     fn polished(&self, mut found: CalibrationFit, frame: &CalibrationFrame) -> CalibrationFit {
+        if self.is_elastic() {
+            return found;
+        }
         for _ in 0..3 {
             let mut poses = found.poses.clone();
             let mut is_moved = false;
@@ -244,7 +247,8 @@ impl Calibration {
         let anchors = (0..self.robot.cables.len()).all(|cable| {
             axes.iter().all(|&axis| self.position_of(&CalibrationUnknown::Anchor { cable, axis }).is_some())
         });
-        self.is_point
+        !self.is_elastic()
+            && self.is_point
             && anchors
             && frame.motion_count() == all
             && self.robot.cables.iter().all(|cable| cable.anchor.is_fixed())
@@ -292,8 +296,7 @@ impl Calibration {
         let poses: Vec<Pose> =
             found.poses.iter().map(|pose| Pose { position_w: place(&pose.position_w), ..*pose }).collect();
         let (values, poses) = frame.placed(self, &values, &poses);
-        let chi2 = self.chi2_at(&values, &poses);
-        CalibrationFit { values, poses, chi2, ..*found }
+        CalibrationFit { values, poses, ..found.clone() }
     }
 
     /// Anchors and mean position of a fit, and of the file, as rows.

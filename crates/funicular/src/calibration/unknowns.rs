@@ -26,6 +26,10 @@ pub enum CalibrationUnknown {
     },
     /// Metres of length per metre of all readings.
     Scale,
+    /// Factor of the axial stiffness of all cables.
+    AxialStiffness,
+    /// Factor of the mass of the platform.
+    Mass,
 }
 
 impl CalibrationUnknown {
@@ -33,7 +37,7 @@ impl CalibrationUnknown {
     pub fn cable(&self) -> Option<usize> {
         match self {
             Self::Anchor { cable, .. } | Self::Attachment { cable, .. } | Self::Offset { cable } => Some(*cable),
-            Self::Scale => None,
+            Self::Scale | Self::AxialStiffness | Self::Mass => None,
         }
     }
 }
@@ -47,16 +51,20 @@ pub struct CalibratedRobot {
     pub offsets: Vec<f64>,
     /// Metres of length per metre of reading.
     pub scale: f64,
+    /// Factors of the axial stiffness of all cables and of the mass of the platform, which the robot has already.
+    pub factors: [f64; 2],
 }
 
 impl CalibratedRobot {
-    /// Values of unknowns; the scale is multiplied by a length.
+    /// Values of unknowns; the scale and the logarithms of the factors are multiplied by a length.
     pub(super) fn values(&self, unknowns: &[CalibrationUnknown], scale_length: f64) -> Vec<f64> {
         let value = |of: &CalibrationUnknown| match *of {
             CalibrationUnknown::Anchor { cable, axis } => self.robot.cables[cable].anchor.point_w[axis],
             CalibrationUnknown::Attachment { cable, axis } => self.robot.cables[cable].attachment_p[axis],
             CalibrationUnknown::Offset { cable } => self.offsets[cable],
             CalibrationUnknown::Scale => self.scale * scale_length,
+            CalibrationUnknown::AxialStiffness => self.factors[0].ln() * scale_length,
+            CalibrationUnknown::Mass => self.factors[1].ln() * scale_length,
         };
         unknowns.iter().map(value).collect()
     }
@@ -69,6 +77,18 @@ impl CalibratedRobot {
                 CalibrationUnknown::Attachment { cable, axis } => self.robot.cables[cable].attachment_p[axis] = *value,
                 CalibrationUnknown::Offset { cable } => self.offsets[cable] = *value,
                 CalibrationUnknown::Scale => self.scale = *value / scale_length,
+                CalibrationUnknown::AxialStiffness => {
+                    let factor = (*value / scale_length).exp();
+                    for cable in &mut self.robot.cables {
+                        cable.material.axial_stiffness *= factor / self.factors[0];
+                    }
+                    self.factors[0] = factor;
+                }
+                CalibrationUnknown::Mass => {
+                    let factor = (*value / scale_length).exp();
+                    self.robot.platform.mass *= factor / self.factors[1];
+                    self.factors[1] = factor;
+                }
             }
         }
     }

@@ -119,7 +119,9 @@ impl Calibration {
         let field = |anchor: &dyn Fn(usize) -> Vec3, offset: &dyn Fn(usize) -> f64, scale: f64| {
             DVec::from_fn(self.unknowns.len(), |k, _| match self.unknowns[k] {
                 CalibrationUnknown::Anchor { cable, axis } => anchor(cable)[axis],
-                CalibrationUnknown::Attachment { .. } => 0.0,
+                CalibrationUnknown::Attachment { .. }
+                | CalibrationUnknown::AxialStiffness
+                | CalibrationUnknown::Mass => 0.0,
                 CalibrationUnknown::Offset { cable } => offset(cable),
                 CalibrationUnknown::Scale => scale,
             })

@@ -4,11 +4,12 @@
 mod published;
 
 use funicular::calibration::{
-    Calibration, CalibrationFit, CalibrationFrame, CalibrationPrecision, CalibrationUnknown, CombinationPart,
-    FrameChoice, MeasuredRow, ReadingDeviations, cable_exchange, proposals, row_exchange, search,
+    Calibration, CalibrationError, CalibrationFit, CalibrationFrame, CalibrationPrecision, CalibrationUnknown,
+    CombinationPart, FrameChoice, MeasuredRow, ReadingDeviations, cable_exchange, proposals, row_exchange, search,
 };
 use funicular::math::Vec3;
 use funicular::robot::{Pose, Robot};
+use funicular::statics::StaticModel;
 use published::*;
 
 /// Robot file of a platform with these anchors and attachments.
@@ -45,7 +46,7 @@ fn rows<const N: usize>(readings: &[[f64; N]]) -> Vec<MeasuredRow> {
 }
 
 fn deviations(reading: f64) -> ReadingDeviations {
-    ReadingDeviations { reading, position: 1.0 }
+    ReadingDeviations { reading, position: 1.0, tension: 1.0 }
 }
 
 /// Best fit with its frame and precision.
@@ -62,7 +63,7 @@ fn fitted(of: &Calibration) -> (CalibrationFit, CalibrationFrame, CalibrationPre
 fn machine() -> Calibration {
     let start = planar(&[[0.0, 0.0], [4.4, 0.0], [4.4, 3.7], [0.0, 3.7]]);
     let readings = MACHINE_LENGTHS_MM.map(|row| row.map(|length| length * 1e-3));
-    Calibration::new(start, unknowns(4, &[0, 1], false), rows(&readings), deviations(1e-3)).unwrap()
+    Calibration::new(start, unknowns(4, &[0, 1], false), rows(&readings), deviations(1e-3), StaticModel::Ideal).unwrap()
 }
 
 #[test]
@@ -137,7 +138,8 @@ fn the_best_seventh_waypoint_of_the_machine_is_that_of_the_separate_program() {
 
 fn plane_set() -> Calibration {
     let start = planar(&PLANE_START);
-    Calibration::new(start, unknowns(4, &[0, 1], true), rows(&PLANE_READINGS), deviations(0.4e-3)).unwrap()
+    Calibration::new(start, unknowns(4, &[0, 1], true), rows(&PLANE_READINGS), deviations(0.4e-3), StaticModel::Ideal)
+        .unwrap()
 }
 
 /// Compares values and deviations with published ones; `held` are the unknowns that the frame holds.
@@ -169,7 +171,14 @@ fn a_planar_set_with_offsets_agrees_with_the_separate_program() {
 
 fn rigid_set() -> Calibration {
     let start = robot("rigid", &RIGID_START, &RIGID_ATTACHMENTS);
-    Calibration::new(start, unknowns(8, &[0, 1, 2], true), rows(&RIGID_READINGS), deviations(0.5e-3)).unwrap()
+    Calibration::new(
+        start,
+        unknowns(8, &[0, 1, 2], true),
+        rows(&RIGID_READINGS),
+        deviations(0.5e-3),
+        StaticModel::Ideal,
+    )
+    .unwrap()
 }
 
 #[test]
@@ -278,7 +287,7 @@ fn derivatives_are_those_of_differences() {
     for cable in &mut start.cables[3..] {
         cable.attachment_p.x += draws.within(0.005);
     }
-    let of = Calibration::new(start, all, rows, deviations(1e-3)).unwrap();
+    let of = Calibration::new(start, all, rows, deviations(1e-3), StaticModel::Ideal).unwrap();
     let (fit, ..) = fitted(&of);
     // A wrong derivative of 1 % would leave some 1e-2 of the starting error; rounding times the condition leaves 1e-9.
     assert!(fit.converged && fit.chi2 < 1e-9, "{}", fit.chi2);
@@ -299,7 +308,9 @@ fn intervals_hold_the_truth_and_chi_squared_is_that_of_noise() {
     let (mut held, mut count, mut chi2) = (0, 0, 0.0);
     for _ in 0..100 {
         let rows = readings(&truth, &poses, &[0.0; 4], 0.5e-3, &mut draws);
-        let of = Calibration::new(truth.clone(), unknowns(4, &[0, 1], false), rows, deviations(0.5e-3)).unwrap();
+        let of =
+            Calibration::new(truth.clone(), unknowns(4, &[0, 1], false), rows, deviations(0.5e-3), StaticModel::Ideal)
+                .unwrap();
         let (fit, frame, precision) = fitted(&of);
         chi2 += fit.chi2 / 100.0;
         for (k, (value, deviation)) in fit.values.iter().zip(precision.deviations()).enumerate() {
@@ -323,7 +334,9 @@ fn a_reading_that_is_one_per_cent_off_is_found_and_named() {
     let mut readings = PLANE_READINGS;
     readings[4][2] *= 1.01;
     let start = planar(&PLANE_START);
-    let of = Calibration::new(start, unknowns(4, &[0, 1], true), rows(&readings), deviations(0.4e-3)).unwrap();
+    let of =
+        Calibration::new(start, unknowns(4, &[0, 1], true), rows(&readings), deviations(0.4e-3), StaticModel::Ideal)
+            .unwrap();
     let (fit, frame, precision) = fitted(&of);
     // 14 mm are 34 deviations, of which offsets and anchors take most; noise gives 9 ± 4.2, four deviations up to 26.
     assert!(fit.chi2 > 26.0, "{}", fit.chi2);
@@ -343,7 +356,8 @@ fn point_robots_are_found_from_nothing_but_lengths() {
         let poses = camera_poses(14, &mut draws);
         let rows = readings(&truth, &poses, &[0.0; 6], 1e-3, &mut draws);
         // The file has one place for all anchors, apart from a rough figure that gives the frame.
-        let of = Calibration::new(camera(), unknowns(6, &[0, 1, 2], false), rows, deviations(1e-3)).unwrap();
+        let of = Calibration::new(camera(), unknowns(6, &[0, 1, 2], false), rows, deviations(1e-3), StaticModel::Ideal)
+            .unwrap();
         let frame = of.frame(&FrameChoice::Anchors(Vec::new())).unwrap();
         let found = search(&of, &frame, 10, &mut |_, _| true).unwrap();
         assert!(found.from_nothing && frame.motion_count() == 6);
@@ -371,7 +385,8 @@ fn rigid_platforms_are_found_from_anchors_that_are_off() {
             .collect();
         let rows = readings(&truth, &poses, &[0.0; 8], 0.5e-3, &mut draws);
         let start = with_errors(&truth, 0.3, &mut draws);
-        let of = Calibration::new(start, unknowns(8, &[0, 1, 2], false), rows, deviations(0.5e-3)).unwrap();
+        let of = Calibration::new(start, unknowns(8, &[0, 1, 2], false), rows, deviations(0.5e-3), StaticModel::Ideal)
+            .unwrap();
         let frame = of.frame(&FrameChoice::Anchors(Vec::new())).unwrap();
         let found = search(&of, &frame, 10, &mut |_, _| true).unwrap();
         // 192 readings less 18 and 144 unknowns: 30 ± 7.7, four deviations.
@@ -392,22 +407,26 @@ fn a_ceiling_and_a_floor_do_not_determine_the_anchors() {
         (0..30).map(|_| Pose::new([3.5 + draws.within(2.5), 2.5 + draws.within(2.0), 1.0], [0.0; 3])).collect();
     // Without noise three combinations are lost.
     let exact = readings(&truth, &poses, &[0.0; 6], 0.0, &mut draws);
-    let of = Calibration::new(truth.clone(), unknowns(6, &[0, 1, 2], false), exact, deviations(1e-3)).unwrap();
+    let of =
+        Calibration::new(truth.clone(), unknowns(6, &[0, 1, 2], false), exact, deviations(1e-3), StaticModel::Ideal)
+            .unwrap();
     let frame = of.frame(&FrameChoice::Anchors(Vec::new())).unwrap();
-    let fit = CalibrationFit { values: of.start(), poses: poses.clone(), chi2: 0.0, iterations: 0, converged: true };
+    let fit = CalibrationFit {
+        values: of.start(),
+        poses: poses.clone(),
+        lengths: Vec::new(),
+        chi2: 0.0,
+        iterations: 0,
+        converged: true,
+    };
     assert_eq!(of.precision(&fit, &frame).lost.len(), 3);
 
     // Noise hides them from the linearisation, but not from the walk.
     let noisy = readings(&truth, &poses, &[0.0; 6], 1e-3, &mut draws);
-    let of = Calibration::new(truth, unknowns(6, &[0, 1, 2], false), noisy, deviations(1e-3)).unwrap();
+    let of =
+        Calibration::new(truth, unknowns(6, &[0, 1, 2], false), noisy, deviations(1e-3), StaticModel::Ideal).unwrap();
     let frame = of.frame(&FrameChoice::Anchors(Vec::new())).unwrap();
     let found = search(&of, &frame, 10, &mut |_, _| true).unwrap();
-    let minima = [&found.best].into_iter().chain(&found.others);
-    for fit in minima.clone() {
-        let frame = of.frame_about(&frame, fit);
-        let precision = of.precision(fit, &frame);
-        println!("CEIL {} {:?} {}", fit.chi2, of.weak_walk(fit, &frame, &precision, 1.0), precision.total());
-    }
     // Either several figures fit, or one whose walk is no parabola.
     let is_sound = |fit: &CalibrationFit| {
         let frame = of.frame_about(&frame, fit);
@@ -422,7 +441,7 @@ fn data_that_cannot_calibrate_are_refused_with_their_remedy() {
     // 24 lengths of two rows fewer: 16 lengths for 5 and 8 unknowns suffice, 8 for 5 and 4 do not.
     let start = planar(&PLANE_START);
     let of = |rows: Vec<MeasuredRow>, all: Vec<CalibrationUnknown>| {
-        let of = Calibration::new(start.clone(), all, rows, deviations(1e-3))?;
+        let of = Calibration::new(start.clone(), all, rows, deviations(1e-3), StaticModel::Ideal)?;
         let frame = of.frame(&FrameChoice::Anchors(Vec::new()))?;
         of.check_count(&frame)
     };
@@ -455,11 +474,13 @@ fn exchanged_cables_are_named() {
     let one_row = rows.clone();
     rows.iter_mut().for_each(|row| row.readings.swap(2, 5));
     let start = with_errors(&truth, 0.05, &mut draws);
-    let of = |rows| Calibration::new(start.clone(), unknowns(8, &[0, 1, 2], false), rows, deviations(0.5e-3)).unwrap();
+    let of = |rows| {
+        Calibration::new(start.clone(), unknowns(8, &[0, 1, 2], false), rows, deviations(0.5e-3), StaticModel::Ideal)
+            .unwrap()
+    };
     let all = of(rows);
     let frame = all.frame(&FrameChoice::Anchors(Vec::new())).unwrap();
     let found = search(&all, &frame, 2, &mut |_, _| true).unwrap();
-    println!("EXCH {:?} {}", cable_exchange(&all, &found.best, &frame), found.best.chi2);
     assert_eq!(cable_exchange(&all, &found.best, &frame).unwrap().cables, [2, 5]);
 
     // In one row.
@@ -488,32 +509,61 @@ fn eight_cables_with_sixty_rows_take_less_than_a_second() {
         .collect();
     let rows = readings(&truth, &poses, &[0.004; 8], 0.5e-3, &mut draws);
     let start = with_errors(&truth, 0.1, &mut draws);
-    let of = Calibration::new(start, unknowns(8, &[0, 1, 2], true), rows, deviations(0.5e-3)).unwrap();
+    let of =
+        Calibration::new(start, unknowns(8, &[0, 1, 2], true), rows, deviations(0.5e-3), StaticModel::Ideal).unwrap();
     let begun = std::time::Instant::now();
     let (fit, frame, precision) = fitted(&of);
     let walk = of.weak_walk(&fit, &frame, &precision, 1.0).unwrap();
     let seconds = begun.elapsed().as_secs_f64();
-    let frame0 = of.frame(&FrameChoice::Anchors(Vec::new())).unwrap();
-    let b = std::time::Instant::now();
-    let found = search(&of, &frame0, 1, &mut |_, _| true).unwrap();
-    println!("one start {} it {} chi2 {}", b.elapsed().as_secs_f64(), found.best.iterations, found.best.chi2);
-    let b = std::time::Instant::now();
-    let found = search(&of, &frame0, 10, &mut |_, _| true).unwrap();
-    println!(
-        "all {} it {} starts {} arr {} {:?}",
-        b.elapsed().as_secs_f64(),
-        found.best.iterations,
-        found.starts,
-        found.arrivals,
-        found.others.iter().map(|o| o.chi2).collect::<Vec<_>>()
-    );
-    let b = std::time::Instant::now();
-    let _ = of.precision(&found.best, &frame0);
-    println!("precision {}", b.elapsed().as_secs_f64());
-    let b = std::time::Instant::now();
-    let _ = of.weak_walk(&fit, &frame, &precision, 1.0);
-    println!("walk {}", b.elapsed().as_secs_f64());
-    println!("{seconds} s");
     // 480 readings less 26 and 360 unknowns: 94 ± 14, four deviations.
     assert!(walk.is_parabola() && precision.degrees == 94 && fit.chi2 < 150.0, "{} {walk:?}", fit.chi2);
+}
+
+/// Point mass on four elastic catenaries, with measured tensions.
+fn sagging(tensions: bool) -> Result<Calibration, CalibrationError> {
+    let mut robot = robot("point-mass", &SAG_START, &[[0.0; 3]; 4]);
+    robot.gravity_w = Vec3::new(0.0, 0.0, -9.81);
+    robot.platform.mass = 196.2 / 9.81;
+    for cable in &mut robot.cables {
+        cable.material.axial_stiffness = 130e3;
+        cable.material.mass_per_length = 1.18 / 9.81;
+    }
+    let row = |(readings, measured): (&[f64; 4], &[f64; 4])| MeasuredRow {
+        tensions: if tensions { measured.iter().copied().map(Some).collect() } else { Vec::new() },
+        ..MeasuredRow::of_readings(readings)
+    };
+    let rows = SAG_READINGS.iter().zip(&SAG_TENSIONS).map(row).collect();
+    let mut all = unknowns(4, &[0, 1, 2], true);
+    all.push(CalibrationUnknown::AxialStiffness);
+    let deviations = ReadingDeviations { reading: 1e-3, position: 1.0, tension: 3.0 };
+    Calibration::new(robot, all, rows, deviations, StaticModel::Catenary)
+}
+
+#[test]
+fn sagging_cables_with_tensions_agree_with_the_separate_program() {
+    let of = sagging(true).unwrap();
+    let frame = of.frame(&FrameChoice::Anchors(Vec::new())).unwrap();
+    // Gravity leaves three shifts and a turn about the vertical.
+    assert_eq!((frame.motion_count(), frame.held_coordinates.clone()), (4, vec![3, 1]));
+    let found = search(&of, &frame, 2, &mut |_, _| true).unwrap();
+    let (fit, frame) = (&found.best, of.frame_about(&frame, &found.best));
+    let precision = of.precision(fit, &frame);
+    // The separate program: values within 5e-3 deviations and deviations within 1e-3, the noise of its differences.
+    assert!((fit.chi2 - 87.273307).abs() < 1e-3 && precision.degrees == 83, "{} {}", fit.chi2, precision.degrees);
+    let free: Vec<usize> = (0..17).filter(|k| !frame.holds(*k)).collect();
+    let deviations = precision.deviations();
+    for ((&k, expected), deviation) in free.iter().zip(SAG_VALUES).zip(SAG_DEVIATIONS) {
+        let [value, rate] = of.meaning(k, fit.values[k]);
+        let (value, own) =
+            if k == 16 { ((130e3 * value).ln(), deviations[k] * rate / value) } else { (value, deviations[k]) };
+        assert!((value - expected).abs() < 5e-3 * deviation, "{k} {value} {expected}");
+        assert!((own / deviation - 1.0).abs() < 1e-3, "{k} {own} {deviation}");
+    }
+}
+
+#[test]
+fn lengths_of_elastic_cables_alone_say_nothing() {
+    let error = sagging(false).unwrap_err();
+    assert_eq!(error, CalibrationError::ElasticLengthsAlone);
+    assert!(error.to_string().contains("measure tensions too"));
 }

@@ -115,6 +115,9 @@ fn poor_frame(of: &CalibrationReport) -> Option<String> {
 
 /// Warning of stretch and sag that straight rigid cables do not have.
 fn stretch(of: &CalibrationReport) -> Option<String> {
+    if of.of.is_elastic() {
+        return None;
+    }
     let deviation = of.factor? * of.of.deviations.reading;
     let (stretch, tension) = elongation(&of.of.robot)?;
     (stretch > deviation).then(|| {

@@ -167,8 +167,7 @@ impl<'a> CalibrationReport<'a> {
             .map(|k| self.precision.lost.iter().any(|direction| direction[k].abs() > LOST_PART))
             .collect();
         let value = |k: usize| {
-            let unit = self.of.unit_of(k);
-            let value = self.fit().values[k] * unit;
+            let [value, unit] = self.of.meaning(k, self.fit().values[k]);
             let held = self.frame.holds(k);
             let known = |deviation: f64| self.factor.filter(|_| !lost[k]).map(|factor| factor * deviation * unit);
             let deviation = known(deviations[k]).filter(|_| !held);
@@ -176,7 +175,7 @@ impl<'a> CalibrationReport<'a> {
             CalibratedValue {
                 path: self.paths[k].0.clone(),
                 unit: self.paths[k].1,
-                start: start[k] * unit,
+                start: self.of.meaning(k, start[k])[0],
                 value,
                 held,
                 deviation,
@@ -259,7 +258,7 @@ impl<'a> CalibrationReport<'a> {
             let row = (0..best.poses.len()).max_by(|a, b| distance(*a).total_cmp(&distance(*b))).unwrap_or(0);
             MinimumRow {
                 chi2: other.chi2,
-                values: other.values.iter().enumerate().map(|(k, value)| value * self.of.unit_of(k)).collect(),
+                values: other.values.iter().enumerate().map(|(k, value)| self.of.meaning(k, *value)[0]).collect(),
                 farthest_m: best.values.iter().zip(&other.values).map(apart).fold(0.0, f64::max),
                 row: row + 1,
             }
@@ -288,7 +287,12 @@ impl<'a> CalibrationReport<'a> {
                 total_m: factor * of.total,
                 largest_m: factor * of.deviations[largest],
                 largest_of: self.paths[largest].0.clone(),
-                deviations: of.deviations.iter().enumerate().map(|(k, d)| factor * d * self.of.unit_of(k)).collect(),
+                deviations: of
+                    .deviations
+                    .iter()
+                    .enumerate()
+                    .map(|(k, d)| factor * d * self.of.meaning(k, self.fit().values[k])[1])
+                    .collect(),
             }
         };
         let mut rows: Vec<ProposalRow> = found.iter().enumerate().map(row).collect();
@@ -307,6 +311,8 @@ impl<'a> CalibrationReport<'a> {
             CalibrationUnknown::Attachment { .. } => "attachments",
             CalibrationUnknown::Offset { .. } => "offsets",
             CalibrationUnknown::Scale => "scale",
+            CalibrationUnknown::AxialStiffness => "axial-stiffness",
+            CalibrationUnknown::Mass => "mass",
         };
         let chosen = &self.request.propose_for;
         if chosen.is_empty() || chosen.iter().any(|of| of == name) { 1.0 } else { 0.0 }

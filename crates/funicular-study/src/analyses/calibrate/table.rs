@@ -41,11 +41,13 @@ pub(super) fn rows(columns: &NumberColumns, robot: &Robot, measured: bool) -> Re
     };
     let of_cables: Vec<String> =
         robot.cables.iter().flat_map(|cable| names(&cable.name).map(|(name, _)| name)).collect();
-    let known: Vec<String> = POSE.iter().map(|name| (*name).to_owned()).chain(of_cables).collect();
+    let of_tension = |cable: &str| format!("tension_{cable}_n");
+    let tensions = robot.cables.iter().map(|cable| of_tension(&cable.name));
+    let known: Vec<String> = POSE.iter().map(|name| (*name).to_owned()).chain(of_cables).chain(tensions).collect();
     if let Some(unknown) = columns.keys().find(|name| !known.contains(name)) {
         return Err(fault(format!(
             "there is a column `{unknown}`{}: give length_NAME_m or length_NAME_mm of the cables {}, and x_m, y_m, z_m, \
-             roll_deg, pitch_deg, yaw_deg; drop other columns",
+             roll_deg, pitch_deg, yaw_deg, tension_NAME_n; drop other columns",
             suggestion(unknown, &known),
             robot.cables.iter().map(|cable| cable.name.as_str()).collect::<Vec<_>>().join(", ")
         )));
@@ -83,7 +85,8 @@ pub(super) fn rows(columns: &NumberColumns, robot: &Robot, measured: bool) -> Re
             let coordinate = |name: &str| columns.get(name).map(|values| values[row]);
             let start = pose(row, columns, robot).map_err(|text| TableFault { key: KEY, row: Some(row), text })?;
             let position = if measured { ["x_m", "y_m", "z_m"].map(coordinate) } else { [None; 3] };
-            let made = MeasuredRow { readings: readings.iter().map(reading).collect(), position, start };
+            let tensions = robot.cables.iter().map(|cable| coordinate(&of_tension(&cable.name))).collect();
+            let made = MeasuredRow { readings: readings.iter().map(reading).collect(), position, tensions, start };
             for (name, values) in columns {
                 finite(values[row]).map_err(|reason| TableFault {
                     key: KEY,

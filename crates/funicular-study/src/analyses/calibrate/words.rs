@@ -93,6 +93,8 @@ pub(super) fn path(robot: &Robot, of: &CalibrationUnknown) -> (String, &'static 
         }
         CalibrationUnknown::Offset { cable: i } => (format!("offset of cable {}", cable(i)), "m"),
         CalibrationUnknown::Scale => ("scale".to_owned(), "1"),
+        CalibrationUnknown::AxialStiffness => ("factor of the axial stiffness".to_owned(), "1"),
+        CalibrationUnknown::Mass => ("factor of the mass".to_owned(), "1"),
     }
 }
 
