@@ -21,7 +21,7 @@ mod unknowns;
 mod weak;
 
 pub use curvature::WeakWalk;
-pub use exchange::{CableExchange, cable_exchange, row_exchange};
+pub use exchange::{CableExchange, cable_exchange, encoder_of_other_sign, row_exchange};
 pub use fit::CalibrationFit;
 pub use frame::{CalibrationFrame, FrameChoice};
 pub use from_nothing::anchors_from_lengths;

@@ -39,14 +39,14 @@ fn the_belts_of_a_machine_fit_but_do_not_tell_its_anchors() {
     let found = found(&[]);
     // Fit of a separate program: 1 µm and its printed digits.
     assert!((value(&found, "cables.tr.anchor_m.y", "value") - 3.8549).abs() < 1e-6);
-    assert!((value(&found, "cables.tr.anchor_m.y", "deviation") - 0.0635492).abs() < 1e-6);
-    assert!((number(&found["residual_rms_m"]) - 0.2796231e-3).abs() < 1e-9);
-    assert!((number(&found["weakest_m"]) - 0.1135018).abs() < 1e-6);
-    assert!((number(&found["length_std_m"]) - 0.5177614e-3).abs() < 1e-9);
+    assert!((value(&found, "cables.tr.anchor_m.y", "deviation") - 0.063_549_2).abs() < 1e-6);
+    assert!((number(&found["residual_rms_m"]) - 0.279_623_1e-3).abs() < 1e-9);
+    assert!((number(&found["weakest_m"]) - 0.113_501_8).abs() < 1e-6);
+    assert!((number(&found["length_std_m"]) - 0.517_761_4e-3).abs() < 1e-9);
     // Student's t of 7 degrees of freedom: 2.3646 deviations to either side.
     let interval = &found["values"].as_array().unwrap()[5]["interval_95"];
     let width = number(&interval[1]) - number(&interval[0]);
-    assert!((width / (2.0 * 2.3646 * 0.0635492) - 1.0).abs() < 1e-4, "{width}");
+    assert!((width / (2.0 * 2.3646 * 0.063_549_2) - 1.0).abs() < 1e-4, "{width}");
     assert_eq!(found["is_determined"], true);
     assert_eq!(found["frame"], "held as in the file: anchor bl, one coordinate of anchor br");
     let words = found["weak_combinations"][0]["words"].as_str().unwrap();
@@ -64,7 +64,7 @@ fn the_proposal_says_what_the_next_positions_leave() {
     let first = &proposed["proposals"][0];
     assert_eq!(first["position_m"], serde_json::json!([3.725, 3.5, 0.0]));
     // Of the separate program.
-    assert!((number(&first["total_m"]) - 10.789284728505201e-3).abs() < 1e-8);
+    assert!((number(&first["total_m"]) - 10.789_284_73e-3).abs() < 1e-8);
     assert_eq!(first["readings_m"].as_array().unwrap().len(), 4);
 
     let wanted = found(&[&grid[..], &["--wanted-std-m", "0.002"]].concat());
@@ -75,8 +75,9 @@ fn the_proposal_says_what_the_next_positions_leave() {
 #[test]
 fn frames_change_deviations_of_anchors_but_not_of_distances() {
     let [file, other, inner] = [found(&[]), found(&["--frame", "tr,tl"]), found(&["--frame", "inner"])];
-    assert!((value(&other, "cables.bl.anchor_m.y", "inner_deviation") - 0.02946).abs() < 1e-5);
-    // Printed digits of the separate program, with tr at the origin and tl beside it, the file's direction of that side.
+    // The figure is turned by half a degree against that of the file's frame, which mixes x and y by 1 %.
+    assert!((value(&other, "cables.bl.anchor_m.y", "inner_deviation") - 0.02946).abs() < 1e-4);
+    // Printed digits of the separate program.
     assert!((value(&inner, "cables.tr.anchor_m.y", "deviation") - 0.03152).abs() < 1e-5);
     for (k, distance) in file["distances"].as_array().unwrap().iter().enumerate() {
         for found in [&other, &inner] {
@@ -133,7 +134,7 @@ fn tables_that_cannot_be_meant_are_refused_with_their_remedy() {
 fn offsets_of_the_machine_are_not_determined_although_its_residuals_are_smaller() {
     let [without, with] = [found(&[]), found(&["--unknowns", "anchors,offsets"])];
     assert!(number(&with["residual_rms_m"]) < number(&without["residual_rms_m"]));
-    assert_eq!(with["degrees_of_freedom"], 3);
-    // The separate program: 46 to 205 m for the anchors, or no longer a number.
+    // The separate program: 46 to 205 m for the anchors, which are no numbers any more.
     assert_eq!(with["is_determined"], false);
+    assert!(with["values"].as_array().unwrap().iter().all(|row| row["interval_95"].is_null()));
 }

@@ -4,7 +4,7 @@
 use super::row::RowTerms;
 use super::{CalibratedRobot, Calibration, CalibrationUnknown, MeasuredRow};
 use crate::math::{DMat, DVec, Vec3};
-use crate::robot::{Pose, RobotChange};
+use crate::robot::{CableChange, Pose, RobotChange};
 use crate::statics::{self, Equilibrium, StaticModel, derivatives};
 
 /// Unknowns of one row: its pose, and where cables are elastic their unstrained lengths [m], of which the pose follows.
@@ -76,7 +76,7 @@ impl Calibration {
 
         // Along each true length.
         for cable in 0..cables {
-            let mut change = RobotChange { cables: vec![Default::default(); cables], ..RobotChange::default() };
+            let mut change = RobotChange { cables: vec![CableChange::default(); cables], ..RobotChange::default() };
             change.cables[cable].unstrained_length = 1.0;
             let column = self.column(at, row, &rest, &change, |i| if i == cable { 1.0 / at.scale } else { 0.0 })?;
             terms.by_pose.set_column(cable, &column);
@@ -146,7 +146,7 @@ impl Calibration {
     /// Change of the robot along an unknown.
     fn change(&self, at: &CalibratedRobot, unknown: &CalibrationUnknown) -> RobotChange {
         let cables = at.robot.cables.len();
-        let mut change = RobotChange { cables: vec![Default::default(); cables], ..RobotChange::default() };
+        let mut change = RobotChange { cables: vec![CableChange::default(); cables], ..RobotChange::default() };
         match *unknown {
             CalibrationUnknown::Anchor { cable, axis } => change.cables[cable].anchor_w = Vec3::ith(axis, 1.0),
             CalibrationUnknown::Attachment { cable, axis } => {

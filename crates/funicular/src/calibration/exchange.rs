@@ -1,7 +1,7 @@
 //! Cables whose readings are exchanged.
 
 use super::frame::CalibrationFrame;
-use super::{Calibration, CalibrationFit, MeasuredRow};
+use super::{Calibration, CalibrationFit, CalibrationUnknown, MeasuredRow};
 
 /// Exchanges that are fitted completely, after all were compared with the unknowns held.
 const FITTED: usize = 3;
@@ -52,6 +52,30 @@ pub fn cable_exchange(of: &Calibration, fit: &CalibrationFit, frame: &Calibratio
     });
     let best = fitted.min_by(|a, b| a.chi2.total_cmp(&b.chi2))?;
     (best.chi2 < BETTER_FIT * fit.chi2).then_some(best)
+}
+
+/// Cable whose readings fall while it pays out, with χ² after a change of their sign: it falls by a factor of 10. The search
+/// needs unknown offsets, because a length is positive.
+pub fn encoder_of_other_sign(of: &Calibration, fit: &CalibrationFit, frame: &CalibrationFrame) -> Option<(usize, f64)> {
+    if of.is_elastic() {
+        return None;
+    }
+    let flipped = |cable: usize| {
+        let offset = of.position_of(&CalibrationUnknown::Offset { cable })?;
+        let readings: Vec<f64> = of.rows.iter().filter_map(|row| row.readings[cable]).collect();
+        let mean = readings.iter().sum::<f64>() / readings.len().max(1) as f64;
+        let mut other = of.clone();
+        for reading in other.rows.iter_mut().filter_map(|row| row.readings[cable].as_mut()) {
+            *reading = -*reading;
+        }
+        // The mean length stays that of the readings as they were.
+        let mut start = of.start();
+        start[offset] = 2.0 * mean;
+        let found = other.fit(&start, &of.start_poses(), &frame.free);
+        Some((cable, found.chi2))
+    };
+    let best = (0..of.robot.cables.len()).filter_map(flipped).min_by(|a, b| a.1.total_cmp(&b.1))?;
+    (best.1 < BETTER_FIT * fit.chi2).then_some(best)
 }
 
 /// Exchange of two cables in one row with which it fits, the unknowns held.

@@ -5,12 +5,14 @@ mod published;
 
 use funicular::calibration::{
     Calibration, CalibrationError, CalibrationFit, CalibrationFrame, CalibrationPrecision, CalibrationUnknown,
-    CombinationPart, FrameChoice, MeasuredRow, ReadingDeviations, cable_exchange, proposals, row_exchange, search,
+    CombinationPart, FrameChoice, MeasuredRow, ReadingDeviations, cable_exchange, encoder_of_other_sign, proposals,
+    row_exchange, search,
 };
 use funicular::math::Vec3;
 use funicular::robot::{Pose, Robot};
 use funicular::statics::StaticModel;
 use published::*;
+use std::fmt::Write as _;
 
 /// Robot file of a platform with these anchors and attachments.
 fn robot(motion: &str, anchors: &[[f64; 3]], attachments: &[[f64; 3]]) -> Robot {
@@ -22,7 +24,8 @@ fn robot(motion: &str, anchors: &[[f64; 3]], attachments: &[[f64; 3]]) -> Robot 
     for (i, (anchor, attachment)) in anchors.iter().zip(attachments).enumerate() {
         let attachment =
             if motion == "point-mass" { String::new() } else { format!("attachment_m = {attachment:?}\n") };
-        text += &format!("[[cables]]\nname = \"{}\"\nmaterial = \"rope\"\nanchor_m = {anchor:?}\n{attachment}", i + 1);
+        let name = i + 1;
+        let _ = write!(text, "[[cables]]\nname = \"{name}\"\nmaterial = \"rope\"\nanchor_m = {anchor:?}\n{attachment}");
     }
     Robot::from_toml(&text).unwrap()
 }
@@ -472,7 +475,9 @@ fn exchanged_cables_are_named() {
         .collect();
     let mut rows = readings(&truth, &poses, &[0.0; 8], 0.5e-3, &mut draws);
     let one_row = rows.clone();
-    rows.iter_mut().for_each(|row| row.readings.swap(2, 5));
+    for row in &mut rows {
+        row.readings.swap(2, 5);
+    }
     let start = with_errors(&truth, 0.05, &mut draws);
     let of = |rows| {
         Calibration::new(start.clone(), unknowns(8, &[0, 1, 2], false), rows, deviations(0.5e-3), StaticModel::Ideal)
@@ -498,7 +503,7 @@ fn exchanged_cables_are_named() {
 }
 
 #[test]
-fn eight_cables_with_sixty_rows_take_less_than_a_second() {
+fn eight_cables_with_sixty_rows_are_calibrated_in_a_moment() {
     let mut draws = Draws(8);
     let truth = robot("rigid", &RIGID_START, &RIGID_ATTACHMENTS);
     let poses: Vec<Pose> = (0..60)
@@ -515,6 +520,8 @@ fn eight_cables_with_sixty_rows_take_less_than_a_second() {
     let (fit, frame, precision) = fitted(&of);
     let walk = of.weak_walk(&fit, &frame, &precision, 1.0).unwrap();
     let seconds = begun.elapsed().as_secs_f64();
+    // Measured: 0.6 s in this profile on two busy cores.
+    assert!(seconds < 10.0, "{seconds} s");
     // 480 readings less 26 and 360 unknowns: 94 ± 14, four deviations.
     assert!(walk.is_parabola() && precision.degrees == 94 && fit.chi2 < 150.0, "{} {walk:?}", fit.chi2);
 }
@@ -566,4 +573,22 @@ fn lengths_of_elastic_cables_alone_say_nothing() {
     let error = sagging(false).unwrap_err();
     assert_eq!(error, CalibrationError::ElasticLengthsAlone);
     assert!(error.to_string().contains("measure tensions too"));
+}
+
+#[test]
+fn an_encoder_that_counts_down_is_named() {
+    let mut readings = PLANE_READINGS;
+    // Zero at 2 m, and down from there.
+    for row in &mut readings {
+        row[1] = 2.0 - row[1];
+    }
+    let start = planar(&PLANE_START);
+    let of =
+        Calibration::new(start, unknowns(4, &[0, 1], true), rows(&readings), deviations(0.4e-3), StaticModel::Ideal)
+            .unwrap();
+    let frame = of.frame(&FrameChoice::Anchors(Vec::new())).unwrap();
+    let found = search(&of, &frame, 3, &mut |_, _| true).unwrap();
+    let (cable, chi2) = encoder_of_other_sign(&of, &found.best, &frame).unwrap();
+    // χ² of the set as it is.
+    assert!(cable == 1 && (chi2 - 4.3091526).abs() < 1e-3, "{cable} {chi2}");
 }

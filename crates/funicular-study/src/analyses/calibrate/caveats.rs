@@ -4,7 +4,7 @@ use super::in_mm;
 use super::report::{CalibrationReport, NOISE_DEVIATIONS};
 use super::rows::ReadingRow;
 use crate::text::significant;
-use funicular::calibration::{CalibrationUnknown, WeakWalk, cable_exchange, row_exchange};
+use funicular::calibration::{WeakWalk, cable_exchange, encoder_of_other_sign, row_exchange};
 use funicular::math::DMat;
 use funicular::robot::{PlatformMotion, Robot};
 
@@ -22,7 +22,7 @@ pub(super) fn warnings(of: &CalibrationReport, rows: &[ReadingRow], walk: Option
     warnings.extend(poor_frame(of));
     warnings.extend(stretch(of));
     warnings.extend(open_rows(of));
-    warnings.extend(unchecked(of));
+    warnings.extend(other_sign(of));
     warnings
 }
 
@@ -166,12 +166,17 @@ fn open_rows(of: &CalibrationReport) -> Option<String> {
     })
 }
 
-/// Warning of offsets whose sign nobody checks.
-fn unchecked(of: &CalibrationReport) -> Option<String> {
-    let has_offsets = of.of.unknowns.iter().any(|unknown| matches!(unknown, CalibrationUnknown::Offset { .. }));
-    (has_offsets && misses(of)).then(|| {
-        "the readings miss the model by more than noise: check that every reading grows while its cable pays out; an \
-         encoder of the other sign needs its column multiplied by −1"
-            .to_owned()
-    })
+/// Warning of an encoder whose readings fall while its cable pays out.
+fn other_sign(of: &CalibrationReport) -> Option<String> {
+    if !misses(of) {
+        return None;
+    }
+    let (cable, chi2) = encoder_of_other_sign(of.of, &of.found.best, &of.frame)?;
+    Some(format!(
+        "with the readings of cable {} multiplied by −1, χ² falls from {} to {}: its encoder counts down while the cable \
+         pays out; change the sign of its column",
+        of.of.robot.cables[cable].name,
+        significant(of.found.best.chi2, 3),
+        significant(chi2, 3)
+    ))
 }
