@@ -35,8 +35,8 @@ pub use key::{Choice, Declared, Key, Kind, ProgramForm, Range};
 pub use loads::{LoadsRequest, Requirements};
 pub use pages::{LiveRequest, PaperRequest, ReportRequest, ValidateRequest};
 pub use parts::{
-    Axis, Change, FrequencyRange, ImportPlatform, ImportRopes, Load, MAX_HZ, Model, NumberColumns, OneOrSeveral, Pose,
-    ResponsePoints, ResponseRange, RobotText, State, Tensions, Terms,
+    Axis, Change, FrequencyRange, GappedColumns, ImportPlatform, ImportRopes, Load, MAX_HZ, Model, NumberColumns,
+    OneOrSeveral, Pose, ResponsePoints, ResponseRange, RobotText, State, Tensions, Terms,
 };
 pub use shape::schema;
 pub use source_file::{MAX_BYTES, SourceFile};

@@ -17,6 +17,7 @@ mod precision;
 mod proposal;
 mod row;
 mod search;
+mod spread;
 mod unknowns;
 mod weak;
 

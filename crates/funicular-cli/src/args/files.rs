@@ -261,8 +261,8 @@ pub(crate) struct DesignArgs {
 /// Readings of a calibration, candidates of its proposal, and its robot file.
 #[derive(Debug, Args)]
 pub(crate) struct CalibrateArgs {
-    /// Readings in a CSV file, one row per pose: columns length_NAME_m [m] or length_NAME_mm [mm] of every cable, and
-    /// optionally x_m, y_m, z_m, roll_deg, pitch_deg, yaw_deg
+    /// Readings in a CSV file, one row per pose: columns length_NAME_m [m] or length_NAME_mm [mm] of every cable, empty where
+    /// a cable was slack or not read, and optionally x_m, y_m, z_m, roll_deg, pitch_deg, yaw_deg, tension_NAME_n
     #[arg(long, value_name = "FILE.csv")]
     pub(crate) readings: PathBuf,
 

@@ -12,7 +12,7 @@ use funicular_files::Guard;
 use funicular_study::analyses::calibrate::{
     self, Calibrated, CalibratedValue, DistanceRow, ProposalRow, ReadingRow, check_readings,
 };
-use funicular_study::request::{CalibrateRequest, NumberColumns, Request};
+use funicular_study::request::{CalibrateRequest, GappedColumns, Request};
 use serde_json::{Map, Value};
 use std::fmt::Write as _;
 
@@ -24,8 +24,8 @@ pub(super) fn request(cli: &Cli, mut further: Map<String, Value>) -> Result<Requ
     if let Request::Calibrate(of) = &mut request {
         of.poses = pose_csv::read_if_given(files.poses.as_deref(), &of.robot)?;
         let robot = of.robot.read()?.robot;
-        let check = |columns: &NumberColumns| check_readings(columns, &robot);
-        of.readings = number_table::read(&files.readings, "the readings", check)?;
+        let check = |columns: &GappedColumns| check_readings(columns, &robot);
+        of.readings = number_table::read_with_gaps(&files.readings, "the readings", check)?;
     }
     Ok(request)
 }

@@ -1,7 +1,7 @@
 //! Request of `calibrate`: readings of lengths at unknown poses, and the numbers that they shall give.
 
 use super::key::declared;
-use super::parts::{Axis, NumberColumns, RobotText};
+use super::parts::{Axis, GappedColumns, RobotText};
 use funicular::statics::StaticModel;
 
 declared! {
@@ -13,10 +13,11 @@ declared! {
     pub struct CalibrateRequest {
         /// Robot file, whose values are the start.
         robot: RobotText = RobotText::default() => (Data(shape::robot)).required();
-        /// Readings, one row per pose: columns length_NAME_m [m] or length_NAME_mm [mm] of every cable; x_m, y_m, z_m and,
+        /// Readings, one row per pose: columns length_NAME_m [m] or length_NAME_mm [mm] of every cable, empty where a cable was
+        /// slack or not read; x_m, y_m, z_m and,
         /// where the platform turns, roll_deg, pitch_deg, yaw_deg are poses at which the search begins; tension_NAME_n are
         /// tensions at the anchors [N], which elastic cables need.
-        readings: NumberColumns = NumberColumns::new() => (Columns).required();
+        readings: GappedColumns = GappedColumns::new() => (GappedColumns).required();
         /// Numbers to find, separated by commas: anchors, attachments, offsets (length of each cable at the reading zero),
         /// scale (metres of length per metre of all readings); of elastic cables also axial-stiffness and mass, as factors of
         /// those of the file.

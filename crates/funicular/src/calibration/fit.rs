@@ -52,7 +52,7 @@ struct Linearised {
 }
 
 /// Step of all unknowns, with the decrease of χ² that the linearisation predicts.
-struct Step {
+struct DampedStep {
     values: DVec,
     poses: Vec<DVec>,
     predicted: f64,
@@ -217,7 +217,7 @@ impl Scales {
     }
 
     /// Damped step of all unknowns.
-    fn step(&self, rows: &[RowTerms], free: &DMat, damping: f64) -> Step {
+    fn step(&self, rows: &[RowTerms], free: &DMat, damping: f64) -> DampedStep {
         let root = damping.sqrt();
         let eliminated: Vec<EliminatedRow> = rows
             .iter()
@@ -254,6 +254,6 @@ impl Scales {
             before += row.residuals.norm_squared();
             after += (&row.residuals + &row.by_unknowns * &along + &row.by_pose * pose).norm_squared();
         }
-        Step { values, poses, predicted: before - after }
+        DampedStep { values, poses, predicted: before - after }
     }
 }

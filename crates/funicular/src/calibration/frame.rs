@@ -83,7 +83,7 @@ impl Calibration {
             let step = DVec::from_fn(count, |c, _| {
                 let turn = c >= self.axes().len();
                 let size = if turn { 0.3 * self.coordinates().ell() } else { reach };
-                size * (2.0 * super::search::spread(j, c) - 1.0)
+                size * (2.0 * super::spread::spread(j, c) - 1.0)
             });
             self.moved(&pose, &step)
         };

@@ -10,7 +10,7 @@ use funicular::calibration::{
 };
 use funicular::math::Vec3;
 use funicular::robot::{Pose, Robot};
-use funicular::statics::StaticModel;
+use funicular::statics::{self, StaticModel};
 use published::*;
 use std::fmt::Write as _;
 
@@ -591,4 +591,42 @@ fn an_encoder_that_counts_down_is_named() {
     let (cable, chi2) = encoder_of_other_sign(&of, &found.best, &frame).unwrap();
     // χ² of the set as it is.
     assert!(cable == 1 && (chi2 - 4.3091526).abs() < 1e-3, "{cable} {chi2}");
+}
+
+/// Eight elastic cables around a rigid platform, whose lengths and tensions are those of equilibria with noise.
+#[test]
+fn a_rigid_platform_on_elastic_cables_is_calibrated_with_tensions() {
+    let mut draws = Draws(41);
+    let mut truth = robot("rigid", &RIGID_START, &RIGID_ATTACHMENTS);
+    truth.platform.mass = 40.0;
+    for cable in &mut truth.cables {
+        cable.material.axial_stiffness = 2e5;
+        cable.material.mass_per_length = 0.05;
+    }
+    let mut rows = Vec::new();
+    while rows.len() < 60 {
+        let place = [3.0 + draws.within(1.2), 2.5 + draws.within(1.0), 1.6 + draws.within(0.7)];
+        let pose = Pose::new(place, [draws.within(10.0), draws.within(10.0), draws.within(10.0)]);
+        // Shortened by up to 4 ‰, each by itself, so that the tensions differ.
+        let lengths: Vec<f64> =
+            truth.cables.iter().map(|cable| cable.straight_length(&pose) * (0.998 + draws.within(0.002))).collect();
+        let Ok(rest) = statics::forward(&truth, &lengths, StaticModel::Catenary, Some(&pose)) else { continue };
+        let readings: Vec<f64> = lengths.iter().map(|length| length - 0.01 + 1e-3 * draws.normal()).collect();
+        let tensions = rest.cables.iter().map(|cable| Some(cable.tension_anchor + 3.0 * draws.normal())).collect();
+        rows.push(MeasuredRow { tensions, start: Some(pose), ..MeasuredRow::of_readings(&readings) });
+    }
+
+    let start = with_errors(&truth, 0.05, &mut draws);
+    let deviations = ReadingDeviations { reading: 1e-3, position: 1.0, tension: 3.0 };
+    let of = Calibration::new(start, unknowns(8, &[0, 1, 2], true), rows, deviations, StaticModel::Catenary).unwrap();
+    let begun = std::time::Instant::now();
+    let (fit, frame, precision) = fitted(&of);
+    let seconds = begun.elapsed().as_secs_f64();
+    println!("{seconds} s, {} iterations, {}", fit.iterations, fit.chi2);
+    // Gravity leaves four motions: 960 data less 28 and 480 unknowns, 452 ± 30, four deviations.
+    assert!(frame.motion_count() == 4 && precision.degrees == 452 && (fit.chi2 - 452.0).abs() < 120.0, "{}", fit.chi2);
+    for of_pair in of.anchor_distances(&fit, &precision) {
+        let [a, b] = of_pair.cables.map(|cable| truth.cables[cable].anchor.point_w);
+        assert!((of_pair.distance - (a - b).norm()).abs() < 4.5 * of_pair.deviation, "{of_pair:?}");
+    }
 }

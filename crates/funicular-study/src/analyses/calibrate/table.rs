@@ -3,12 +3,13 @@
 use super::KEY;
 use crate::at_rest::check_pose;
 use crate::names::suggestion;
-use crate::request::NumberColumns;
+use crate::request::GappedColumns;
 use crate::table_fault::TableFault;
 use crate::text::significant;
 use crate::values::finite;
 use funicular::calibration::MeasuredRow;
-use funicular::robot::{Pose, Robot};
+use funicular::math::Vec3;
+use funicular::robot::{PlatformMotion, Pose, Robot};
 
 /// Columns of a pose.
 const POSE: [&str; 6] = ["x_m", "y_m", "z_m", "roll_deg", "pitch_deg", "yaw_deg"];
@@ -25,90 +26,113 @@ const OTHER_UNIT: f64 = 20.0;
 /// # Errors
 /// The first fault: a column that is missing or unknown, no rows, a value that is none, a pose that the platform cannot
 /// have, or readings in another unit.
-pub fn check(columns: &NumberColumns, robot: &Robot) -> Result<(), TableFault> {
+pub fn check(columns: &GappedColumns, robot: &Robot) -> Result<(), TableFault> {
     rows(columns, robot, false).map(drop)
 }
 
+/// Names of the columns of a cable's lengths, with the metres of their unit.
+fn length_names(cable: &str) -> [(String, f64); 3] {
+    [
+        (format!("length_{cable}_m"), 1.0),
+        (format!("length_{cable}_mm"), 1e-3),
+        (format!("unstrained_length_{cable}_m"), 1.0),
+    ]
+}
+
+fn tension_name(cable: &str) -> String {
+    format!("tension_{cable}_n")
+}
+
 /// Rows of a table; with `measured` the coordinates of the platform are data.
-pub(super) fn rows(columns: &NumberColumns, robot: &Robot, measured: bool) -> Result<Vec<MeasuredRow>, TableFault> {
+pub(super) fn rows(columns: &GappedColumns, robot: &Robot, measured: bool) -> Result<Vec<MeasuredRow>, TableFault> {
     let fault = |text: String| TableFault { key: KEY, row: None, text };
-    let names = |cable: &str| {
-        [
-            (format!("length_{cable}_m"), 1.0),
-            (format!("length_{cable}_mm"), 1e-3),
-            (format!("unstrained_length_{cable}_m"), 1.0),
-        ]
-    };
-    let of_cables: Vec<String> =
-        robot.cables.iter().flat_map(|cable| names(&cable.name).map(|(name, _)| name)).collect();
-    let of_tension = |cable: &str| format!("tension_{cable}_n");
-    let tensions = robot.cables.iter().map(|cable| of_tension(&cable.name));
-    let known: Vec<String> = POSE.iter().map(|name| (*name).to_owned()).chain(of_cables).chain(tensions).collect();
-    if let Some(unknown) = columns.keys().find(|name| !known.contains(name)) {
-        return Err(fault(format!(
-            "there is a column `{unknown}`{}: give length_NAME_m or length_NAME_mm of the cables {}, and x_m, y_m, z_m, \
-             roll_deg, pitch_deg, yaw_deg, tension_NAME_n; drop other columns",
-            suggestion(unknown, &known),
-            robot.cables.iter().map(|cable| cable.name.as_str()).collect::<Vec<_>>().join(", ")
-        )));
-    }
+    check_columns(columns, robot).map_err(fault)?;
+    let lengths = length_columns(columns, robot).map_err(fault)?;
+    let count = count(columns, &lengths).map_err(fault)?;
 
-    // The column of each cable.
-    let mut readings: Vec<Option<(&[f64], f64)>> = Vec::new();
-    for cable in &robot.cables {
-        let mut given =
-            names(&cable.name).into_iter().filter_map(|(name, unit)| Some((columns.get(&name)?, unit, name)));
-        let first = given.next();
-        if let (Some((_, _, one)), Some((_, _, other))) = (&first, given.next()) {
-            return Err(fault(format!("there are columns `{one}` and `{other}`: keep one of them")));
+    let of_row = |row: usize| {
+        let fault = |text: String| TableFault { key: KEY, row: Some(row), text };
+        for (name, values) in columns {
+            let checked = values[row].map_or(Ok(0.0), finite);
+            checked.map_err(|reason| fault(format!("`{name}`: {reason}")))?;
         }
-        readings.push(first.map(|(values, unit, _)| (values.as_slice(), unit)));
-    }
-    let Some(count) = readings.iter().flatten().map(|(values, _)| values.len()).next() else {
-        return Err(fault(
-            "there is no column length_NAME_m or length_NAME_mm of a cable: give one per cable".to_owned(),
-        ));
-    };
-    if let Some((name, values)) = columns.iter().find(|(_, values)| values.len() != count) {
-        return Err(fault(format!(
-            "`{name}` has {} values, other columns have {count}: give as many in all",
-            values.len()
-        )));
-    }
-    if !(1..=MAX_ROWS).contains(&count) {
-        return Err(fault(format!("there are {count} rows: give 1 to {MAX_ROWS}")));
-    }
-
-    let rows: Vec<MeasuredRow> = (0..count)
-        .map(|row| {
-            let reading = |of: &Option<(&[f64], f64)>| of.map(|(values, unit)| values[row] * unit);
-            let coordinate = |name: &str| columns.get(name).map(|values| values[row]);
-            let start = pose(row, columns, robot).map_err(|text| TableFault { key: KEY, row: Some(row), text })?;
-            let position = if measured { ["x_m", "y_m", "z_m"].map(coordinate) } else { [None; 3] };
-            let tensions = robot.cables.iter().map(|cable| coordinate(&of_tension(&cable.name))).collect();
-            let made = MeasuredRow { readings: readings.iter().map(reading).collect(), position, tensions, start };
-            for (name, values) in columns {
-                finite(values[row]).map_err(|reason| TableFault {
-                    key: KEY,
-                    row: Some(row),
-                    text: format!("`{name}`: {reason}"),
-                })?;
-            }
-            Ok(made)
+        let value = |name: &str| columns.get(name).and_then(|values| values[row]);
+        let reading = |of: &Option<(&[Option<f64>], f64)>| of.and_then(|(values, unit)| Some(values[row]? * unit));
+        Ok(MeasuredRow {
+            readings: lengths.iter().map(reading).collect(),
+            position: if measured { ["x_m", "y_m", "z_m"].map(value) } else { [None; 3] },
+            tensions: robot.cables.iter().map(|cable| value(&tension_name(&cable.name))).collect(),
+            start: pose(value, robot).map_err(fault)?,
         })
-        .collect::<Result<_, TableFault>>()?;
+    };
+    let rows = (0..count).map(of_row).collect::<Result<Vec<_>, TableFault>>()?;
     check_unit(&rows, robot).map_err(fault)?;
     Ok(rows)
 }
 
-/// Pose at which a row starts; `None` without columns of a position.
-fn pose(row: usize, columns: &NumberColumns, robot: &Robot) -> Result<Option<Pose>, String> {
-    if !POSE[..3].iter().any(|name| columns.contains_key(*name)) {
-        return Ok(None);
+/// Refuses a column that no cable and no pose has.
+fn check_columns(columns: &GappedColumns, robot: &Robot) -> Result<(), String> {
+    let cables = || robot.cables.iter().map(|cable| cable.name.as_str());
+    let of_cables = cables().flat_map(|cable| length_names(cable).map(|(name, _)| name));
+    let poses = POSE.iter().map(|name| (*name).to_owned());
+    let known: Vec<String> = poses.chain(of_cables).chain(cables().map(tension_name)).collect();
+    columns.keys().find(|name| !known.contains(name)).map_or(Ok(()), |unknown| {
+        Err(format!(
+            "there is a column `{unknown}`{}: give length_NAME_m or length_NAME_mm of the cables {}, and x_m, y_m, z_m, \
+             roll_deg, pitch_deg, yaw_deg, tension_NAME_n; drop other columns",
+            suggestion(unknown, &known),
+            cables().collect::<Vec<_>>().join(", ")
+        ))
+    })
+}
+
+/// Column of the lengths of one cable, with the metres of its unit; `None` for a cable without.
+type LengthColumn<'a> = Option<(&'a [Option<f64>], f64)>;
+
+/// Column of the lengths of each cable.
+fn length_columns<'a>(columns: &'a GappedColumns, robot: &Robot) -> Result<Vec<LengthColumn<'a>>, String> {
+    let of_cable = |cable: &funicular::robot::Cable| {
+        let names = length_names(&cable.name).into_iter();
+        let mut given = names.filter_map(|(name, unit)| Some((columns.get(&name)?, unit, name)));
+        let first = given.next();
+        if let (Some((_, _, one)), Some((_, _, other))) = (&first, given.next()) {
+            return Err(format!("there are columns `{one}` and `{other}`: keep one of them"));
+        }
+        Ok(first.map(|(values, unit, _)| (values.as_slice(), unit)))
+    };
+    robot.cables.iter().map(of_cable).collect()
+}
+
+/// Number of rows.
+fn count(columns: &GappedColumns, lengths: &[LengthColumn]) -> Result<usize, String> {
+    let Some(count) = lengths.iter().flatten().map(|(values, _)| values.len()).next() else {
+        return Err("there is no column length_NAME_m or length_NAME_mm of a cable: give one per cable".to_owned());
+    };
+    if let Some((name, values)) = columns.iter().find(|(_, values)| values.len() != count) {
+        let own = values.len();
+        return Err(format!("`{name}` has {own} values, other columns have {count}: give as many in all"));
     }
-    let value = |name: &str| columns.get(name).map_or(0.0, |values| values[row]);
-    let [x, y, z, roll, pitch, yaw] = POSE.map(value);
-    let pose = Pose::new([x, y, z], [roll, pitch, yaw]);
+    if !(1..=MAX_ROWS).contains(&count) {
+        return Err(format!("there are {count} rows: give 1 to {MAX_ROWS}"));
+    }
+    Ok(count)
+}
+
+/// Pose at which a row starts; `None` if a coordinate in which the platform moves is not given.
+fn pose(value: impl Fn(&str) -> Option<f64>, robot: &Robot) -> Result<Option<Pose>, String> {
+    let (mut position, fixed) = match &robot.platform.motion {
+        PlatformMotion::Planar(plane) => (plane.normal_w() * plane.offset(), plane.normal_w()),
+        _ => (Vec3::zeros(), Vec3::zeros()),
+    };
+    for (axis, name) in POSE[..3].iter().enumerate() {
+        match value(name) {
+            Some(given) => position[axis] = given,
+            None if fixed[axis].abs() > 0.5 => {}
+            None => return Ok(None),
+        }
+    }
+    let angles = ["roll_deg", "pitch_deg", "yaw_deg"].map(|name| value(name).unwrap_or(0.0));
+    let pose = Pose::new(position.into(), angles);
     check_pose(robot, &pose).map_err(|error| error.to_string())?;
     Ok(Some(pose))
 }
@@ -121,7 +145,7 @@ fn check_unit(rows: &[MeasuredRow], robot: &Robot) -> Result<(), String> {
     };
     let read = middle(rows.iter().flat_map(|row| row.readings.iter().flatten().map(|value| value.abs())).collect());
     let anchors: Vec<_> = robot.cables.iter().map(|cable| cable.anchor.point_w).collect();
-    let mean = anchors.iter().sum::<funicular::math::Vec3>() / anchors.len().max(1) as f64;
+    let mean = anchors.iter().sum::<Vec3>() / anchors.len().max(1) as f64;
     let size = middle(anchors.iter().map(|anchor| (anchor - mean).norm()).collect());
     let ratio = read / size;
     if size <= 0.0 || ratio <= OTHER_UNIT {
