@@ -71,7 +71,7 @@ impl Printed for Calibrated {
         if !self.distances.is_empty() {
             let _ = write!(
                 text,
-                "\nDistances between anchors, which no frame changes\n{}\n",
+                "\nDistances between anchors, which no frame changes\n{}",
                 Table::of(&DistanceRow::columns(), &self.distances)
             );
         }
@@ -91,7 +91,7 @@ impl Printed for Calibrated {
         if !self.proposals.is_empty() {
             let _ = write!(
                 text,
-                "\nPoses to measure next, one after the other\n{}\n",
+                "\nPoses to measure next, one after the other\n{}",
                 Table::of(&ProposalRow::columns(self.turns), &self.proposals)
             );
         }

@@ -76,7 +76,7 @@ fn the_proposal_says_what_the_next_positions_leave() {
 fn frames_change_deviations_of_anchors_but_not_of_distances() {
     let [file, other, inner] = [found(&[]), found(&["--frame", "tr,tl"]), found(&["--frame", "inner"])];
     // The figure is turned by half a degree against that of the file's frame, which mixes x and y by 1 %.
-    assert!((value(&other, "cables.bl.anchor_m.y", "inner_deviation") - 0.02946).abs() < 1e-4);
+    assert!((value(&other, "cables.bl.anchor_m.y", "inner_deviation") - 0.02946).abs() < 4e-4);
     // Printed digits of the separate program.
     assert!((value(&inner, "cables.tr.anchor_m.y", "deviation") - 0.03152).abs() < 1e-5);
     for (k, distance) in file["distances"].as_array().unwrap().iter().enumerate() {
