@@ -144,6 +144,8 @@ pub fn run(request: &CalibrateRequest, watch: &mut dyn Watch) -> Result<Calibrat
     let frame = of.frame(&frame_choice(request, &robot)?).map_err(named)?;
     of.check_count(&frame).map_err(named)?;
 
+    check_signs(request, &of)?;
+
     // The search.
     let mut progress = |done: usize, total: usize| {
         watch.progress(done, total, "starts");
@@ -155,7 +157,30 @@ pub fn run(request: &CalibrateRequest, watch: &mut dyn Watch) -> Result<Calibrat
     }
     let found = found.ok_or_else(|| NoSolution(CalibrationError::NoMinimum { starts: request.starts }.to_string()))?;
 
-    CalibrationReport::new(request, &of, &frame, &found, &candidates)?.results()
+    let report = CalibrationReport::new(request, &of, &frame, &found, &candidates)?;
+    let mut results = report.results()?;
+    results.warnings = caveats::warnings(&report, &results);
+    Ok(results)
+}
+
+/// Refuses a reading that is no length, unless an unknown offset makes it one.
+fn check_signs(request: &CalibrateRequest, of: &Calibration) -> Result<()> {
+    if request.unknowns.iter().any(|unknown| unknown == "offsets") {
+        return Ok(());
+    }
+    for (j, row) in of.rows.iter().enumerate() {
+        let wrong = row.readings.iter().zip(&of.robot.cables).find(|(reading, _)| reading.is_some_and(|of| of <= 0.0));
+        if let Some((reading, cable)) = wrong {
+            bail!(
+                "⟪readings⟫, row {}: the reading {} m of cable {} is no length, which is positive; readings from an \
+                 encoder's zero need unknown offsets, ⟪unknowns⟫ anchors,offsets",
+                j + 1,
+                significant(reading.unwrap_or_default(), 4),
+                cable.name
+            );
+        }
+    }
+    Ok(())
 }
 
 /// Error of the core with the names of the robot.

@@ -1,10 +1,11 @@
 //! Warnings about a calibration: place, number, and what to do.
 
-use super::in_mm;
 use super::report::{CalibrationReport, NOISE_DEVIATIONS};
-use super::rows::ReadingRow;
+use super::rows::{ReadingRow, Walk};
+use super::{Calibrated, in_mm};
+use crate::columns::Style;
 use crate::text::significant;
-use funicular::calibration::{WeakWalk, cable_exchange, encoder_of_other_sign, row_exchange};
+use funicular::calibration::{cable_exchange, encoder_of_other_sign, row_exchange};
 use funicular::math::DMat;
 use funicular::robot::{PlatformMotion, Robot};
 
@@ -12,12 +13,12 @@ use funicular::robot::{PlatformMotion, Robot};
 const POOR_FRAME: f64 = 3.0;
 
 /// All warnings.
-pub(super) fn warnings(of: &CalibrationReport, rows: &[ReadingRow], walk: Option<&WeakWalk>) -> Vec<String> {
+pub(super) fn warnings(of: &CalibrationReport, results: &Calibrated) -> Vec<String> {
     let mut warnings = Vec::new();
     warnings.extend(lost_rank(of));
-    warnings.extend(curved(walk));
+    warnings.extend(results.walk.as_ref().and_then(curved));
     warnings.extend(exchanged_cables(of));
-    warnings.extend(rows.iter().filter(|row| row.outlier).map(|row| outlier(of, row)));
+    warnings.extend(results.rows.iter().filter(|row| row.outlier).map(|row| outlier(of, row)));
     warnings.extend(other_minima(of));
     warnings.extend(poor_frame(of));
     warnings.extend(stretch(of));
@@ -37,9 +38,11 @@ fn lost_rank(of: &CalibrationReport) -> Option<String> {
     })
 }
 
-fn curved(walk: Option<&WeakWalk>) -> Option<String> {
-    let walk = walk.filter(|walk| !walk.is_parabola())?;
-    let rises: Vec<String> = walk.rises.iter().map(|rise| significant(*rise, 3)).collect();
+fn curved(walk: &Walk) -> Option<String> {
+    if walk.is_parabola {
+        return None;
+    }
+    let rises: Vec<String> = walk.chi2_rises.iter().map(|rise| Style::Plain.significant(*rise, 3)).collect();
     Some(format!(
         "along the weakest combination χ² rises by {} at −2, −1, 1 and 2 deviations instead of 4, 1, 1 and 4: noise may \
          hide a combination that these poses do not determine; no intervals are given; measure the proposed poses",

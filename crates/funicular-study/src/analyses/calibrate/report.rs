@@ -3,7 +3,7 @@
 use super::candidates::Candidates;
 use super::rows::{CalibratedValue, DistanceRow, MinimumRow, ProposalRow, ReadingRow, Walk, WeakRow};
 use super::statistics::{chi2_above, student_95};
-use super::{Calibrated, caveats, in_mm, words};
+use super::{Calibrated, in_mm, words};
 use crate::request::{CalibrateRequest, RobotText};
 use crate::set_values;
 use crate::text::{counted, significant};
@@ -128,12 +128,12 @@ impl<'a> CalibrationReport<'a> {
             arrivals: self.found.arrivals,
             iterations: self.fit().iterations,
             robot_file: self.robot_file()?,
-            warnings: caveats::warnings(self, &rows, walk.as_ref()),
+            warnings: Vec::new(),
             values,
             rows,
             walk: walk.map(|walk| Walk {
                 deviations: walk.steps.to_vec(),
-                chi2_rises: walk.rises.to_vec(),
+                chi2_rises: walk.rises.iter().map(|rise| Some(*rise).filter(|rise| rise.is_finite())).collect(),
                 is_parabola,
             }),
             proposals,

@@ -158,8 +158,8 @@ pub struct WeakRow {
 pub struct Walk {
     /// Held distances, in deviations.
     pub deviations: Vec<f64>,
-    /// Rises of χ², in the variance of the residuals: 1 and 4 for a parabola.
-    pub chi2_rises: Vec<f64>,
+    /// Rises of χ², in the variance of the residuals: 1 and 4 for a parabola; absent where nothing fits.
+    pub chi2_rises: Vec<Option<f64>>,
     pub is_parabola: bool,
 }
 
