@@ -12,7 +12,6 @@ use funicular_files::Guard;
 use funicular_study::analyses::calibrate::{
     self, Calibrated, CalibratedValue, DistanceRow, ProposalRow, ReadingRow, check_readings,
 };
-use funicular_study::columns::Style;
 use funicular_study::request::{CalibrateRequest, GappedColumns, Request};
 use serde_json::{Map, Value};
 use std::fmt::Write as _;
@@ -119,7 +118,7 @@ fn weak(found: &Calibrated) -> String {
         };
     }
     if let Some(walk) = &found.walk {
-        let rises: Vec<String> = walk.chi2_rises.iter().map(|rise| Style::Plain.significant(*rise, 3)).collect();
+        let rises: Vec<String> = walk.chi2_rises.iter().map(|rise| significant(*rise, 3)).collect();
         let _ = writeln!(
             text,
             "  At −2, −1, 1, 2 deviations along the first, χ² rises by {} (4, 1, 1, 4 for a parabola).",

@@ -138,3 +138,22 @@ fn offsets_of_the_machine_are_not_determined_although_its_residuals_are_smaller(
     assert_eq!(with["is_determined"], false);
     assert!(with["values"].as_array().unwrap().iter().all(|row| row["interval_95"].is_null()));
 }
+
+#[test]
+fn cells_of_cables_that_were_not_read_are_empty() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("table.csv").display().to_string();
+    let belts = fs::read_to_string(project("docs/calibration/belts.csv")).unwrap();
+    let gap = belts.replace("2859.27,3272.34", "2859.27,");
+    assert_ne!(gap, belts);
+    fs::write(&path, gap).unwrap();
+    let found = json(&["calibrate", &project("docs/calibration/machine.toml"), "--readings", &path]);
+    assert_eq!((&found["data"], &found["degrees_of_freedom"]), (&23.into(), &6.into()));
+    let residuals = found["rows"][5]["residuals"].as_array().unwrap();
+    assert_eq!(residuals.iter().map(|of| of["cable"].as_str().unwrap()).collect::<Vec<_>>(), ["bl", "tr", "tl"]);
+    // Without one reading the values stay within their deviations.
+    assert!((value(&found, "cables.tr.anchor_m.y", "value") - 3.8549).abs() < 0.0635);
+
+    let no_length = refused("length_bl_m,length_br_m,length_tr_m,length_tl_m\n2.9,3.1,-3.0,3.0\n", &[]);
+    assert!(no_length.contains("the reading -3.000 m of cable tr is no length"), "{no_length}");
+}

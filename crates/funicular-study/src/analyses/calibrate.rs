@@ -11,7 +11,7 @@ mod statistics;
 mod table;
 mod words;
 
-pub use rows::{CalibratedValue, DistanceRow, MinimumRow, ProposalRow, ReadingRow, Walk, WeakRow};
+pub use rows::{CableResidual, CalibratedValue, DistanceRow, MinimumRow, ProposalRow, ReadingRow, Walk, WeakRow};
 pub use table::check as check_readings;
 
 use super::found;

@@ -3,7 +3,6 @@
 use super::report::{CalibrationReport, NOISE_DEVIATIONS};
 use super::rows::{ReadingRow, Walk};
 use super::{Calibrated, in_mm};
-use crate::columns::Style;
 use crate::text::significant;
 use funicular::calibration::{cable_exchange, encoder_of_other_sign, row_exchange};
 use funicular::math::DMat;
@@ -42,11 +41,12 @@ fn curved(walk: &Walk) -> Option<String> {
     if walk.is_parabola {
         return None;
     }
-    let rises: Vec<String> = walk.chi2_rises.iter().map(|rise| Style::Plain.significant(*rise, 3)).collect();
+    let rises: Vec<String> = walk.chi2_rises.iter().map(|rise| significant(*rise, 3)).collect();
     Some(format!(
-        "along the weakest combination χ² rises by {} at −2, −1, 1 and 2 deviations instead of 4, 1, 1 and 4: noise may \
-         hide a combination that these poses do not determine; no intervals are given; measure the proposed poses",
-        rises.join(", ")
+        "along the weakest combination χ² rises by {} at {} deviations instead of 1 and 4 at 1 and 2: noise may hide a \
+         combination that these poses do not determine; no intervals are given; measure the proposed poses",
+        rises.join(", "),
+        walk.deviations.iter().map(|step| significant(*step, 1)).collect::<Vec<_>>().join(", ")
     ))
 }
 

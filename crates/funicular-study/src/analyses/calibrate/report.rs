@@ -1,7 +1,7 @@
 //! Results of a calibration from its minima.
 
 use super::candidates::Candidates;
-use super::rows::{CalibratedValue, DistanceRow, MinimumRow, ProposalRow, ReadingRow, Walk, WeakRow};
+use super::rows::{CableResidual, CalibratedValue, DistanceRow, MinimumRow, ProposalRow, ReadingRow, Walk, WeakRow};
 use super::statistics::{chi2_above, student_95};
 use super::{Calibrated, in_mm, words};
 use crate::request::{CalibrateRequest, RobotText};
@@ -104,7 +104,7 @@ impl<'a> CalibrationReport<'a> {
         let root = |covariance: &DMat| Some(self.factor? * covariance.trace().max(0.0).sqrt());
         let is_known = self.precision.lost.is_empty();
         let (proposals, poses_needed) = self.proposals();
-        let residuals: Vec<f64> = rows.iter().flat_map(|row| row.residuals_m.iter().flatten().copied()).collect();
+        let residuals: Vec<f64> = rows.iter().flat_map(|row| row.residuals.iter().map(|of| of.residual_m)).collect();
         let squares: f64 = residuals.iter().map(|residual| residual * residual).sum();
         Ok(Calibrated {
             robot: self.of.robot.name.clone(),
@@ -131,11 +131,7 @@ impl<'a> CalibrationReport<'a> {
             warnings: Vec::new(),
             values,
             rows,
-            walk: walk.map(|walk| Walk {
-                deviations: walk.steps.to_vec(),
-                chi2_rises: walk.rises.iter().map(|rise| Some(*rise).filter(|rise| rise.is_finite())).collect(),
-                is_parabola,
-            }),
+            walk: walk.map(|walk| walk_row(&walk)),
             proposals,
             poses_needed,
         })
@@ -208,15 +204,17 @@ impl<'a> CalibrationReport<'a> {
         let count = self.of.rows.len();
         let row = |j: usize| {
             let (measured, pose, left_out) = (&self.of.rows[j], &self.fit().poses[j], &left_out[j]);
-            let mut of_row = residuals[j].iter();
-            let residuals_m = measured.readings.iter().map(|reading| reading.and_then(|_| of_row.next().copied()));
+            let read = self.of.robot.cables.iter().zip(&measured.readings).filter(|(_, reading)| reading.is_some());
+            let residuals = read
+                .zip(&residuals[j])
+                .map(|((cable, _), residual)| CableResidual { cable: cable.name.clone(), residual_m: *residual });
             let limit = chi2_above(OUTLIER / count as f64, left_out.degrees.max(1));
             let drop = left_out.chi2_drop.map(|drop| drop / scale);
             ReadingRow {
                 row: j + 1,
                 position_m: pose.position_w.into(),
                 roll_pitch_yaw_deg: rotation::to_roll_pitch_yaw_deg(&pose.rot_wp),
-                residuals_m: residuals_m.collect(),
+                residuals: residuals.collect(),
                 chi2_drop: drop,
                 chi2_limit: limit,
                 shift_m: drop.map(|_| left_out.shift.iter().fold(0.0_f64, |most, shift| most.max(shift.abs()))),
@@ -389,6 +387,13 @@ impl<'a> CalibrationReport<'a> {
 
 /// Part of a lost direction from which on a value counts as not determined.
 const LOST_PART: f64 = 1e-3;
+
+/// Walk along the weakest combination, without steps at which nothing fits.
+fn walk_row(walk: &WeakWalk) -> Walk {
+    let fitted = walk.steps.iter().zip(&walk.rises).filter(|(_, rise)| rise.is_finite());
+    let (deviations, chi2_rises) = fitted.map(|(step, rise)| (*step, *rise)).unzip();
+    Walk { deviations, chi2_rises, is_parabola: walk.is_parabola() }
+}
 
 /// Mean position of poses, with the orientation of the first.
 fn middle(poses: &[Pose]) -> Pose {

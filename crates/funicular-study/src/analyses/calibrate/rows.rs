@@ -80,6 +80,13 @@ impl DistanceRow {
     }
 }
 
+/// Residual of a reading, computed less measured.
+#[derive(Serialize)]
+pub struct CableResidual {
+    pub cable: String,
+    pub residual_m: f64,
+}
+
 /// One row of readings after the fit.
 #[derive(Serialize)]
 pub struct ReadingRow {
@@ -87,8 +94,8 @@ pub struct ReadingRow {
     pub row: usize,
     pub position_m: [f64; 3],
     pub roll_pitch_yaw_deg: [f64; 3],
-    /// Residuals of the readings, computed less measured, one per cable; absent where a cable was not read.
-    pub residuals_m: Vec<Option<f64>>,
+    /// Residuals of the cables that were read.
+    pub residuals: Vec<CableResidual>,
     /// Decrease of χ² if the row is left out, in the variance of the residuals; absent for a row that no other row checks.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub chi2_drop: Option<f64>,
@@ -103,8 +110,8 @@ pub struct ReadingRow {
 
 impl ReadingRow {
     fn rms(&self) -> f64 {
-        let squares: Vec<f64> = self.residuals_m.iter().flatten().map(|residual| residual * residual).collect();
-        (squares.iter().sum::<f64>() / squares.len().max(1) as f64).sqrt()
+        let squares: f64 = self.residuals.iter().map(|of| of.residual_m * of.residual_m).sum();
+        (squares / self.residuals.len().max(1) as f64).sqrt()
     }
 
     /// Columns of the rows.
@@ -156,10 +163,10 @@ pub struct WeakRow {
 /// Walk along the weakest combination, with everything else fitted again.
 #[derive(Serialize)]
 pub struct Walk {
-    /// Held distances, in deviations.
+    /// Held distances, in deviations, at which something fits.
     pub deviations: Vec<f64>,
-    /// Rises of χ², in the variance of the residuals: 1 and 4 for a parabola; absent where nothing fits.
-    pub chi2_rises: Vec<Option<f64>>,
+    /// Rises of χ² there, in the variance of the residuals: 1 and 4 for a parabola.
+    pub chi2_rises: Vec<f64>,
     pub is_parabola: bool,
 }
 
