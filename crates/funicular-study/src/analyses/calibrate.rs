@@ -138,13 +138,12 @@ pub fn run(request: &CalibrateRequest, watch: &mut dyn Watch) -> Result<Calibrat
     };
     let named = |error: CalibrationError| in_words(&robot, error);
     let of = Calibration::new(robot.clone(), unknowns, rows, deviations, request.static_model).map_err(named)?;
+    check_signs(request, &of)?;
     if of.is_elastic() && !matches!(candidates, candidates::Candidates::None) {
         bail!("poses are proposed for straight rigid cables only: leave out ⟪propose⟫, or take ⟪static_model⟫ ideal");
     }
     let frame = of.frame(&frame_choice(request, &robot)?).map_err(named)?;
     of.check_count(&frame).map_err(named)?;
-
-    check_signs(request, &of)?;
 
     // The search.
     let mut progress = |done: usize, total: usize| {
