@@ -78,16 +78,29 @@ pub fn encoder_of_other_sign(of: &Calibration, fit: &CalibrationFit, frame: &Cal
     (best.1 < BETTER_FIT * fit.chi2).then_some(best)
 }
 
-/// Exchange of two cables in one row with which it fits, the unknowns held.
-pub fn row_exchange(of: &Calibration, fit: &CalibrationFit, row: usize) -> Option<CableExchange> {
+/// Exchange of two cables in one row with which it agrees with the others; `None` if none helps by a factor of 10. The
+/// others are fitted without the row first, because a wrong row drags all values along.
+pub fn row_exchange(
+    of: &Calibration,
+    fit: &CalibrationFit,
+    frame: &CalibrationFrame,
+    row: usize,
+) -> Option<CableExchange> {
     if of.is_elastic() {
         return None;
     }
-    let measured = &of.rows[row];
-    let at = of.robot_at(&fit.values);
-    let now = of.residuals(&at, measured, &fit.poses[row]).norm_squared();
+    let mut others = of.clone();
+    let measured = others.rows.remove(row);
+    let mut poses = fit.poses.clone();
+    poses.remove(row);
+    let found =
+        [others.fit(&fit.values, &poses, &frame.free), others.fit(&others.start(), &others.start_poses(), &frame.free)];
+    let found = found.into_iter().min_by(|a, b| a.chi2.total_cmp(&b.chi2))?;
+
+    let start = of.start_poses()[row];
+    let (_, now) = of.pose_of_row(&found.values, &measured, &start);
     let of_pair = |cables: [usize; 2]| {
-        let (_, chi2) = of.pose_of_row(&fit.values, &exchanged(measured, cables), &fit.poses[row]);
+        let (_, chi2) = of.pose_of_row(&found.values, &exchanged(&measured, cables), &start);
         CableExchange { cables, chi2 }
     };
     let best = pairs(of.robot.cables.len()).map(of_pair).min_by(|a, b| a.chi2.total_cmp(&b.chi2))?;

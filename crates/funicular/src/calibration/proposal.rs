@@ -3,7 +3,7 @@
 use super::elimination::EliminatedRow;
 use super::frame::CalibrationFrame;
 use super::{Calibration, CalibrationFit, CalibrationPrecision, MeasuredRow};
-use crate::math::DMat;
+use crate::math::{DMat, DVec};
 use crate::robot::Pose;
 
 /// Pose to measure.
@@ -52,7 +52,12 @@ pub fn proposals(
     let weighted = DMat::from_fn(frame.free.nrows(), frame.free.ncols(), |i, j| weights[i] * frame.free[(i, j)]);
     let weight = frame.free.transpose() * weighted;
 
+    // Along a combination that no row sees, all that is known is the size of the robot.
     let mut covariance = precision.free_covariance.clone();
+    for lost in &precision.lost {
+        let direction = frame.free.transpose() * DVec::from_column_slice(lost) * of.anchor_spread();
+        covariance += &direction * direction.transpose();
+    }
     let mut proposed = Vec::new();
     for _ in 0..count {
         let now = (&weight * &covariance).trace();

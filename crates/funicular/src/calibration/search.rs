@@ -14,6 +14,11 @@ const ENOUGH_OF_NOISE: usize = 2;
 /// Deviations of χ² above its expectation up to which a minimum fits as noise does.
 const OF_NOISE: f64 = 3.0;
 
+/// Starts after which a search ends whose best χ² is this many times that of noise: then the readings are wrong, not the
+/// starts.
+const STARTS_OF_MISFIT: usize = 5;
+const MISFIT: f64 = 100.0;
+
 /// Iterations of one start. Sound starts arrive within about 50; the best one goes on to its end.
 const ITERATIONS_OF_START: usize = 80;
 
@@ -89,7 +94,8 @@ pub fn search(
         let enough = |(best, arrivals): &(CalibrationFit, usize)| {
             *arrivals >= if best.chi2 <= noise { ENOUGH_OF_NOISE } else { ENOUGH_ARRIVALS }
         };
-        if number > 0 && minima.first().is_some_and(enough) {
+        let is_misfit = minima.first().is_some_and(|(best, _)| best.chi2 > MISFIT * noise) && done >= STARTS_OF_MISFIT;
+        if number > 0 && (minima.first().is_some_and(enough) || is_misfit) {
             break;
         }
     }

@@ -15,9 +15,12 @@ const POOR_FRAME: f64 = 3.0;
 pub(super) fn warnings(of: &CalibrationReport, results: &Calibrated) -> Vec<String> {
     let mut warnings = Vec::new();
     warnings.extend(lost_rank(of));
-    warnings.extend(results.walk.as_ref().and_then(curved));
+    warnings.extend(results.walk.as_ref().filter(|_| !of.is_misfit()).and_then(curved));
     warnings.extend(exchanged_cables(of));
-    warnings.extend(results.rows.iter().filter(|row| row.outlier).map(|row| outlier(of, row)));
+    // One row at a time: a wrong one makes others look wrong.
+    let drop = |row: &ReadingRow| row.chi2_drop.unwrap_or_default();
+    let outliers = results.rows.iter().filter(|row| row.outlier);
+    warnings.extend(outliers.max_by(|a, b| drop(a).total_cmp(&drop(b))).map(|row| outlier(of, row)));
     warnings.extend(other_minima(of));
     warnings.extend(poor_frame(of));
     warnings.extend(stretch(of));
@@ -77,7 +80,7 @@ fn exchanged_cables(of: &CalibrationReport) -> Option<String> {
 }
 
 fn outlier(of: &CalibrationReport, row: &ReadingRow) -> String {
-    let remedy = row_exchange(of.of, &of.found.best, row.row - 1).map_or_else(
+    let remedy = row_exchange(of.of, &of.found.best, &of.frame, row.row - 1).map_or_else(
         || "repeat the measurement, or leave the row out".to_owned(),
         |found| {
             let [a, b] = found.cables.map(|cable| of.of.robot.cables[cable].name.as_str());

@@ -27,6 +27,9 @@ pub(super) const NOISE_DEVIATIONS: f64 = 3.0;
 /// Least factor of the deviations with which the walk along the weakest combination is more than rounding.
 const LEAST_FACTOR: f64 = 1e-6;
 
+/// χ² per degree of freedom above which values mean nothing: residuals are three times as large as their deviations.
+const MISFIT: f64 = 10.0;
+
 /// Rise of χ² of another minimum below which the readings do not choose: three deviations of noise.
 const UNDECIDED: f64 = 9.0;
 
@@ -96,8 +99,9 @@ impl<'a> CalibrationReport<'a> {
         let walk = self.walk();
         let is_parabola = walk.as_ref().is_none_or(WeakWalk::is_parabola);
         let is_one = !self.fits_otherwise();
-        let is_determined = is_parabola && is_one && self.precision.lost.is_empty() && self.factor.is_some();
-        let values = self.values(is_parabola && is_one);
+        let is_determined =
+            is_parabola && is_one && !self.is_misfit() && self.precision.lost.is_empty() && self.factor.is_some();
+        let values = self.values(is_parabola && is_one && !self.is_misfit());
         let rows = self.rows();
         let weak = self.weak();
         let inner = self.frame.inner(&self.precision.covariance);
@@ -135,6 +139,12 @@ impl<'a> CalibrationReport<'a> {
             proposals,
             poses_needed,
         })
+    }
+
+    /// True if the readings miss the model so far that no value means anything.
+    pub(super) fn is_misfit(&self) -> bool {
+        let degrees = self.precision.degrees;
+        self.request.length_std_m.is_some() && degrees > 0 && self.fit().chi2 > MISFIT * degrees as f64
     }
 
     /// Rise of χ² of another minimum, in the variance of the residuals.
@@ -348,6 +358,9 @@ impl<'a> CalibrationReport<'a> {
         if self.factor.is_none() {
             return "The readings leave nothing that tells their deviation: give ⟪length_std_m⟫, or measure more rows"
                 .to_owned();
+        }
+        if self.is_misfit() {
+            return "No value is known as long as the readings do not fit: see the warnings".to_owned();
         }
         if let Some(lost) = weak.first().filter(|row| row.deviation_m.is_none()) {
             return format!("These rows do not determine {}", lost.words);
