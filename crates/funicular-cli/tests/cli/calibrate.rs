@@ -157,3 +157,20 @@ fn cells_of_cables_that_were_not_read_are_empty() {
     let no_length = refused("length_bl_m,length_br_m,length_tr_m,length_tl_m\n2.9,3.1,-3.0,3.0\n", &[]);
     assert!(no_length.contains("the reading -3.000 m of cable tr is no length"), "{no_length}");
 }
+
+#[test]
+fn readings_that_do_not_fit_say_so_before_any_value_and_name_the_row() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("table.csv").display().to_string();
+    let belts = fs::read_to_string(project("docs/calibration/belts.csv")).unwrap();
+    // One belt of the third position is 5 % off.
+    let wrong = belts.replace("3134.33", "3291.05");
+    assert_ne!(wrong, belts);
+    fs::write(&path, wrong).unwrap();
+    let robot = project("docs/calibration/machine.toml");
+    let found = json(&["calibrate", &robot, "--readings", &path, "--length-std-m", "0.0005"]);
+    assert_eq!(found["is_determined"], false);
+    assert!(found["fit"].as_str().unwrap().starts_with("The readings do not fit (χ² "));
+    assert_eq!(found["determined"], "No value is known as long as the readings do not fit: see the warnings");
+    assert!(found["values"].as_array().unwrap().iter().all(|row| row["interval_95"].is_null()));
+}

@@ -159,7 +159,7 @@ impl<'a> CalibrationReport<'a> {
 
     fn walk(&self) -> Option<WeakWalk> {
         let factor = self.factor.filter(|factor| *factor > LEAST_FACTOR)?;
-        if !self.precision.lost.is_empty() {
+        if !self.precision.lost.is_empty() || self.is_misfit() {
             return None;
         }
         self.of.weak_walk(self.fit(), &self.frame, &self.precision, factor)
