@@ -8,9 +8,9 @@ pub(crate) mod values;
 use anyhow::{Context, Result};
 use clap::{Arg, ArgAction, ArgMatches, Args, Command, FromArgMatches};
 pub(crate) use files::{
-    ChangeArgs, DesignArgs, DrawArgs, DrawModesArgs, FigureArgs, FileArgs, Format, GustArgs, IdentifyArgs, ImportArgs,
-    MapArgs, MergeArgs, NewArgs, OutputArgs, PageArgs, PlotArgs, ReduceArgs, RequestArgs, RunArgs, SettleArgs,
-    TrajectoryArgs, UncertaintyArgs, WorkspaceArgs,
+    CalibrateArgs, ChangeArgs, DesignArgs, DrawArgs, DrawModesArgs, FigureArgs, FileArgs, Format, GustArgs,
+    IdentifyArgs, ImportArgs, MapArgs, MergeArgs, NewArgs, OutputArgs, PageArgs, PlotArgs, ReduceArgs, RequestArgs,
+    RunArgs, SettleArgs, TrajectoryArgs, UncertaintyArgs, WorkspaceArgs,
 };
 use files::{OptionalRobotArgs, RobotArgs};
 use funicular_study::request::{self, CommandInfo, Declared, Experiment, Key, Request, RequestRobot, ResponsePoints};
@@ -147,6 +147,7 @@ fn with_files(name: &str, command: Command) -> Command {
         "trajectory" => TrajectoryArgs::augment_args(command),
         "gust" => GustArgs::augment_args(command),
         "identify" => IdentifyArgs::augment_args(command),
+        "calibrate" => CalibrateArgs::augment_args(command),
         "design" => DesignArgs::augment_args(command),
         "map" => MapArgs::augment_args(command).mut_arg("grid", |arg| arg.required_unless_present("poses")),
         "workspace" => WorkspaceArgs::augment_args(command),

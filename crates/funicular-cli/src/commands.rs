@@ -3,6 +3,7 @@
 
 mod analysis;
 mod cable;
+mod calibrate;
 mod check;
 mod clearance;
 mod compare;
@@ -70,6 +71,7 @@ pub(crate) fn run(cli: &Cli) -> Result<()> {
         Request::Trajectory(of) => trajectory::run(of, &cli.files()?, &mut guard()),
         Request::Reduce(of) => reduce::run(of, &cli.files()?, guard()),
         Request::Identify(of) => identify::run(of, &cli.files()?, &mut guard()),
+        Request::Calibrate(of) => calibrate::run(of, &cli.files()?, &mut guard()),
         Request::Design(of) => design::run(of, &cli.files()?, &mut guard()),
         Request::Workspace(of) => workspace::run(of, &cli.files()?, &mut guard()),
         Request::Map(_) => map::run(&request, &cli.files()?, &mut guard()),
@@ -99,6 +101,7 @@ fn request_of(cli: &Cli) -> Result<Request> {
     match cli.name.as_str() {
         "uncertainty" => uncertainty::request(cli, further),
         "identify" => identify::request(cli, further),
+        "calibrate" => calibrate::request(cli, further),
         "design" => design::request(cli, further),
         "workspace" => workspace::request(cli, further),
         "map" => map::request(cli, further),

@@ -1,9 +1,10 @@
 //! Reading of a table of numbers that a request holds.
 
 use anyhow::{Context, Result, anyhow};
-use funicular_formats::number_columns;
+use funicular_formats::number_columns::{self, NumberTable};
 use funicular_study::TableFault;
-use funicular_study::request::NumberColumns;
+use funicular_study::request::{GappedColumns, NumberColumns};
+use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 
@@ -16,9 +17,30 @@ pub(crate) fn read(
     what: &str,
     check: impl FnOnce(&NumberColumns) -> Result<(), TableFault>,
 ) -> Result<NumberColumns> {
+    read_by(path, what, number_columns::read, check)
+}
+
+/// Reads such columns in which cells may be empty.
+///
+/// # Errors
+/// Those of [`read`].
+pub(crate) fn read_with_gaps(
+    path: &Path,
+    what: &str,
+    check: impl FnOnce(&GappedColumns) -> Result<(), TableFault>,
+) -> Result<GappedColumns> {
+    read_by(path, what, number_columns::read_with_gaps, check)
+}
+
+fn read_by<V>(
+    path: &Path,
+    what: &str,
+    table_of: impl FnOnce(&str, &[u8]) -> Result<NumberTable<V>>,
+    check: impl FnOnce(&BTreeMap<String, Vec<V>>) -> Result<(), TableFault>,
+) -> Result<BTreeMap<String, Vec<V>>> {
     let shown = path.display();
     let bytes = fs::read(path).with_context(|| format!("cannot read {what} {shown}"))?;
-    let table = number_columns::read(&shown.to_string(), &bytes)?;
+    let table = table_of(&shown.to_string(), &bytes)?;
     check(&table.columns).map_err(|fault| {
         let line =
             fault.row.and_then(|row| table.lines.get(row)).map_or(String::new(), |line| format!(", line {line}"));

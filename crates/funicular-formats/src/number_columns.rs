@@ -3,14 +3,14 @@
 use crate::csv_lines::CsvText;
 use crate::measurements::check_size;
 use anyhow::{Result, anyhow};
-use funicular_study::request::NumberColumns;
-use funicular_study::values::number;
+use funicular_study::values::{NumberError, number};
+use std::collections::BTreeMap;
 
-/// Columns of a file.
+/// Columns of a file, whose values are numbers, or numbers and gaps.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub struct NumberTable {
-    /// Numbers of each column, by its name.
-    pub columns: NumberColumns,
+pub struct NumberTable<V = f64> {
+    /// Values of each column, by its name.
+    pub columns: BTreeMap<String, Vec<V>>,
     /// Line of each row in the file, from 1.
     pub lines: Vec<usize>,
 }
@@ -29,6 +29,29 @@ pub struct NumberTable {
 /// # Ok::<(), anyhow::Error>(())
 /// ```
 pub fn read(path: &str, bytes: &[u8]) -> Result<NumberTable> {
+    read_by(path, bytes, number)
+}
+
+/// Reads such a table in which cells may be empty.
+///
+/// # Errors
+/// Those of [`read`].
+///
+/// # Example
+/// ```
+/// let found = funicular_formats::number_columns::read_with_gaps("read.csv", b"a,b\n0,\n0.5,2\n")?;
+/// assert_eq!(found.columns["b"], [None, Some(2.0)]);
+/// # Ok::<(), anyhow::Error>(())
+/// ```
+pub fn read_with_gaps(path: &str, bytes: &[u8]) -> Result<NumberTable<Option<f64>>> {
+    read_by(path, bytes, |text| if text.is_empty() { Ok(None) } else { number(text).map(Some) })
+}
+
+fn read_by<V: Clone>(
+    path: &str,
+    bytes: &[u8],
+    value: impl Fn(&str) -> Result<V, NumberError>,
+) -> Result<NumberTable<V>> {
     check_size(path, bytes.len())?;
     let text = CsvText::open(path, bytes)?;
     let names = text.header.clone();
@@ -37,7 +60,7 @@ pub fn read(path: &str, bytes: &[u8]) -> Result<NumberTable> {
     for record in text.records() {
         let (line, record) = record?;
         for ((text, name), values) in record.iter().zip(&names).zip(&mut values) {
-            values.push(number(text).map_err(|reason| anyhow!("{path}, line {line}, column `{name}`: {reason}"))?);
+            values.push(value(text).map_err(|reason| anyhow!("{path}, line {line}, column `{name}`: {reason}"))?);
         }
         lines.push(line);
     }

@@ -47,6 +47,8 @@ enum Kind {
     Poses,
     /// Columns by their names, or a CSV file with them.
     Columns,
+    /// The same with None in gaps.
+    GappedColumns,
     /// First value, last value and their number.
     Masses,
     /// Axes with their values.
@@ -72,6 +74,7 @@ impl Kind {
             request::Kind::Pose => Self::Pose,
             request::Kind::Poses => Self::Poses,
             request::Kind::Columns => Self::Columns,
+            request::Kind::GappedColumns => Self::GappedColumns,
             request::Kind::Tensor => Self::Inertia,
             request::Kind::Name(what, choices) => Self::Name(what, choices),
             request::Kind::Text => Self::Text,
@@ -135,7 +138,7 @@ impl Kind {
             Self::Masses => "tuple[SupportsFloat | SupportsIndex, SupportsFloat | SupportsIndex, SupportsIndex]",
             Self::Axes => "Mapping[str, ArrayLike]",
             Self::Limits => "Mapping[str, SupportsFloat | SupportsIndex]",
-            Self::Columns => "str | PathLike[str] | Mapping[str, ArrayLike]",
+            Self::Columns | Self::GappedColumns => "str | PathLike[str] | Mapping[str, ArrayLike]",
             Self::Sizes | Self::Any => "Any",
         }
     }
@@ -260,7 +263,10 @@ fn of_kind(kind: Kind, name: &str, value: &Bound<'_, PyAny>, cables: &[String]) 
             }
             json!(poses)
         }
-        Kind::Columns => columns(name, value)?,
+        Kind::Columns => columns(name, value, |shown, bytes| Ok(json!(number_columns::read(shown, bytes)?.columns)))?,
+        Kind::GappedColumns => {
+            columns(name, value, |shown, bytes| Ok(json!(number_columns::read_with_gaps(shown, bytes)?.columns)))?
+        }
         Kind::Masses => json!(value.extract::<arrays::FirstLastCount>()?.masses(name, usize::MAX)?),
         // A request in JSON has a list of axes, and of limits.
         Kind::Axes | Kind::Limits if value.cast::<PyList>().is_ok() => any(name, value, 0)?,
@@ -358,12 +364,12 @@ fn limits(name: &str, given: &Bound<'_, PyAny>) -> PyResult<Json> {
 }
 
 /// Columns of a file, of a mapping or of a data frame.
-fn columns(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Json> {
+fn columns(name: &str, value: &Bound<'_, PyAny>, read: impl Fn(&str, &[u8]) -> anyhow::Result<Json>) -> PyResult<Json> {
     if let Ok(path) = value.extract::<PathBuf>() {
         let shown = path.display().to_string();
         let bytes =
             fs::read(&path).map_err(|error| io::Error::new(error.kind(), format!("cannot read {shown}: {error}")))?;
-        return Ok(json!(number_columns::read(&shown, &bytes).map_err(|error| errors::study(&error))?.columns));
+        return read(&shown, &bytes).map_err(|error| errors::study(&error));
     }
     if value.hasattr("columns")? && value.hasattr("to_dict")? {
         return any(name, &value.call_method1("to_dict", ("list",))?, 0);

@@ -37,6 +37,7 @@ COMMANDS: dict[str, tuple[str, list[Callable[..., Any]]]] = {
     "workspace": ("`robot.workspace(…)`", [Robot.workspace]),
     "pose-error": ("`robot.pose_error(…)`", [Robot.pose_error]),
     "identify": ("`robot.identify(fit, experiments, …)`", [Robot.identify]),
+    "calibrate": ("`robot.calibrate(readings, …)`", [Robot.calibrate]),
     "design": ("`robot.design(change, …)`", [Robot.design]),
     "cable": ("`robot.equilibrium(…).cable(…)`", [Robot.equilibrium, Equilibrium.cable]),
     "reduce": (
@@ -85,6 +86,7 @@ OTHERS: dict[tuple[str | None, str], tuple[str, Callable[..., Any]]] = {
     ("identify", "--page"): ("`result.page(path)`", funicular.Identified.page),
     ("trajectory", "--lengths"): ("`unstrained_lengths_m` of the rows", Robot.trajectory),
     ("settle", "--lengths"): ("`lengths` of the result", Equilibrium.settle),
+    ("calibrate", "--calibrated"): ("`robot_file` of the result", Robot.calibrate),
     ("design", "--output-file"): ("`json.dumps(result.details)`", funicular.Designed.to_dict),
     ("design", "--designed"): ("`result.robot_file`, `result.robot`", funicular.Designed.to_dict),
     ("design", "--page"): ("`result.page(path)`", funicular.Designed.page),

@@ -4,6 +4,7 @@
 //! every other key is an option with the same name as in the program (`--mass-kg`) and in Python (`mass_kg=`). An
 //! option that is left out has its default.
 
+mod calibrate;
 mod design;
 mod files;
 mod gradient;
@@ -24,6 +25,7 @@ mod uncertainty;
 mod vibration;
 mod workspace;
 
+pub use calibrate::CalibrateRequest;
 pub use design::{ChangeValue, DesignRequest};
 pub use files::{ExportRequest, ImportRequest, NewRequest, SchemaRequest};
 pub use gradient::{GradientRequest, frequencies};
@@ -33,8 +35,8 @@ pub use key::{Choice, Declared, Key, Kind, ProgramForm, Range};
 pub use loads::{LoadsRequest, Requirements};
 pub use pages::{LiveRequest, PaperRequest, ReportRequest, ValidateRequest};
 pub use parts::{
-    Axis, Change, FrequencyRange, ImportPlatform, ImportRopes, Load, MAX_HZ, Model, NumberColumns, OneOrSeveral, Pose,
-    ResponsePoints, ResponseRange, RobotText, State, Tensions, Terms,
+    Axis, Change, FrequencyRange, GappedColumns, ImportPlatform, ImportRopes, Load, MAX_HZ, Model, NumberColumns,
+    OneOrSeveral, Pose, ResponsePoints, ResponseRange, RobotText, State, Tensions, Terms,
 };
 pub use shape::schema;
 pub use source_file::{MAX_BYTES, SourceFile};
@@ -164,6 +166,7 @@ commands! {
     Cable(CableRequest) "cable" Needed robot;
     Reduce(ReduceRequest) "reduce" Needed robot;
     Identify(IdentifyRequest) "identify" Needed robot;
+    Calibrate(CalibrateRequest) "calibrate" Needed robot;
     Design(DesignRequest) "design" Needed robot;
     Map(MapRequest) "map" Needed robot;
     Sweep(SweepRequest) "sweep" Needed robot;

@@ -3,6 +3,7 @@
 use crate::analyses::{
     Found,
     cable::{self, CableResult},
+    calibrate::{self, Calibrated},
     check::{self, Checked},
     clearance::{self, Clearances},
     compare::{self, Compared},
@@ -136,6 +137,7 @@ answers! {
     Cable(CableResult): of => cable::run(robot()?, of, watch)?;
     Reduce(ReducedForm): of => reduce::run(robot()?, of, watch)?, at at_rest => reduce::about(at_rest, of, watch)?;
     Identify(Box<Identified>): of => Box::new(identify::run(of, watch)?);
+    Calibrate(Box<Calibrated>): of => Box::new(calibrate::run(of, watch)?);
     Workspace(Box<Workspace>): of => Box::new(workspace::run(robot()?, of, watch)?);
     Design(Box<Designed>): of => Box::new(design::run(of, watch)?);
 }

@@ -22,9 +22,14 @@ pub fn read(key: &Key, text: &str) -> Result<Value, String> {
         Kind::Vector => vector(text),
         Kind::Pose => pose(text),
         Kind::Tensor => tensor(text),
-        Kind::Name(..) | Kind::Text | Kind::Texts | Kind::Sizes | Kind::Poses | Kind::Columns | Kind::Data(_) => {
-            Ok(text.into())
-        }
+        Kind::Name(..)
+        | Kind::Text
+        | Kind::Texts
+        | Kind::Sizes
+        | Kind::Poses
+        | Kind::Columns
+        | Kind::GappedColumns
+        | Kind::Data(_) => Ok(text.into()),
         Kind::Written(form) | Kind::List(form) | Kind::OneOrMore(form) | Kind::Commas(form) => read_form(*form, text),
     }
 }

@@ -48,6 +48,7 @@
 
 pub mod cable;
 pub mod cable_motion;
+pub mod calibration;
 pub mod catenary;
 pub mod clearance;
 pub mod compare;

@@ -258,6 +258,26 @@ pub(crate) struct DesignArgs {
     pub(crate) page: Option<PathBuf>,
 }
 
+/// Readings of a calibration, candidates of its proposal, and its robot file.
+#[derive(Debug, Args)]
+pub(crate) struct CalibrateArgs {
+    /// Readings in a CSV file, one row per pose: columns length_NAME_m [m] or length_NAME_mm [mm] of every cable, empty where
+    /// a cable was slack or not read, and optionally x_m, y_m, z_m, roll_deg, pitch_deg, yaw_deg, tension_NAME_n
+    #[arg(long, value_name = "FILE.csv")]
+    pub(crate) readings: PathBuf,
+
+    /// Candidates of a proposal in a CSV file instead of a grid: columns x_m, y_m, z_m and optionally roll_deg, pitch_deg,
+    /// yaw_deg
+    #[arg(long, value_name = "FILE.csv", help_heading = "Proposal", conflicts_with = "grid")]
+    pub(crate) poses: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) sink: OutputArgs,
+
+    /// Write the robot file with the calibrated anchors and attachments to FILE; -o FILE.toml does the same
+    #[arg(long, value_name = "FILE.toml", help_heading = "Output")]
+    pub(crate) calibrated: Option<PathBuf>,
+}
+
 /// Poses of an uncertainty, its page and its samples.
 #[derive(Debug, Args)]
 pub(crate) struct UncertaintyArgs {

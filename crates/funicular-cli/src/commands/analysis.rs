@@ -81,6 +81,7 @@ fn print_results(request: &Request, robot: Option<Robot>, sink: &Sink) -> Result
         Results::Cable(found) => sink.write(found),
         Results::Reduce(found) => sink.write(found),
         Results::Identify(found) => sink.write(&**found),
+        Results::Calibrate(found) => sink.write(&**found),
         Results::Workspace(found) => sink.write(&**found),
         Results::Design(found) => sink.write(&**found),
     }

@@ -2,6 +2,7 @@
 
 mod bad_input;
 mod cable;
+mod calibrate;
 mod clearance;
 mod compare;
 mod defaults;

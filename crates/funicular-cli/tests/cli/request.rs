@@ -154,7 +154,9 @@ fn the_request_of_every_command_runs_again() {
     succeed(&[&sweep[..], &["-o", &parquet]].concat());
     succeed(&[&sweep[..], &["--part", "1/1", "-o", &part]].concat());
 
-    let lines: [(&[&str], &[&str]); 10] = [
+    let machine = super::project("docs/calibration/machine.toml");
+    let belts = super::project("docs/calibration/belts.csv");
+    let lines: [(&[&str], &[&str]); 11] = [
         (&["reduce", "ROBOT", "--below-hz", "1.3", "--input", "fz", "--output", "z", "--order", "4"], &[]),
         (&["reduce", "ROBOT", "--below-hz", "1.3", "--form", "second-order"], &[]),
         (&["payload", &cogiro, "--pose", "1,2,1.5"], &[]),
@@ -163,6 +165,7 @@ fn the_request_of_every_command_runs_again() {
             &["design", &cogiro, "--pose", "0,0,1.5", "--change", "cables.1.anchor_m.z=±0.1", "--max-iterations", "1"],
             &[],
         ),
+        (&["calibrate", &machine, "--readings", &belts, "--propose", "1", "--grid", "x=1:4:4"], &[]),
         (&["import", &tripod], &[]),
         (&["report", "ROBOT", "--below-hz", "1.3"], &["-o", "-"]),
         (&["validate"], &[]),

@@ -315,6 +315,37 @@ def identify(of: Any, given: Given) -> Identified:
     return identified(of.request("identify", **given))
 
 
+@declared(Robot, "calibrate", positional=("readings", "unknowns"))
+def calibrate(of: Any, given: Given) -> Results:
+    """Calibrates anchors, attachments, offsets and scale from readings of lengths at poses that are not known.
+
+    Parameters
+    ----------
+    readings
+        One row per pose: columns `length_NAME_m` or `length_NAME_mm` of every cable, and optionally `x_m`, `y_m`, `z_m`,
+        `roll_deg`, `pitch_deg`, `yaw_deg`, as a mapping, a data frame or a CSV file.
+    poses
+        Candidates of a proposal (n, 3) or (n, 6): x, y, z [m], roll, pitch, yaw [degrees].
+
+    Returns
+    -------
+    The keys of the program's JSON: `fit` and `determined` as sentences, `is_determined`, `values` with deviations and
+    intervals, `distances`, `rows`, `weak_combinations`, `walk`, `minima`, `proposals`, and `robot_file`.
+
+    Raises
+    ------
+    InputError
+        A column, a value or a name is wrong, or there are fewer readings than unknowns.
+    StaticsError
+        The readings fit at no start.
+
+    References
+    ----------
+    docs/theory.md, equations (96a) to (96k).
+    """
+    return _results.results(of._answer("calibrate", given))
+
+
 @declared(Robot, "design", positional=("change",), without=("lengths_m", "hold_lengths_of_pose"), others=_AS_BOTH)
 def design(of: Any, given: Given) -> Designed:
     """Chooses values of the robot file with which the robot is best at several poses.

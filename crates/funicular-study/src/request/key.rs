@@ -117,6 +117,8 @@ pub enum Kind {
     Poses,
     /// Columns of numbers by their names; the program reads them from a CSV file.
     Columns,
+    /// The same with gaps: null, in the file an empty cell.
+    GappedColumns,
     /// Value that the program writes in a form of its own.
     Written(ProgramForm),
     /// List of such values; the option can be given several times.
@@ -224,7 +226,9 @@ impl Key {
         if !self.required {
             self.default = default.cloned().unwrap_or_default();
         }
-        if self.option.is_empty() && !matches!(self.kind, Kind::Data(_) | Kind::Poses | Kind::Columns) {
+        if self.option.is_empty()
+            && !matches!(self.kind, Kind::Data(_) | Kind::Poses | Kind::Columns | Kind::GappedColumns)
+        {
             self.option = name.replace('_', "-");
         }
         if self.option == Self::NOT_IN_PROGRAM {

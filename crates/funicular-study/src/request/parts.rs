@@ -127,6 +127,9 @@ impl From<&funicular::robot::Pose> for Pose {
 /// Numbers of a table by the names of its columns.
 pub type NumberColumns = std::collections::BTreeMap<String, Vec<f64>>;
 
+/// The same with gaps.
+pub type GappedColumns = std::collections::BTreeMap<String, Vec<Option<f64>>>;
+
 declared! {
     /// State and loads of the robot. A value that is not given comes from the robot file.
     pub struct State {

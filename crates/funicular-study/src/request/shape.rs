@@ -63,6 +63,7 @@ fn of_kind(kind: &Kind) -> Value {
         Kind::Texts | Kind::Sizes => texts(),
         Kind::Poses => poses(),
         Kind::Columns => columns(),
+        Kind::GappedColumns => gapped_columns(),
         Kind::Written(form) => of_form(*form),
         Kind::List(form) => list(&of_form(*form)),
         Kind::OneOrMore(form) | Kind::Commas(form) => {
@@ -142,6 +143,11 @@ fn poses() -> Value {
 
 fn columns() -> Value {
     json!({ "type": "object", "additionalProperties": numbers(Range::Finite, None) })
+}
+
+fn gapped_columns() -> Value {
+    let or_gap = json!({ "anyOf": [number(Range::Finite), { "type": "null" }] });
+    json!({ "type": "object", "additionalProperties": { "type": "array", "items": or_gap } })
 }
 
 fn mass_range() -> Value {

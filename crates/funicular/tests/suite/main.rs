@@ -7,6 +7,7 @@
 mod architecture;
 mod cable;
 mod cable_motion;
+mod calibration;
 mod catenary;
 mod clearance;
 mod compare;

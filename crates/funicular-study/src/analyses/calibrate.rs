@@ -1,0 +1,279 @@
+//! `calibrate`: anchors, attachments, offsets and scale from readings of lengths at poses that nobody knows.
+//!
+//! docs/theory.md, section 18d, has the equations. `identify` takes measured results of states that are known; here every
+//! row brings its own unknown pose.
+
+mod candidates;
+mod caveats;
+mod report;
+mod rows;
+mod statistics;
+mod table;
+mod words;
+
+pub use rows::{CableResidual, CalibratedValue, DistanceRow, MinimumRow, ProposalRow, ReadingRow, Walk, WeakRow};
+pub use table::check as check_readings;
+
+use super::found;
+use crate::Watch;
+use crate::columns::{ResultTable, Tabled};
+use crate::error::{Cancelled, NoSolution};
+use crate::names::suggestion;
+use crate::request::{self, CalibrateRequest};
+use crate::table::Column;
+use crate::text::significant;
+use anyhow::{Result, anyhow, bail};
+use funicular::calibration::{
+    Calibration, CalibrationError, CalibrationUnknown, FrameChoice, ReadingDeviations, search,
+};
+use funicular::robot::parameters::Parameters;
+use funicular::robot::{PlatformMotion, Robot};
+use report::CalibrationReport;
+use serde::Serialize;
+
+/// Key of the table.
+const KEY: &str = "readings";
+
+/// Standard deviation of readings in a search if none is given [m]. The residuals then give it.
+const ASSUMED_DEVIATION: f64 = 1e-3;
+
+/// Names of the unknowns.
+const UNKNOWNS: [&str; 6] = ["anchors", "attachments", "offsets", "scale", "axial-stiffness", "mass"];
+
+/// Name of the inner frame.
+const INNER: &str = "inner";
+
+/// Results of `calibrate`.
+#[derive(Serialize)]
+pub struct Calibrated {
+    #[serde(skip)]
+    pub robot: String,
+    /// Sentence on the fit of the readings.
+    pub fit: String,
+    /// Sentence on what the readings determine.
+    pub determined: String,
+    /// True if χ² is a parabola along the weakest combination and no combination is lost.
+    pub is_determined: bool,
+    /// Frame in words.
+    pub frame: String,
+    pub values: Vec<CalibratedValue>,
+    pub distances: Vec<DistanceRow>,
+    pub rows: Vec<ReadingRow>,
+    pub weak_combinations: Vec<WeakRow>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub walk: Option<Walk>,
+    /// Further minima that fit.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub minima: Vec<MinimumRow>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub proposals: Vec<ProposalRow>,
+    /// Least number of proposed poses that reaches the wanted deviation; absent if none was wanted or no number does.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub poses_needed: Option<usize>,
+    /// Sum of the squares of the residuals, divided by the deviations of the data.
+    pub chi2: f64,
+    /// Number of readings and measured coordinates.
+    pub data: usize,
+    pub degrees_of_freedom: usize,
+    /// Root mean square of the residuals of the readings.
+    pub residual_rms_m: f64,
+    /// Standard deviation of a reading, given or from the residuals.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub length_std_m: Option<f64>,
+    /// Root of the sum of the variances of the values, in the frame and with inner conditions.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub total_m: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub inner_total_m: Option<f64>,
+    /// Largest deviation of a combination of values in the frame.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub weakest_m: Option<f64>,
+    /// True if the platform turns.
+    #[serde(skip)]
+    pub turns: bool,
+    pub starts: usize,
+    /// Number of starts that arrived at the best minimum.
+    pub arrivals: usize,
+    pub iterations: usize,
+    /// Robot file with the calibrated anchors and attachments.
+    pub robot_file: String,
+    #[serde(skip)]
+    pub warnings: Vec<String>,
+}
+
+impl Tabled for Calibrated {
+    fn tables() -> Vec<(&'static str, Vec<Column>)> {
+        vec![("", CalibratedValue::columns().described())]
+    }
+
+    fn table(&self) -> ResultTable<'_> {
+        ResultTable::new(CalibratedValue::columns(), &self.values)
+    }
+}
+
+found!(Calibrated, "calibrate");
+
+/// Calibrates a robot.
+///
+/// # Errors
+/// A request that contradicts itself or the robot; a table with a fault; fewer readings than unknowns; readings that fit at
+/// no start; work that was stopped.
+pub fn run(request: &CalibrateRequest, watch: &mut dyn Watch) -> Result<Calibrated> {
+    request::check("length_std_m", request.length_std_m, crate::values::positive)?;
+    request::check("position_std_m", request.position_std_m, crate::values::positive)?;
+    request::check_positive("tension_std_n", request.tension_std_n)?;
+    request::check("wanted_std_m", request.wanted_std_m, crate::values::positive)?;
+    let file = request.robot.read()?;
+    let parameters = Parameters::from_toml(&file.text)?;
+    let robot = parameters.robot().clone();
+    let rows = table::rows(&request.readings, &robot, request.position_std_m.is_some())?;
+    let candidates = candidates::wanted(request, &robot)?;
+
+    // Unknowns and frame.
+    let unknowns = unknowns(request, &robot)?;
+    let deviations = ReadingDeviations {
+        reading: request.length_std_m.unwrap_or(ASSUMED_DEVIATION),
+        position: request.position_std_m.unwrap_or(1.0),
+        tension: request.tension_std_n,
+    };
+    let named = |error: CalibrationError| in_words(&robot, error);
+    let of = Calibration::new(robot.clone(), unknowns, rows, deviations, request.static_model).map_err(named)?;
+    check_signs(request, &of)?;
+    if of.is_elastic() && !matches!(candidates, candidates::Candidates::None) {
+        bail!("poses are proposed for straight rigid cables only: leave out ⟪propose⟫, or take ⟪static_model⟫ ideal");
+    }
+    let frame = of.frame(&frame_choice(request, &robot)?).map_err(named)?;
+    of.check_count(&frame).map_err(named)?;
+
+    // The search.
+    let mut progress = |done: usize, total: usize| {
+        watch.progress(done, total, "starts");
+        !watch.is_cancelled()
+    };
+    let found = search(&of, &frame, request.starts, &mut progress);
+    if watch.is_cancelled() {
+        return Err(Cancelled.into());
+    }
+    let found = found.ok_or_else(|| NoSolution(CalibrationError::NoMinimum { starts: request.starts }.to_string()))?;
+
+    let report = CalibrationReport::new(request, &of, &frame, &found, &candidates)?;
+    let mut results = report.results()?;
+    results.warnings = caveats::warnings(&report, &results);
+    Ok(results)
+}
+
+/// Refuses a reading that is no length, unless an unknown offset makes it one.
+fn check_signs(request: &CalibrateRequest, of: &Calibration) -> Result<()> {
+    if request.unknowns.iter().any(|unknown| unknown == "offsets") {
+        return Ok(());
+    }
+    for (j, row) in of.rows.iter().enumerate() {
+        let wrong = row.readings.iter().zip(&of.robot.cables).find(|(reading, _)| reading.is_some_and(|of| of <= 0.0));
+        if let Some((reading, cable)) = wrong {
+            bail!(
+                "⟪readings⟫, row {}: the reading {} m of cable {} is no length, which is positive; readings from an \
+                 encoder's zero need unknown offsets, ⟪unknowns⟫ anchors,offsets",
+                j + 1,
+                significant(reading.unwrap_or_default(), 4),
+                cable.name
+            );
+        }
+    }
+    Ok(())
+}
+
+/// Error of the core with the names of the robot.
+fn in_words(robot: &Robot, error: CalibrationError) -> anyhow::Error {
+    match error {
+        CalibrationError::UnreadCable { cable } => anyhow!(
+            "no row has a reading of cable {}: add its column, or hold its anchor with ⟪hold_anchors⟫",
+            robot.cables[cable].name
+        ),
+        other => anyhow!("{other}"),
+    }
+}
+
+/// Unknowns of a request, without what the platform does not have.
+fn unknowns(request: &CalibrateRequest, robot: &Robot) -> Result<Vec<CalibrationUnknown>> {
+    check_names("unknowns", &request.unknowns)?;
+    if request.unknowns.is_empty() {
+        bail!("⟪unknowns⟫ is empty: name at least one of {}", UNKNOWNS.join(", "));
+    }
+    let held = cables_of("hold_anchors", &request.hold_anchors, robot)?;
+    let axes: Vec<usize> = match &robot.platform.motion {
+        PlatformMotion::Planar(plane) => (0..3).filter(|&axis| plane.normal_w()[axis].abs() < 0.5).collect(),
+        _ => vec![0, 1, 2],
+    };
+    let wants = |name: &str| request.unknowns.iter().any(|unknown| unknown == name);
+    let count = robot.cables.len();
+    let (axes, held) = (&axes, &held);
+    let points = |is_anchor: bool| {
+        (0..count).flat_map(move |cable| {
+            axes.iter().map(move |&axis| {
+                if is_anchor {
+                    CalibrationUnknown::Anchor { cable, axis }
+                } else {
+                    CalibrationUnknown::Attachment { cable, axis }
+                }
+            })
+        })
+    };
+
+    let mut unknowns = Vec::new();
+    if wants("anchors") {
+        unknowns.extend(points(true).filter(|of| !of.cable().is_some_and(|cable| held.contains(&cable))));
+    }
+    if wants("attachments") {
+        unknowns.extend(points(false));
+    }
+    if wants("offsets") {
+        unknowns.extend((0..count).map(|cable| CalibrationUnknown::Offset { cable }));
+    }
+    let common = [
+        ("scale", CalibrationUnknown::Scale),
+        ("axial-stiffness", CalibrationUnknown::AxialStiffness),
+        ("mass", CalibrationUnknown::Mass),
+    ];
+    unknowns.extend(common.into_iter().filter(|(name, _)| wants(name)).map(|(_, unknown)| unknown));
+    if unknowns.is_empty() {
+        bail!("⟪hold_anchors⟫ holds every unknown: leave a cable out of it, or name further ⟪unknowns⟫");
+    }
+    Ok(unknowns)
+}
+
+/// Refuses a name that no unknown has.
+fn check_names(key: &str, names: &[String]) -> Result<()> {
+    let known = UNKNOWNS.map(str::to_owned);
+    match names.iter().find(|name| !known.contains(name)) {
+        Some(unknown) => bail!("⟪{key}⟫: there is no `{unknown}`{}", suggestion(unknown, &known)),
+        None => Ok(()),
+    }
+}
+
+/// Indices of cables by their names.
+fn cables_of(key: &str, names: &[String], robot: &Robot) -> Result<Vec<usize>> {
+    let known: Vec<String> = robot.cables.iter().map(|cable| cable.name.clone()).collect();
+    let index = |name: &String| {
+        known
+            .iter()
+            .position(|cable| cable == name)
+            .ok_or_else(|| anyhow!("⟪{key}⟫: there is no cable `{name}`{}", suggestion(name, &known)))
+    };
+    names.iter().map(index).collect()
+}
+
+/// Frame of a request.
+fn frame_choice(request: &CalibrateRequest, robot: &Robot) -> Result<FrameChoice> {
+    if request.frame.iter().any(|name| name == INNER) && !robot.cables.iter().any(|cable| cable.name == INNER) {
+        if request.frame.len() > 1 {
+            bail!("⟪frame⟫: {INNER} stands alone, without names of cables");
+        }
+        return Ok(FrameChoice::Inner);
+    }
+    Ok(FrameChoice::Anchors(cables_of("frame", &request.frame, robot)?))
+}
+
+/// Deviation in millimetres for sentences.
+fn in_mm(value: f64) -> String {
+    format!("{} mm", significant(1e3 * value, 3))
+}

@@ -1,0 +1,108 @@
+//! Candidates of a proposal: a grid, or a list of poses.
+
+use crate::at_rest::check_pose;
+use crate::names::suggestion;
+use crate::request::CalibrateRequest;
+use anyhow::{Result, anyhow, bail};
+use funicular::robot::{Pose, Robot};
+
+/// Names of the axes.
+const AXES: [&str; 6] = ["x", "y", "z", "roll", "pitch", "yaw"];
+
+/// Maximum number of candidates: each is a small matrix that every proposed pose goes through.
+const MAX_CANDIDATES: usize = 100_000;
+
+/// Candidates before the axes that are not given are known.
+pub(super) enum Candidates {
+    /// None were asked for.
+    None,
+    /// Poses as they are.
+    Poses(Vec<Pose>),
+    /// Values along each axis; an axis without values stays at the middle pose.
+    Grid([Vec<f64>; 6]),
+}
+
+/// Candidates that a request wants.
+///
+/// # Errors
+/// A proposal without candidates, an axis that does not exist or is there twice, or a pose that the platform cannot have.
+pub(super) fn wanted(request: &CalibrateRequest, robot: &Robot) -> Result<Candidates> {
+    if request.propose == 0 && request.wanted_std_m.is_none() {
+        if !request.grid.is_empty() || request.poses.is_some() {
+            bail!("candidates need a number of poses: give ⟪propose⟫ or ⟪wanted_std_m⟫");
+        }
+        return Ok(Candidates::None);
+    }
+    match (&request.poses, request.grid.is_empty()) {
+        (Some(_), false) => bail!("⟪poses⟫ and ⟪grid⟫ are both given: leave out one of them"),
+        (None, true) => bail!("a proposal needs candidates: give their ⟪grid⟫ or a list of ⟪poses⟫"),
+        (Some(poses), true) => {
+            let pose = |[x, y, z, roll, pitch, yaw]: &[f64; 6]| Pose::new([*x, *y, *z], [*roll, *pitch, *yaw]);
+            let poses: Vec<Pose> = poses.iter().map(pose).collect();
+            poses.iter().try_for_each(|pose| check_pose(robot, pose))?;
+            Ok(Candidates::Poses(poses))
+        }
+        (None, false) => grid(request),
+    }
+}
+
+fn grid(request: &CalibrateRequest) -> Result<Candidates> {
+    let mut values: [Vec<f64>; 6] = Default::default();
+    let known = AXES.map(str::to_owned);
+    for axis in &request.grid {
+        let name = axis.name();
+        let place = AXES
+            .iter()
+            .position(|of| *of == name)
+            .ok_or_else(|| anyhow!("⟪grid⟫: there is no axis `{name}`{}", suggestion(name, &known)))?;
+        if !values[place].is_empty() {
+            bail!("⟪grid⟫: the axis {name} is there twice");
+        }
+        let steps = axis.steps().map_err(|reason| anyhow!("⟪grid⟫ {name}: {reason}"))?;
+        if steps.count() > MAX_CANDIDATES {
+            bail!("⟪grid⟫ {name} has {} values: give at most {MAX_CANDIDATES}", steps.count());
+        }
+        values[place] = (0..steps.count()).map(|k| steps.at(k)).collect();
+    }
+    let count = values.iter().fold(1_usize, |count, of| count.saturating_mul(of.len().max(1)));
+    if count > MAX_CANDIDATES {
+        bail!("⟪grid⟫ has {count} candidates: give at most {MAX_CANDIDATES}");
+    }
+    Ok(Candidates::Grid(values))
+}
+
+impl Candidates {
+    /// Poses of the candidates; axes that are not given have the values of `middle`.
+    ///
+    /// # Errors
+    /// A pose that the platform cannot have.
+    pub(super) fn poses(&self, robot: &Robot, middle: &Pose) -> Result<Vec<Pose>> {
+        let values = match self {
+            Self::None => return Ok(Vec::new()),
+            Self::Poses(poses) => return Ok(poses.clone()),
+            Self::Grid(values) => values,
+        };
+        let [x, y, z] = middle.position_w.into();
+        let [roll, pitch, yaw] = funicular::math::rotation::to_roll_pitch_yaw_deg(&middle.rot_wp);
+        let at_middle = [x, y, z, roll, pitch, yaw];
+        let mut poses = vec![at_middle];
+        for (k, values) in values.iter().enumerate() {
+            if !values.is_empty() {
+                poses = poses
+                    .iter()
+                    .flat_map(|pose| {
+                        values.iter().map(move |value| {
+                            let mut next = *pose;
+                            next[k] = *value;
+                            next
+                        })
+                    })
+                    .collect();
+            }
+        }
+        let poses: Vec<Pose> =
+            poses.iter().map(|[x, y, z, roll, pitch, yaw]| Pose::new([*x, *y, *z], [*roll, *pitch, *yaw])).collect();
+        poses.iter().try_for_each(|pose| check_pose(robot, pose))?;
+        Ok(poses)
+    }
+}

@@ -1,0 +1,58 @@
+//! Request of `calibrate`: readings of lengths at unknown poses, and the numbers that they shall give.
+
+use super::key::declared;
+use super::parts::{Axis, GappedColumns, RobotText};
+use funicular::statics::StaticModel;
+
+declared! {
+    /// Anchors, attachments, offsets and scale from readings of cable lengths at poses that are not known.
+    ///
+    /// Every row of ⟪readings⟫ belongs to one pose, which is found with the robot's numbers. Cables are straight and rigid
+    /// unless ⟪static_model⟫ says otherwise; elastic ones need measured tensions or coordinates. The result says how well the readings fit and, apart from that, what they determine. docs/calibration.md explains
+    /// tables, frames and the result.
+    pub struct CalibrateRequest {
+        /// Robot file, whose values are the start.
+        robot: RobotText = RobotText::default() => (Data(shape::robot)).required();
+        /// Readings, one row per pose: columns length_NAME_m [m] or length_NAME_mm [mm] of every cable, empty where a cable was
+        /// slack or not read; x_m, y_m, z_m and,
+        /// where the platform turns, roll_deg, pitch_deg, yaw_deg are poses at which the search begins; tension_NAME_n are
+        /// tensions at the anchors [N], which elastic cables need.
+        readings: GappedColumns = GappedColumns::new() => (GappedColumns).required();
+        /// Numbers to find, separated by commas: anchors, attachments, offsets (length of each cable at the reading zero),
+        /// scale (metres of length per metre of all readings); of elastic cables also axial-stiffness and mass, as factors of
+        /// those of the file.
+        unknowns: Vec<String> = vec!["anchors".to_owned()] => (Texts).form("NAMES");
+        /// Cables whose anchors are known, by their names, separated by commas.
+        hold_anchors: Vec<String> = Vec::new() => (Texts).form("CABLES");
+        /// Frame of the result: cables separated by commas, of which the first keeps its anchor, the second the direction
+        /// from the first, and the third the plane of the three; or inner, in which all anchors together move least.
+        frame: Vec<String> = Vec::new() => (Texts).form("CABLES|inner");
+        /// Standard deviation of a reading [m].
+        length_std_m: Option<f64> = None => (Number(Positive)).otherwise("that of the residuals");
+        /// Standard deviation of the coordinates x_m, y_m, z_m [m]; with it they are measurements.
+        position_std_m: Option<f64> = None => (Number(Positive)).otherwise("they only start the search");
+        /// Standard deviation of the measured tensions [N].
+        tension_std_n: f64 = 1.0 => (Number(Positive));
+        /// Static model of the cables: ideal ones are straight and rigid.
+        #[serde(with = "crate::names")]
+        static_model: StaticModel = StaticModel::Ideal => (name::<StaticModel>()).form("MODEL");
+        /// Maximum number of starts of the search.
+        starts: usize = 10 => (Count(1..=1000));
+        /// Number of poses to propose that reduce the deviations most, one after the other.
+        propose: usize = 0 => (Count(0..=100)).under("Proposal");
+        /// Axis of the candidates of a proposal: x, y, z [m], roll, pitch, yaw [degrees], with N values from A to B, or with
+        /// listed values (repeatable); an axis that is not given stays at the middle pose of the rows.
+        grid: Vec<Axis> = Vec::new() => (List(ProgramForm::GridAxis)).form("AXIS=A:B:N|V,V,…").under("Proposal");
+        /// Candidates of a proposal instead of a grid: position [m] and roll, pitch, yaw [degrees].
+        poses: Option<Vec<[f64; 6]>> = None => (Poses).under("Proposal");
+        /// Numbers whose deviations the proposal reduces, as in ⟪unknowns⟫.
+        propose_for: Vec<String> = Vec::new() => (Texts).form("NAMES").under("Proposal").otherwise("all unknowns");
+        /// Largest deviation that is wanted [m]: the least number of proposed poses that reaches it.
+        wanted_std_m: Option<f64> = None => (Number(Positive)).under("Proposal");
+    }
+    examples {
+        "funicular calibrate docs/calibration/machine.toml --readings docs/calibration/belts.csv",
+        "funicular calibrate docs/calibration/machine.toml --readings docs/calibration/belts.csv --frame inner \\\n    --propose 3 --grid x=0.4:4.2:9 --grid y=0.4:3.5:8",
+        "funicular calibrate robot.toml --readings lengths.csv --unknowns anchors,offsets --length-std-m 0.0005 \\\n    --calibrated calibrated.toml",
+    }
+}

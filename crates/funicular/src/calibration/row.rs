@@ -1,0 +1,121 @@
+//! One row of measured readings: residuals and their derivatives by the unknowns of the robot and by the row's pose.
+
+use super::{CalibratedRobot, Calibration, CalibrationUnknown};
+use crate::math::{DMat, DVec, Vec6};
+use crate::platform::StraightCable;
+use crate::robot::Pose;
+
+/// Readings of the cables at one pose, which is unknown.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct MeasuredRow {
+    /// Reading of each cable [m]; `None` where a cable was not read or was slack.
+    pub readings: Vec<Option<f64>>,
+    /// Measured coordinates of the platform origin, world axes [m].
+    pub position: [Option<f64>; 3],
+    /// Tension of each cable at its anchor [N]; `None` where it was not measured, empty if none was.
+    pub tensions: Vec<Option<f64>>,
+    /// Pose at which the search begins.
+    pub start: Option<Pose>,
+}
+
+impl MeasuredRow {
+    /// Row with readings of all cables [m].
+    pub fn of_readings(readings: &[f64]) -> Self {
+        Self { readings: readings.iter().copied().map(Some).collect(), ..Self::default() }
+    }
+
+    /// Number of data.
+    pub fn data_count(&self) -> usize {
+        let tensions = self.tensions.iter().flatten().count();
+        self.readings.iter().flatten().count() + self.position.iter().flatten().count() + tensions
+    }
+}
+
+/// Standard deviations of the data of all rows.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ReadingDeviations {
+    /// Of a reading [m].
+    pub reading: f64,
+    /// Of a measured coordinate of the platform [m].
+    pub position: f64,
+    /// Of a measured tension [N].
+    pub tension: f64,
+}
+
+/// Residuals of one row and their derivatives, each divided by the standard deviation of its datum.
+#[derive(Debug, Clone)]
+pub(super) struct RowTerms {
+    /// Residuals, computed less measured.
+    pub(super) residuals: DVec,
+    /// Derivatives by the unknowns of the robot.
+    pub(super) by_unknowns: DMat,
+    /// Derivatives by the coordinates of the pose, rotations times ℓ.
+    pub(super) by_pose: DMat,
+}
+
+impl Calibration {
+    /// Residuals of a row at a pose, in deviations (96a).
+    pub(super) fn residuals(&self, at: &CalibratedRobot, row: &MeasuredRow, pose: &Pose) -> DVec {
+        let readings = row.readings.iter().enumerate().filter_map(|(i, reading)| {
+            let length = at.robot.cables[i].straight_length(pose);
+            Some(((length - at.offsets[i]) / at.scale - (*reading)?) / self.deviations.reading)
+        });
+        let positions =
+            (0..3).filter_map(|axis| Some((pose.position_w[axis] - row.position[axis]?) / self.deviations.position));
+        DVec::from_vec(readings.chain(positions).collect())
+    }
+
+    /// Residuals of a row with their derivatives: a straight length changes with its anchor by the unit vector `u`
+    /// towards it, with the platform by −(u, RA × u), with the attachment by −Rᵀu (96b).
+    pub(super) fn row_terms(&self, at: &CalibratedRobot, row: &MeasuredRow, pose: &Pose) -> RowTerms {
+        let residuals = self.residuals(at, row, pose);
+        let (count, coordinates) = (residuals.len(), self.coordinates());
+        let mut by_unknowns = DMat::zeros(count, self.unknowns.len());
+        let mut by_pose = DMat::zeros(count, self.coordinate_count());
+
+        let read = row.readings.iter().enumerate().filter(|(_, reading)| reading.is_some());
+        for (k, (cable, _)) in read.enumerate() {
+            let per_length = 1.0 / (at.scale * self.deviations.reading);
+            let line = StraightCable::at(&at.robot.cables[cable], pose);
+            // A cable without length has no direction.
+            let Some(u) = line.chord_w.try_normalize(f64::MIN_POSITIVE) else { continue };
+            let by_motion = coordinates.reduce_force(&u, &line.lever_w);
+            for c in 0..by_pose.ncols() {
+                by_pose[(k, c)] = -by_motion[c] * per_length;
+            }
+            let by_attachment = -(pose.rot_wp.inverse() * u);
+            for (j, unknown) in self.unknowns.iter().enumerate() {
+                by_unknowns[(k, j)] = per_length
+                    * match *unknown {
+                        CalibrationUnknown::Anchor { cable: of, axis } if of == cable => u[axis],
+                        CalibrationUnknown::Attachment { cable: of, axis } if of == cable => by_attachment[axis],
+                        CalibrationUnknown::Offset { cable: of } if of == cable => -1.0,
+                        CalibrationUnknown::Scale => {
+                            let length = at.robot.cables[cable].straight_length(pose);
+                            -(length - at.offsets[cable]) / (at.scale * self.scale_length)
+                        }
+                        _ => 0.0,
+                    };
+            }
+        }
+
+        let first = row.readings.iter().flatten().count();
+        let measured = (0..3).filter(|axis| row.position[*axis].is_some());
+        for (k, axis) in measured.enumerate() {
+            for c in 0..by_pose.ncols() {
+                let motion = coordinates.expand(&Vec6::ith(c, 1.0));
+                by_pose[(first + k, c)] = motion[axis] / self.deviations.position;
+            }
+        }
+        RowTerms { residuals, by_unknowns, by_pose }
+    }
+
+    /// Pose after a step of the row's coordinates, rotations times ℓ.
+    pub(super) fn moved(&self, pose: &Pose, step: &DVec) -> Pose {
+        let mut reduced = Vec6::zeros();
+        for (c, value) in step.iter().enumerate() {
+            reduced[c] = *value;
+        }
+        self.coordinates().moved(pose, &reduced)
+    }
+}

@@ -1,0 +1,400 @@
+//! Search for all minima that fit: starts from the file, from nothing but lengths, and from anchors that are moved; other
+//! poses of single rows; mirror images.
+
+use super::frame::CalibrationFrame;
+use super::spread::spread;
+use super::{Calibration, CalibrationFit, CalibrationUnknown, MeasuredRow, anchors_from_lengths, null_space};
+use crate::math::{DMat, DVec, Vec3};
+use crate::robot::Pose;
+
+/// Arrivals at the best minimum that end the search: two if its χ² is one of noise.
+const ENOUGH_ARRIVALS: usize = 5;
+const ENOUGH_OF_NOISE: usize = 2;
+
+/// Deviations of χ² above its expectation up to which a minimum fits as noise does.
+const OF_NOISE: f64 = 3.0;
+
+/// Starts after which a search ends whose best χ² is this many times that of noise: then the readings are wrong, not the
+/// starts.
+const STARTS_OF_MISFIT: usize = 5;
+const MISFIT: f64 = 100.0;
+
+/// Iterations of one start. Sound starts arrive within about 50; the best one goes on to its end.
+const ITERATIONS_OF_START: usize = 80;
+
+/// Rise of χ² up to which another minimum is kept, in the variance of the residuals.
+const FITS_AS_WELL: f64 = 20.0;
+
+/// Distance of two minima, relative to the spread of the anchors, up to which they are one.
+const SAME_MINIMUM: f64 = 1e-5;
+
+/// Decrease of χ² by another pose of one row with which the row takes it.
+const BETTER_POSE: f64 = 1.0;
+
+/// Shift of anchors in further starts, relative to their spread, and turn of the poses [rad].
+const START_SHIFT: f64 = 0.05;
+const START_TURN: f64 = 0.25;
+
+/// Number of other poses that a row tries.
+const OTHER_POSES: usize = 6;
+
+/// Minima that a search has found.
+#[derive(Debug, Clone)]
+pub struct CalibrationSearch {
+    /// Best minimum.
+    pub best: CalibrationFit,
+    /// Other minima whose χ² is at most 20 higher, in the variance of the residuals, by χ².
+    pub others: Vec<CalibrationFit>,
+    /// Number of starts.
+    pub starts: usize,
+    /// Number of starts that arrived at the best minimum.
+    pub arrivals: usize,
+    /// True if the start from nothing but lengths was possible.
+    pub from_nothing: bool,
+}
+
+/// Searches from several starts for the minima of χ²; `None` if none is found.
+pub fn search(
+    of: &Calibration,
+    frame: &CalibrationFrame,
+    starts: usize,
+    progress: &mut dyn FnMut(usize, usize) -> bool,
+) -> Option<CalibrationSearch> {
+    let nothing = of.start_from_nothing(frame);
+    let from_nothing = nothing.is_some();
+    let mut minima: Vec<(CalibrationFit, usize)> = Vec::new();
+    let mut done = 0;
+    let noise = of.largest_of_noise(frame);
+    for number in 0..starts.max(1) {
+        if !progress(number, starts) && number > 0 {
+            break;
+        }
+        let (values, poses) = match (number, &nothing) {
+            (0, _) => (of.start(), of.start_poses()),
+            (1, Some(nothing)) => nothing.clone(),
+            (1, None) | (2, Some(_)) if !of.is_elastic() => of.poses_first(),
+            _ => of.moved_start(frame, number),
+        };
+        done += 1;
+        let found = of.polished(of.fit_within(ITERATIONS_OF_START, &values, &poses, &frame.free), frame);
+        if !found.chi2.is_finite() {
+            continue;
+        }
+        let found = of.canonical(found, frame);
+        match minima.iter_mut().find(|(other, _)| of.is_same(other, &found)) {
+            Some((other, arrivals)) => {
+                *arrivals += 1;
+                if found.chi2 < other.chi2 {
+                    *other = found;
+                }
+            }
+            None => minima.push((found, 1)),
+        }
+        minima.sort_by(|a, b| a.0.chi2.total_cmp(&b.0.chi2));
+        let enough = |(best, arrivals): &(CalibrationFit, usize)| {
+            *arrivals >= if best.chi2 <= noise { ENOUGH_OF_NOISE } else { ENOUGH_ARRIVALS }
+        };
+        let is_misfit = minima.first().is_some_and(|(best, _)| best.chi2 > MISFIT * noise) && done >= STARTS_OF_MISFIT;
+        if number > 0 && (minima.first().is_some_and(enough) || is_misfit) {
+            break;
+        }
+    }
+
+    let mut minima = minima.into_iter();
+    let (mut best, arrivals) = minima.next()?;
+    if !best.converged {
+        best = of.canonical(of.fit(&best.values, &best.poses, &frame.free), frame);
+    }
+    frame.hold(&mut best.values, &of.start());
+    let variance = (best.chi2 / of.degrees(frame).max(1) as f64).max(1.0);
+    let others = minima
+        .map(|(other, _)| other)
+        .filter(|other| other.converged && other.chi2 < best.chi2 + FITS_AS_WELL * variance)
+        .collect();
+    Some(CalibrationSearch { best, others, starts: done, arrivals, from_nothing })
+}
+
+impl Calibration {
+    /// True if two fits are one minimum.
+    fn is_same(&self, a: &CalibrationFit, b: &CalibrationFit) -> bool {
+        let apart = a.values.iter().zip(&b.values).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        apart <= SAME_MINIMUM * self.anchor_spread() && (a.chi2 - b.chi2).abs() <= 1e-3 * (1.0 + a.chi2)
+    }
+
+    /// Number of data less that of the unknowns and the coordinates of all poses.
+    fn degrees(&self, frame: &CalibrationFrame) -> usize {
+        let data: usize = self.rows.iter().map(MeasuredRow::data_count).sum();
+        data.saturating_sub(frame.free_count() + self.rows.len() * self.row_unknown_count())
+    }
+
+    /// χ² up to which a fit is one of noise.
+    fn largest_of_noise(&self, frame: &CalibrationFrame) -> f64 {
+        let degrees = self.degrees(frame) as f64;
+        degrees + OF_NOISE * (2.0 * degrees).sqrt()
+    }
+
+    /// Start with the values of the file, and for each row the pose that fits them best.
+    fn poses_first(&self) -> (Vec<f64>, Vec<Pose>) {
+        let values = self.start();
+        let rows = self.rows.iter().zip(self.start_poses());
+        let poses = rows.map(|(row, start)| self.pose_of_row(&values, row, &start).0).collect();
+        (values, poses)
+    }
+
+    /// Start with anchors that are moved along the free directions, and poses about the middle.
+    fn moved_start(&self, frame: &CalibrationFrame, number: usize) -> (Vec<f64>, Vec<Pose>) {
+        let size = self.anchor_spread();
+        let shift = DVec::from_fn(self.unknowns.len(), |k, _| match self.unknowns[k] {
+            CalibrationUnknown::Anchor { .. } => START_SHIFT * size * (2.0 * spread(number, k) - 1.0),
+            _ => 0.0,
+        });
+        let values = DVec::from_vec(self.start()) + &frame.free * (frame.free.transpose() * shift);
+        let starts = self.start_poses().into_iter().enumerate();
+        let poses = starts.map(|(j, pose)| self.nearby(&pose, number * 1000 + j)).collect();
+        (values.as_slice().to_vec(), poses)
+    }
+
+    /// Pose in the neighbourhood of another one.
+    fn nearby(&self, pose: &Pose, number: usize) -> Pose {
+        let translations = self.axes().len();
+        let step = DVec::from_fn(self.coordinate_count(), |c, _| {
+            let size = if c < translations {
+                2.0 * START_SHIFT * self.anchor_spread()
+            } else {
+                START_TURN * self.coordinates().ell()
+            };
+            size * (2.0 * spread(number, 100 + c) - 1.0)
+        });
+        self.moved(pose, &step)
+    }
+
+    /// Pose of one row with the unknowns held, from a start; with its χ².
+    pub(super) fn pose_of_row(&self, values: &[f64], row: &MeasuredRow, start: &Pose) -> (Pose, f64) {
+        let at = self.robot_at(values);
+        let mut pose = *start;
+        let mut chi2 = self.residuals(&at, row, &pose).norm_squared();
+        let mut damping = 1e-3;
+        for _ in 0..60 {
+            let terms = self.row_terms(&at, row, &pose);
+            let mut normal = terms.by_pose.transpose() * &terms.by_pose;
+            let gradient = terms.by_pose.transpose() * &terms.residuals;
+            let largest = normal.diagonal().max().max(f64::MIN_POSITIVE);
+            for c in 0..normal.nrows() {
+                normal[(c, c)] += damping * normal[(c, c)].max(1e-9 * largest);
+            }
+            let Some(factors) = normal.cholesky() else { break };
+            let step = -factors.solve(&gradient);
+            let next = self.moved(&pose, &step);
+            let next_chi2 = self.residuals(&at, row, &next).norm_squared();
+            if next_chi2 < chi2 {
+                let is_end = chi2 - next_chi2 < 1e-9 * (1.0 + chi2);
+                (pose, chi2) = (next, next_chi2);
+                damping = (damping * 0.2_f64).max(1e-12);
+                if is_end {
+                    break;
+                }
+            } else {
+                damping *= 5.0;
+                if damping > 1e9 {
+                    break;
+                }
+            }
+        }
+        (pose, chi2)
+    }
+
+    /// Fit in which no row has a better pose elsewhere: rows that have take it, and everything is fitted again.
+    fn polished(&self, mut found: CalibrationFit, frame: &CalibrationFrame) -> CalibrationFit {
+        if self.is_elastic() {
+            return found;
+        }
+        for _ in 0..3 {
+            let mut poses = found.poses.clone();
+            let mut is_moved = false;
+            let at = self.robot_at(&found.values);
+            for (j, row) in self.rows.iter().enumerate() {
+                let now = self.residuals(&at, row, &found.poses[j]).norm_squared();
+                let middle = self.middle();
+                let others = (0..OTHER_POSES).map(|k| {
+                    let start = if k == 0 { middle } else { self.nearby(&found.poses[j], 7919 * (k + 1) + j) };
+                    self.pose_of_row(&found.values, row, &start)
+                });
+                if let Some((pose, chi2)) = others.min_by(|a, b| a.1.total_cmp(&b.1))
+                    && chi2 < now - BETTER_POSE.max(1e-6 * now)
+                {
+                    poses[j] = pose;
+                    is_moved = true;
+                }
+            }
+            if !is_moved {
+                break;
+            }
+            let next = self.fit(&found.values, &poses, &frame.free);
+            if next.chi2 >= found.chi2 {
+                break;
+            }
+            found = CalibrationFit { iterations: found.iterations + next.iterations, ..next };
+        }
+        found
+    }
+
+    /// True if the readings alone leave the robot its mirror image and every place: points, all anchors unknown.
+    fn is_free_figure(&self, frame: &CalibrationFrame) -> bool {
+        let axes = self.axes();
+        let all = if axes.len() == 2 { 3 } else { 6 };
+        let anchors = (0..self.robot.cables.len()).all(|cable| {
+            axes.iter().all(|&axis| self.position_of(&CalibrationUnknown::Anchor { cable, axis }).is_some())
+        });
+        !self.is_elastic()
+            && self.is_point
+            && anchors
+            && frame.motion_count() == all
+            && self.robot.cables.iter().all(|cable| cable.anchor.is_fixed())
+    }
+
+    /// The fit or its mirror image, whichever is more like the file.
+    fn canonical(&self, found: CalibrationFit, frame: &CalibrationFrame) -> CalibrationFit {
+        if !self.is_free_figure(frame) {
+            return found;
+        }
+        let axis = self.axes()[0];
+        let mut mirrored = found.clone();
+        for (value, unknown) in mirrored.values.iter_mut().zip(&self.unknowns) {
+            if matches!(unknown, CalibrationUnknown::Anchor { axis: of, .. } if *of == axis) {
+                *value = -*value;
+            }
+        }
+        for pose in &mut mirrored.poses {
+            pose.position_w[axis] = -pose.position_w[axis];
+        }
+        if self.unlikeness(&found) <= self.unlikeness(&mirrored) {
+            return self.in_frame(&found, frame);
+        }
+        self.in_frame(&mirrored, frame)
+    }
+
+    /// Fit that is turned towards the file and then placed by the conditions.
+    fn in_frame(&self, found: &CalibrationFit, frame: &CalibrationFrame) -> CalibrationFit {
+        let axes = self.axes();
+        let (points, wanted) = self.figures(found);
+        let alignment = Alignment::of(&points, &wanted, false);
+        let at = self.robot_at(&found.values);
+        let place = |point: &Vec3| {
+            let moved = alignment.apply(&DVec::from_fn(axes.len(), |k, _| point[axes[k]]));
+            let mut placed = *point;
+            axes.iter().enumerate().for_each(|(k, &axis)| placed[axis] = moved[k]);
+            placed
+        };
+        let mut values = found.values.clone();
+        for (value, unknown) in values.iter_mut().zip(&self.unknowns) {
+            if let CalibrationUnknown::Anchor { cable, axis } = unknown {
+                *value = place(&at.robot.cables[*cable].anchor.point_w)[*axis];
+            }
+        }
+        let poses: Vec<Pose> =
+            found.poses.iter().map(|pose| Pose { position_w: place(&pose.position_w), ..*pose }).collect();
+        let (values, poses) = frame.placed(self, &values, &poses);
+        CalibrationFit { values, poses, ..found.clone() }
+    }
+
+    /// Anchors and mean position of a fit, and of the file, as rows.
+    fn figures(&self, found: &CalibrationFit) -> (DMat, DMat) {
+        let axes = self.axes();
+        let at = self.robot_at(&found.values);
+        let count = self.robot.cables.len();
+        let mean = found.poses.iter().map(|pose| pose.position_w).sum::<Vec3>() / found.poses.len().max(1) as f64;
+        let start = self.start_poses();
+        let wanted_mean = start.iter().map(|pose| pose.position_w).sum::<Vec3>() / start.len().max(1) as f64;
+        let points = DMat::from_fn(count + 1, axes.len(), |i, k| {
+            at.robot.cables.get(i).map_or(mean, |cable| cable.anchor.point_w)[axes[k]]
+        });
+        let wanted = DMat::from_fn(count + 1, axes.len(), |i, k| {
+            self.robot.cables.get(i).map_or(wanted_mean, |cable| cable.anchor.point_w)[axes[k]]
+        });
+        (points, wanted)
+    }
+
+    /// Sum of squared distances to the file after the best shift and turn.
+    fn unlikeness(&self, found: &CalibrationFit) -> f64 {
+        let (points, wanted) = self.figures(found);
+        let alignment = Alignment::of(&points, &wanted, false);
+        let rows = points.row_iter().zip(wanted.row_iter());
+        rows.map(|(point, wanted)| (alignment.apply(&point.transpose()) - wanted.transpose()).norm_squared()).sum()
+    }
+
+    /// Start from nothing but lengths; `None` where it is not possible.
+    fn start_from_nothing(&self, frame: &CalibrationFrame) -> Option<(Vec<f64>, Vec<Pose>)> {
+        if !self.is_free_figure(frame) || self.rows.iter().any(|row| row.readings.iter().any(Option::is_none)) {
+            return None;
+        }
+        let axes = self.axes();
+        let count = self.robot.cables.len();
+        let lengths = DMat::from_fn(self.rows.len(), count, |j, i| self.rows[j].readings[i].unwrap_or_default());
+        let (anchors, positions) = anchors_from_lengths(&lengths, axes.len())?;
+
+        // Turned to the file, mirrored if need be.
+        let wanted = DMat::from_fn(count, axes.len(), |i, k| self.robot.cables[i].anchor.point_w[axes[k]]);
+        let alignment = Alignment::of(&anchors, &wanted, true);
+        let mut values = self.start();
+        for (value, unknown) in values.iter_mut().zip(&self.unknowns) {
+            if let CalibrationUnknown::Anchor { cable, axis } = unknown
+                && let Some(k) = axes.iter().position(|of| of == axis)
+            {
+                *value = alignment.apply(&anchors.row(*cable).transpose())[k];
+            }
+        }
+        let middle = self.middle();
+        let pose = |j: usize| {
+            let placed = alignment.apply(&positions.row(j).transpose());
+            let mut pose = middle;
+            axes.iter().enumerate().for_each(|(k, &axis)| pose.position_w[axis] = placed[k]);
+            pose
+        };
+        let poses: Vec<Pose> = (0..self.rows.len()).map(pose).collect();
+        let (values, poses) = frame.placed(self, &values, &poses);
+
+        // Anchors first, everything else after.
+        let held: Vec<DVec> = (0..self.unknowns.len())
+            .filter(|&k| !matches!(self.unknowns[k], CalibrationUnknown::Anchor { .. }))
+            .map(|k| DVec::from_fn(frame.free.ncols(), |c, _| frame.free[(k, c)]))
+            .collect();
+        if held.is_empty() {
+            return Some((values, poses));
+        }
+        let anchors_only = &frame.free * null_space(&DMat::from_columns(&held).transpose());
+        let first = self.fit(&values, &poses, &anchors_only);
+        Some((first.values, first.poses))
+    }
+}
+
+/// Shift and turn of a figure onto another one, with a mirror image if allowed.
+struct Alignment {
+    turn: DMat,
+    from: DVec,
+    to: DVec,
+}
+
+impl Alignment {
+    /// Best alignment of points (rows) with wanted points.
+    ///
+    /// # References
+    /// W. Kabsch, Acta Cryst. A32 (1976) 922.
+    fn of(points: &DMat, wanted: &DMat, mirrors: bool) -> Self {
+        let d = points.ncols();
+        let mean = |of: &DMat| DVec::from_fn(d, |k, _| of.column(k).mean());
+        let (from, to) = (mean(points), mean(wanted));
+        let centred = |of: &DMat, mean: &DVec| DMat::from_fn(of.nrows(), d, |i, k| of[(i, k)] - mean[k]);
+        let cross = centred(wanted, &to).transpose() * centred(points, &from);
+        let svd = cross.svd(true, true);
+        let (Some(u), Some(v_t)) = (svd.u, svd.v_t) else { return Self { turn: DMat::identity(d, d), from, to } };
+        let mut signs = DVec::from_element(d, 1.0);
+        if !mirrors && (&u * &v_t).determinant() < 0.0 {
+            signs[svd.singular_values.imin()] = -1.0;
+        }
+        Self { turn: u * DMat::from_diagonal(&signs) * v_t, from, to }
+    }
+
+    fn apply(&self, point: &DVec) -> DVec {
+        &self.to + &self.turn * (point - &self.from)
+    }
+}
