@@ -66,6 +66,8 @@ def steps(text: str) -> Any:
 def value(command: str, option: str, text: str) -> Any:
     if (command, option) == ("pose-error", "--mass-kg"):
         return steps(text)
+    if option in ("--unknowns", "--hold-anchors", "--frame", "--propose-for"):
+        return text.split(",")
     if option in ("--of", "--by", "--tolerances", "--deviations") and command != "schema":
         return text.split(",")
     if option in ("--weights", "--avoid-hz", "--profile-s", "--shape-modes-hz"):

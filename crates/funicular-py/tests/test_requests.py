@@ -47,6 +47,7 @@ LENGTHS_OVER_TIME = """t_s,unstrained_length_1_m,unstrained_length_2_m,unstraine
 0.5,6.862,6.566,6.755,6.664,6.801,6.604
 1,6.863,6.565,6.756,6.663,6.801,6.604
 """
+MACHINE = "docs/calibration/machine.toml --readings docs/calibration/belts.csv"
 MORE = [
     "funicular schema --of request",
     f"funicular statics {ROBOT} --all",
@@ -72,6 +73,8 @@ MORE = [
     f"--intensity 0.1,0.1,0.1 --length-scale-m 50,20,5 --below-hz 1 --output z {TENSIONS} --hold-lengths-of-pose",
     f"funicular gust {ROBOT} --set platform.drag_area_m2=0.1 --wind-m-s 8,0,0 --spectrum gusts.csv --below-hz 1 --output z",
     f"funicular modes {ROBOT} --below-hz 2 --decay-percent 10",
+    f"funicular calibrate {MACHINE} --hold-anchors bl,br --starts 3 --position-std-m 0.01 --tension-std-n 2",
+    f"funicular calibrate {MACHINE} --length-std-m 0.0005 --propose 1 --poses waypoints.csv --propose-for anchors --wanted-std-m 0.05",
     f"funicular compare {ROBOT} --below-hz 2",
     f"funicular compare robots/cogiro.toml --below-hz 6 {TENSIONS} --platform --platform-share 0.6 --tolerance 0.05",
     f"funicular gradient {ROBOT} --of frequencies,damping,tensions --below-hz 2 --per percent {LENGTHS}",
@@ -212,6 +215,7 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     poses = "x_m,y_m,z_m,roll_deg,pitch_deg,yaw_deg\n0.5,0.25,1.5,0,1,2\n0,0,2,0,0,0\n"
     (tmp_path / "trajectory.csv").write_text(poses)
     (tmp_path / "lengths.csv").write_text(LENGTHS_OVER_TIME)
+    (tmp_path / "waypoints.csv").write_text("x_m,y_m,z_m,roll_deg,pitch_deg,yaw_deg\n3.7,3.5,0,0,0,0\n1,1,0,0,0,0\n")
     (tmp_path / "path.csv").write_text("t_s,x_m,y_m,z_m,yaw_deg\n0,0,0,1.5,0\n1,0.5,0.2,1.5,5\n2,1,0,1.6,10\n")
     (tmp_path / "gusts.csv").write_text("frequency_hz,along_m2_s,lateral_m2_s,up_m2_s\n0.01,40,20,10\n0.1,8,6,4\n1,0.2,0.2,0.1\n")
     (tmp_path / "response.csv").write_text("frequency_hz,a1_re,a1_im\n1,-5.16e-4,0\n2,-2.55e-3,0\n2.5,-7e-3,2e-4\n")
@@ -289,7 +293,7 @@ def test_a_command_line_and_a_call_are_one_request(line: str, executable: str) -
 # Commands whose results are compared; the others make pages, files or rows, which have their own tests.
 COMPUTED = (
     *("check", "parameters", "statics", "stiffness", "modes", "frf", "compare", "gradient", "payload", "loads", "speeds", "trajectory", "clearance", "workspace", "pose-error", "cable"),
-    *("settle", "gust", "reduce", "identify", "uncertainty"),
+    *("settle", "gust", "reduce", "identify", "calibrate", "uncertainty"),
 )
 
 

@@ -256,7 +256,7 @@ impl<'d> BorderedParts<'d> {
     /// Poles of a cable with a constant loss of its stretch, where they say all and are known: for the determinant with
     /// all of the damping, and on a rigid frame.
     fn lossy_family(&self, term: &'d DynamicCableAt) -> Option<(&'d CatenaryDynamicEnd, &'d LossyFamily)> {
-        if self.purpose == BorderedFor::Motion || self.losses != 1.0 || self.dynamics.supports().is_some() {
+        if self.purpose == BorderedFor::Motion || self.losses < 1.0 || self.dynamics.supports().is_some() {
             return None;
         }
         let form = term.form.by_poles()?;

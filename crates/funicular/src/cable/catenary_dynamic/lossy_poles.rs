@@ -2,7 +2,7 @@
 //!
 //! A loss factor does not depend on frequency, so that a cable with it is a system with a constant complex stiffness,
 //! and has poles and residues as one without loss. They take about four solutions with all poles for each pole, but then
-//! every frequency is as cheap as without loss (docs/theory.md, equations (27h) to (27j)).
+//! every frequency is as cheap as without loss (docs/theory.md, equations (27f1) to (27f3)).
 
 use super::poles::{at_start, entry_indices};
 use super::{CatenaryDynamicEnd, Displacements, DriveMotion, PoleResidue, local, local_of_coupled};
@@ -39,15 +39,15 @@ pub(crate) enum LossyFamily {
 /// converge quadratically before.
 const FOUND: f64 = 1e-13;
 
-/// Maximum number of steps for one pole: three are usual. Where two poles without loss nearly meet there may be none
+/// Maximum number of steps for one pole: four are usual. Where two poles without loss nearly meet there may be none
 /// that converges to the right one; the cable is then solved frequency by frequency.
 const MAX_STEPS: usize = 12;
 
 /// Minimum relative distance of two poles that have been found: nearer ones may be one pole that was found twice.
 const MIN_DISTANCE: f64 = 1e-9;
 
-/// Number of solutions at single frequencies, over the number of poles, that cost as much as the poles: three steps for
-/// each pole and the last evaluation.
+/// Number of solutions at single frequencies, over the number of poles, that cost as much as the poles: the steps of
+/// each pole.
 const SOLUTIONS_PER_POLE: usize = 4;
 
 /// Stiffness of a cable with a constant loss factor without its poles near a frequency, and those poles.
@@ -133,10 +133,10 @@ impl CatenaryDynamicEnd {
         let compliance: Vec<Complex> = self.cable.stretch.stiffness.iter().map(|k| (loss * *k).inv()).collect();
         Some(match self.coupled() {
             Some(family) => {
-                LossyFamily::Coupled(Strains::of(family, (drive, &drive.coupled), chain..along, compliance).poles()?)
+                LossyFamily::Coupled(Strains::of(family, (drive, &drive.coupled), chain..along, &compliance).poles()?)
             }
             None => LossyFamily::InPlane(
-                Strains::of(self.in_plane(), (drive, &drive.along), chain..along, compliance).poles()?,
+                Strains::of(self.in_plane(), (drive, &drive.along), chain..along, &compliance).poles()?,
             ),
         })
     }
@@ -171,7 +171,7 @@ impl<'a, const N: usize, const E: usize> Strains<'a, N, E> {
         family: &'a PoleResidue<N, E>,
         (drive, motion): (&DriveMotion, &Displacements<D, N>),
         motions: Range<usize>,
-        compliance: Vec<Complex>,
+        compliance: &[Complex],
     ) -> Self {
         let (first, count) = (motions.start, motions.len());
         let modes: Vec<Vec<f64>> =
@@ -187,7 +187,7 @@ impl<'a, const N: usize, const E: usize> Strains<'a, N, E> {
         };
         let without_modes = CDMat::from_fn(count, count, |i, j| at_rest[(i, j)] - by_modes(i, j));
         let by_start = DMat::from_fn(count, D, |i, s| motion.still[first + i][0][s]);
-        Self { family, products, by_start, at_rest, without_modes, modes }
+        Self { family, modes, products, by_start, at_rest, without_modes }
     }
 
     /// Poles and residues with the loss; `None` if two poles nearly meet.
@@ -218,7 +218,7 @@ impl<'a, const N: usize, const E: usize> Strains<'a, N, E> {
     /// Pole with loss in the place of pole k, by Newton's method.
     ///
     /// # References
-    /// docs/theory.md, equation (27i).
+    /// docs/theory.md, equation (27f2).
     fn pole(&self, k: usize) -> Option<FoundPole> {
         let (own, phi) = (self.family.poles[k], &self.modes[k]);
         let mut value = Complex::from(own);
@@ -231,7 +231,6 @@ impl<'a, const N: usize, const E: usize> Strains<'a, N, E> {
                 return None;
             }
             if step.norm() <= FOUND * value.norm() {
-                let (forces, square) = self.mode_at(k, value)?;
                 return Some(FoundPole { value, forces, square });
             }
         }
