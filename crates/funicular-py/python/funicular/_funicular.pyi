@@ -981,6 +981,65 @@ class Robot(Analyses):
         RobotFileError
             The file has no such path, or the value is wrong there.
         """
+    def calibrate(self, /, readings: str | PathLike[str] | Mapping[str, ArrayLike], unknowns: str | Sequence[str] | None = None, *, hold_anchors: str | Sequence[str] | None = None, frame: str | Sequence[str] | None = None, length_std_m: SupportsFloat | SupportsIndex | None = None, position_std_m: SupportsFloat | SupportsIndex | None = None, tension_std_n: SupportsFloat | SupportsIndex | None = None, static_model: StaticModel = "ideal", starts: SupportsIndex | None = None, propose: SupportsIndex | None = None, grid: Mapping[str, ArrayLike] | None = None, poses: ArrayLike | None = None, propose_for: str | Sequence[str] | None = None, wanted_std_m: SupportsFloat | SupportsIndex | None = None) -> Results:
+        """
+        Calibrates anchors, attachments, offsets and scale from readings of lengths at poses that are not known.
+
+        Parameters
+        ----------
+        readings
+            One row per pose: columns `length_NAME_m` or `length_NAME_mm` of every cable, and optionally `x_m`, `y_m`, `z_m`,
+            `roll_deg`, `pitch_deg`, `yaw_deg`, as a mapping, a data frame or a CSV file.
+        unknowns
+            Numbers to find, separated by commas: anchors, attachments, offsets (length of each cable at the reading
+            zero), scale (metres of length per metre of all readings); of elastic cables also axial-stiffness and mass,
+            as factors of those of the file; anchors if not given.
+        hold_anchors
+            Cables whose anchors are known, by their names, separated by commas.
+        frame
+            Frame of the result: cables separated by commas, of which the first keeps its anchor, the second the
+            direction from the first, and the third the plane of the three; or inner, in which all anchors together move
+            least.
+        length_std_m
+            Standard deviation of a reading [m]; if not given: that of the residuals.
+        position_std_m
+            Standard deviation of the coordinates x_m, y_m, z_m [m]; with it they are measurements; if not given: they
+            only start the search.
+        tension_std_n
+            Standard deviation of the measured tensions [N]; 1 if not given.
+        static_model
+            Static model of the cables: ideal ones are straight and rigid: `ideal` (straight, massless, rigid); `spring`
+            (straight, massless, elastic); `catenary` (elastic, sagging under its own weight).
+        starts
+            Maximum number of starts of the search; 10 if not given.
+        propose
+            Number of poses to propose that reduce the deviations most, one after the other; 0 if not given.
+        grid
+            Axis of the candidates of a proposal: x, y, z [m], roll, pitch, yaw [degrees], with N values from A to B, or
+            with listed values (repeatable); an axis that is not given stays at the middle pose of the rows.
+        poses
+            Candidates of a proposal (n, 3) or (n, 6): x, y, z [m], roll, pitch, yaw [degrees].
+        propose_for
+            Numbers whose deviations the proposal reduces, as in `unknowns`; if not given: all unknowns.
+        wanted_std_m
+            Largest deviation that is wanted [m]: the least number of proposed poses that reaches it.
+
+        Returns
+        -------
+        The keys of the program's JSON: `fit` and `determined` as sentences, `is_determined`, `values` with deviations and
+        intervals, `distances`, `rows`, `weak_combinations`, `walk`, `minima`, `proposals`, and `robot_file`.
+
+        Raises
+        ------
+        InputError
+            A column, a value or a name is wrong, or there are fewer readings than unknowns.
+        StaticsError
+            The readings fit at no start.
+
+        References
+        ----------
+        docs/theory.md, equations (96a) to (96k).
+        """
     def clearance(self, /, pose: Pose | ArrayLike | None = None, static_model: StaticModel = "catenary", *, move_to: Pose | ArrayLike | None = None, lengths_m: ArrayLike | None = None, hold_lengths_of_pose: bool = False, mass_kg: SupportsFloat | SupportsIndex | None = None, force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, wind_m_s: ArrayLike | None = None, cable_load_n_per_m: ArrayLike | None = None, tension_rule: TensionRule | None = None, target_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None) -> Results:
         """
         Computes the distances between the sagging cables, the platform and obstacles: what is nearest, where, and what is
