@@ -73,7 +73,7 @@ MORE = [
     f"--intensity 0.1,0.1,0.1 --length-scale-m 50,20,5 --below-hz 1 --output z {TENSIONS} --hold-lengths-of-pose",
     f"funicular gust {ROBOT} --set platform.drag_area_m2=0.1 --wind-m-s 8,0,0 --spectrum gusts.csv --below-hz 1 --output z",
     f"funicular modes {ROBOT} --below-hz 2 --decay-percent 10",
-    f"funicular calibrate {MACHINE} --hold-anchors bl,br --starts 3 --position-std-m 0.01 --tension-std-n 2",
+    f"funicular calibrate {MACHINE} --unknowns anchors --hold-anchors bl,br --starts 3 --position-std-m 0.01 --tension-std-n 2",
     f"funicular calibrate {MACHINE} --length-std-m 0.0005 --propose 1 --poses waypoints.csv --propose-for anchors --wanted-std-m 0.05",
     f"funicular compare {ROBOT} --below-hz 2",
     f"funicular compare robots/cogiro.toml --below-hz 6 {TENSIONS} --platform --platform-share 0.6 --tolerance 0.05",
@@ -326,29 +326,12 @@ def test_a_call_and_a_request_have_the_results_of_the_program(line: str, executa
 
     command, files, keywords, changes = commands.call(line)
     robot = commands.robot_of(files, changes)
-    if command == "pose-error":
-        assert plain(robot.pose_error(**keywords)) == theirs
-        return
     if command == "uncertainty":
         assert robot.uncertainty(**keywords).details == theirs
         return
-    if command == "payload":
-        assert plain(robot.payload(**keywords)) == theirs
-        return
-    if command == "loads":
-        assert plain(robot.loads(**keywords)) == theirs
-        return
-    if command == "speeds":
-        assert plain(robot.speeds(**keywords)) == theirs
-        return
-    if command == "trajectory":
-        assert plain(robot.trajectory(**keywords)) == theirs
-        return
-    if command == "clearance":
-        assert plain(robot.clearance(**keywords)) == theirs
-        return
-    if command == "workspace":
-        assert plain(robot.workspace(**keywords)) == theirs
+    if command in ("pose-error", "payload", "loads", "speeds", "trajectory", "clearance", "workspace", "calibrate"):
+        method = getattr(robot, command.replace("-", "_"))
+        assert plain(method(**keywords)) == theirs
         return
     if command == "identify":
         assert plain(robot.identify(**keywords).to_dict()) == theirs
