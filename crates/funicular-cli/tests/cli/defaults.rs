@@ -51,6 +51,8 @@ fn shortest() -> Vec<Vec<String>> {
         };
         lines.push(line(&[&[command, cogiro.as_str()][..], options, more].concat()));
     }
+    let [machine, readings] = ["machine.toml", "belts.csv"].map(|file| project("docs/calibration/") + file);
+    lines.push(line(&["calibrate", &machine, "--readings", &readings]));
     lines.push(line(&["new"]));
     lines.push(line(&["import", &imported]));
     lines
