@@ -47,7 +47,7 @@ enum Kind {
     Poses,
     /// Columns by their names, or a CSV file with them.
     Columns,
-    /// The same with None in gaps.
+    /// Columns of numbers with None in gaps.
     GappedColumns,
     /// First value, last value and their number.
     Masses,

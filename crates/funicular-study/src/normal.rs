@@ -1,4 +1,7 @@
-//! Quantiles of the normal distribution.
+//! Quantiles of the normal distribution, and what counts as noise.
+
+/// Standard deviations of χ² to either side of its expectation that noise alone explains.
+pub(crate) const NOISE_DEVIATIONS: f64 = 3.0;
 
 /// Numerator near the middle, |p − ½| ≤ 0.425.
 const CENTRE_NUMERATOR: [f64; 8] = [

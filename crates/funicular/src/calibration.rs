@@ -241,12 +241,9 @@ impl Calibration {
         Coordinates::of(&self.robot)
     }
 
-    /// World axes along which the platform moves: 0, 1, 2 without the normal of a plane.
+    /// World axes along which the platform moves, as by [`moving_axes`].
     pub fn axes(&self) -> Vec<usize> {
-        match &self.robot.platform.motion {
-            PlatformMotion::Planar(plane) => (0..3).filter(|&axis| plane.normal_w()[axis].abs() < 0.5).collect(),
-            _ => vec![0, 1, 2],
-        }
+        moving_axes(&self.robot)
     }
 
     /// Values of the unknowns in the robot file: metres, and for a scale or a factor its value or logarithm times a length.
@@ -317,6 +314,14 @@ impl Calibration {
         let mean = self.robot.cables.iter().map(|cable| cable.anchor.point_w).sum::<Vec3>() / count;
         let squares: f64 = self.robot.cables.iter().map(|cable| (cable.anchor.point_w - mean).norm_squared()).sum();
         (squares / count).sqrt()
+    }
+}
+
+/// World axes along which a platform moves that is calibrated: 0, 1, 2 without the normal of a plane.
+pub fn moving_axes(robot: &Robot) -> Vec<usize> {
+    match &robot.platform.motion {
+        PlatformMotion::Planar(plane) => (0..3).filter(|&axis| plane.normal_w()[axis].abs() < 0.5).collect(),
+        _ => vec![0, 1, 2],
     }
 }
 

@@ -63,7 +63,7 @@ fn the_proposal_says_what_the_next_positions_leave() {
     let proposed = found(&[&grid[..], &["--propose", "2"]].concat());
     let first = &proposed["proposals"][0];
     assert_eq!(first["position_m"], serde_json::json!([3.725, 3.5, 0.0]));
-    // Of the separate program.
+    // Values of another program.
     assert!((number(&first["total_m"]) - 10.789_284_73e-3).abs() < 1e-8);
     assert_eq!(first["readings_m"].as_array().unwrap().len(), 4);
 

@@ -24,10 +24,10 @@ use crate::table::Column;
 use crate::text::significant;
 use anyhow::{Result, anyhow, bail};
 use funicular::calibration::{
-    Calibration, CalibrationError, CalibrationUnknown, FrameChoice, ReadingDeviations, search,
+    Calibration, CalibrationError, CalibrationUnknown, FrameChoice, ReadingDeviations, moving_axes, search,
 };
+use funicular::robot::Robot;
 use funicular::robot::parameters::Parameters;
-use funicular::robot::{PlatformMotion, Robot};
 use report::CalibrationReport;
 use serde::Serialize;
 
@@ -200,10 +200,7 @@ fn unknowns(request: &CalibrateRequest, robot: &Robot) -> Result<Vec<Calibration
         bail!("⟪unknowns⟫ is empty: name at least one of {}", UNKNOWNS.join(", "));
     }
     let held = cables_of("hold_anchors", &request.hold_anchors, robot)?;
-    let axes: Vec<usize> = match &robot.platform.motion {
-        PlatformMotion::Planar(plane) => (0..3).filter(|&axis| plane.normal_w()[axis].abs() < 0.5).collect(),
-        _ => vec![0, 1, 2],
-    };
+    let axes = moving_axes(robot);
     let wants = |name: &str| request.unknowns.iter().any(|unknown| unknown == name);
     let count = robot.cables.len();
     let (axes, held) = (&axes, &held);

@@ -40,6 +40,7 @@ pub use drive_signals::DriveSignal;
 pub(crate) use drive_signals::EndDirections;
 pub(crate) use internal_motion::InternalMotion;
 pub use internal_motion::{Displacements, Stations};
+use lossy_poles::Derived;
 pub(crate) use lossy_poles::{LossyBesidePoles, LossyFamily, LossyPoles};
 pub(crate) use mesh::{POINTS_BEYOND_DEGREE, ellipse, has_tension, smooth_pieces};
 pub use moving_end::{EndAlong, EndSideways, MovingEnd};
@@ -56,7 +57,6 @@ use families::{Families, StationPositions};
 use mesh::Mesh;
 use std::f64::consts::TAU;
 use std::ops::Range;
-use std::sync::OnceLock;
 use thiserror::Error;
 
 /// Dynamic stiffness of both ends of a cable as poles and residues, in plane and out of plane.
@@ -154,17 +154,6 @@ pub struct CatenaryDynamicEnd {
     pub(crate) is_at_rest: bool,
     /// Poles with the loss of the stretch, once something has asked for them; `None` inside if it has none of its own.
     lossy: Derived<Option<LossyFamily>>,
-}
-
-/// Value that follows from the others of a type and is computed when it is first asked for: it does not count in
-/// comparisons.
-#[derive(Debug, Clone, Default)]
-struct Derived<T>(OnceLock<T>);
-
-impl<T> PartialEq for Derived<T> {
-    fn eq(&self, _: &Self) -> bool {
-        true
-    }
 }
 
 /// Choice of what is kept of the clamped modes of a cable once its poles and residues are known.

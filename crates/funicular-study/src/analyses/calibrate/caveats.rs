@@ -1,8 +1,9 @@
 //! Warnings about a calibration: place, number, and what to do.
 
-use super::report::{CalibrationReport, NOISE_DEVIATIONS};
+use super::report::CalibrationReport;
 use super::rows::{ReadingRow, Walk};
 use super::{Calibrated, in_mm};
+use crate::normal::NOISE_DEVIATIONS;
 use crate::text::significant;
 use funicular::calibration::{cable_exchange, encoder_of_other_sign, row_exchange};
 use funicular::math::DMat;

@@ -4,6 +4,7 @@ use super::candidates::Candidates;
 use super::rows::{CableResidual, CalibratedValue, DistanceRow, MinimumRow, ProposalRow, ReadingRow, Walk, WeakRow};
 use super::statistics::{chi2_above, student_95};
 use super::{Calibrated, in_mm, words};
+use crate::normal::NOISE_DEVIATIONS;
 use crate::request::{CalibrateRequest, RobotText};
 use crate::set_values;
 use crate::text::{counted, significant};
@@ -21,11 +22,8 @@ const WEAK: usize = 3;
 /// Probability that the limit of a row allows for any of the rows.
 const OUTLIER: f64 = 0.05;
 
-/// Standard deviations of χ² to either side of its expectation that noise explains.
-pub(super) const NOISE_DEVIATIONS: f64 = 3.0;
-
-/// Least factor of the deviations with which the walk along the weakest combination is more than rounding.
-const LEAST_FACTOR: f64 = 1e-6;
+/// Minimum factor of the deviations with which the walk along the weakest combination is more than rounding.
+const MIN_FACTOR: f64 = 1e-6;
 
 /// χ² per degree of freedom above which values mean nothing: residuals are three times as large as their deviations.
 const MISFIT: f64 = 10.0;
@@ -147,9 +145,14 @@ impl<'a> CalibrationReport<'a> {
         self.request.length_std_m.is_some() && degrees > 0 && self.fit().chi2 > MISFIT * degrees as f64
     }
 
+    /// Variance of the residuals over that of the data.
+    fn variance(&self) -> f64 {
+        self.factor.unwrap_or(1.0).max(MIN_FACTOR).powi(2)
+    }
+
     /// Rise of χ² of another minimum, in the variance of the residuals.
     fn rise(&self, other: &CalibrationFit) -> f64 {
-        (other.chi2 - self.fit().chi2) / self.factor.unwrap_or(1.0).max(LEAST_FACTOR).powi(2)
+        (other.chi2 - self.fit().chi2) / self.variance()
     }
 
     /// True if another minimum fits so well that the readings do not choose between them.
@@ -158,7 +161,7 @@ impl<'a> CalibrationReport<'a> {
     }
 
     fn walk(&self) -> Option<WeakWalk> {
-        let factor = self.factor.filter(|factor| *factor > LEAST_FACTOR)?;
+        let factor = self.factor.filter(|factor| *factor > MIN_FACTOR)?;
         if !self.precision.lost.is_empty() || self.is_misfit() {
             return None;
         }
@@ -210,7 +213,7 @@ impl<'a> CalibrationReport<'a> {
     fn rows(&self) -> Vec<ReadingRow> {
         let left_out = self.precision.rows_left_out(&self.frame);
         let residuals = self.of.residuals_of(self.fit());
-        let scale = self.factor.unwrap_or(1.0).max(LEAST_FACTOR).powi(2);
+        let scale = self.variance();
         let count = self.of.rows.len();
         let row = |j: usize| {
             let (measured, pose, left_out) = (&self.of.rows[j], &self.fit().poses[j], &left_out[j]);

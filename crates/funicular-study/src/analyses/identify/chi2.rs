@@ -1,10 +1,8 @@
 //! Degrees of freedom of a fit, and the χ² that noise alone gives.
 
 use super::model::IdentifiedModel;
+use crate::normal::NOISE_DEVIATIONS;
 use funicular::math::least_squares::Minimum;
-
-/// Standard deviations of χ² to either side of its expectation that noise alone explains.
-const NOISE_DEVIATIONS: f64 = 3.0;
 
 /// Number of residuals less the number of unknowns. Values that are left out do not count.
 pub(super) fn degrees_of_freedom(model: &IdentifiedModel<'_>, found: &Minimum) -> usize {

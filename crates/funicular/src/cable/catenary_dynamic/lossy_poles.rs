@@ -10,6 +10,7 @@ use crate::cable::LocalStiffness;
 use crate::math::{CDMat, Complex, DMat};
 use std::array::from_fn;
 use std::ops::Range;
+use std::sync::OnceLock;
 
 /// Symmetric stiffness of the start of a cable by complex poles and residues: D components with E independent entries.
 #[derive(Debug, Clone, PartialEq)]
@@ -33,6 +34,17 @@ pub(crate) enum LossyFamily {
     InPlane(LossyPoles<2, 3>),
     /// Motions in all directions, of a cable whose end couples them.
     Coupled(LossyPoles<3, 6>),
+}
+
+/// Value that follows from the others of a type and is computed when it is first asked for: it does not count in
+/// comparisons.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Derived<T>(OnceLock<T>);
+
+impl<T> PartialEq for Derived<T> {
+    fn eq(&self, _: &Self) -> bool {
+        true
+    }
 }
 
 /// Maximum relative step of Newton's method at which a pole has been found. Its steps end at a few times 1e-16, and
