@@ -3,9 +3,9 @@
 use crate::args::{FigureArgs, Format, OutputArgs};
 use anyhow::{Context, Result, anyhow, bail};
 use funicular::suggest::visible;
-use funicular_files::Guard;
 use funicular_files::atomic_file::{TemporaryFile, is_regular_or_new};
 use funicular_files::endings::{self, Kind};
+use funicular_files::{Guard, parquet_of_result};
 use funicular_pages::figures::{Figure, Size};
 use funicular_study::analyses::Found;
 use funicular_study::columns::{ResultTable, Tabled};
@@ -182,6 +182,7 @@ pub(crate) struct Sink {
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Form {
     As(Format),
+    Parquet,
     Uff,
 }
 
@@ -195,12 +196,17 @@ impl Sink {
             let content = Content { name: "the result", in_words, fitting: &[Kind::Uff] };
             return Ok(Self { form: Form::Uff, target: Target::open(path, content, guard)? });
         }
+        if let Some(path) = path.filter(|path| args.format.is_none() && Kind::of(path) == Some(Kind::Parquet)) {
+            funicular_files::Format::of(path)?;
+            let content = Content { name: "the result", in_words: "a Parquet file", fitting: &[Kind::Parquet] };
+            return Ok(Self { form: Form::Parquet, target: Target::open(Some(path), content, guard)? });
+        }
         let format = args.format.unwrap_or(match path.and_then(Kind::of) {
             Some(Kind::Json) => Format::Json,
             Some(Kind::Csv) => Format::Csv,
             _ => Format::Text,
         });
-        let all = [&[Kind::Json, Kind::Csv], others, &[Kind::Markdown, Kind::Text]].concat();
+        let all = [&[Kind::Json, Kind::Csv, Kind::Parquet], others, &[Kind::Markdown, Kind::Text]].concat();
         let (in_words, fitting): (_, &[Kind]) = match (args.format, format) {
             (None, Format::Text) => ("text", &all),
             (_, Format::Text) => ("text", &[Kind::Markdown, Kind::Text]),
@@ -224,6 +230,10 @@ impl Sink {
             Form::Uff => {
                 as_json(&mut Vec::new(), results)?;
                 bytes = results.uff()?;
+            }
+            Form::Parquet => {
+                as_json(&mut Vec::new(), results)?;
+                bytes = parquet_of_result(results.command(), results.table())?;
             }
             Form::As(Format::Json) => as_json(&mut bytes, results)?,
             Form::As(format) => {

@@ -46,7 +46,8 @@ pub use uncertainty::{UncertaintyOutcome, UncertaintyRun};
 pub use workspace::WorkspaceRun;
 
 use endings::Kind;
-use funicular_study::table::{Chunk, Record, RecordDifference};
+use funicular_study::columns::ResultTable;
+use funicular_study::table::{Chunk, Record, RecordDifference, Values};
 use std::io;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
@@ -276,6 +277,35 @@ fn with_ending(path: &Path, ending: &str) -> PathBuf {
     let mut name = path.as_os_str().to_owned();
     name.push(ending);
     name.into()
+}
+
+/// Rows of a result as the bytes of a Parquet file, whose metadata name the command.
+///
+/// # Errors
+/// [`io::ErrorKind::Unsupported`] without the feature `parquet`.
+pub fn parquet_of_result(command: &str, ResultTable { columns, rows }: ResultTable<'_>) -> io::Result<Vec<u8>> {
+    let mut values: Vec<Values> = columns.iter().map(|column| Values::new(column.kind, 0)).collect();
+    for row in rows {
+        for (values, cell) in values.iter_mut().zip(row) {
+            values.push_cell(cell);
+        }
+    }
+    let chunk = Chunk { index: 0, columns: values };
+    let rows = chunk.rows();
+    let plan = [("command".to_owned(), command.into())].into_iter().collect();
+    let record = Record { robot_file: String::new(), plan, columns, rows, chunk_rows: rows, part: None };
+    let mut bytes = Vec::new();
+    parquet::write(&mut bytes, &record, &OneChunk(chunk), true)?;
+    Ok(bytes)
+}
+
+/// Rows of a single chunk.
+struct OneChunk(Chunk);
+
+impl Rows for OneChunk {
+    fn each(&self, take: &mut dyn FnMut(Chunk) -> io::Result<()>) -> io::Result<()> {
+        take(self.0.clone())
+    }
 }
 
 pub use csv::CsvRows;

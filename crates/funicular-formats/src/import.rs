@@ -13,15 +13,16 @@ pub(crate) mod xml;
 pub use funicular_study::request::{MAX_BYTES, SourceFile};
 
 use anyhow::{Result, bail};
+use caspr::trajectories::{self, TrajectoryTable};
 use draft::Draft;
 use funicular_study::request;
 use funicular_study::wording::{Words, told, worded};
 use xml::Xml;
 
-/// Robot file made from files of another program.
+/// Robot file, or table of a trajectory, made from files of another program.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Imported {
-    /// Text of the robot file.
+    /// Text of the robot file or, if a trajectory is requested, of its table.
     pub text: String,
     /// Assumptions made where the sources are not clear.
     pub assumed: Vec<String>,
@@ -29,15 +30,20 @@ pub struct Imported {
     pub lost: Vec<String>,
 }
 
-/// Makes a robot file from the files of a request. `words` names the options in messages as the front end writes them.
+/// Makes a robot file, or the table of a trajectory, from the files of a request. `words` names the options in messages as the front end writes them.
 ///
 /// # Errors
 /// The file, the line, the value and the next step; or the reason why a robot file cannot hold the robot.
 pub fn run(request: &request::ImportRequest, words: Words) -> Result<Imported> {
+    let in_words = |texts: &[String]| texts.iter().map(|text| told(text, words)).collect();
+    if let Some(name) = &request.trajectory {
+        let TrajectoryTable { csv: text, assumed } = trajectory(&request.files, name)?;
+        return Ok(Imported { text, assumed: in_words(&assumed), lost: Vec::new() });
+    }
+
     let mut draft = read(&request.files, &ReadOptions { cable_set: request.cable_set.as_deref() })?;
     draft.complete(&request.ropes, &request.platform)?;
     let text = worded(&draft.to_toml()?, words);
-    let in_words = |texts: &[String]| texts.iter().map(|text| told(text, words)).collect();
     Ok(Imported { text, assumed: in_words(&draft.assumed), lost: in_words(&draft.lost) })
 }
 
@@ -69,6 +75,7 @@ struct Sources<'a> {
     cables: Vec<Xml<'a>>,
     wirex: Vec<Xml<'a>>,
     moordyn: Vec<&'a SourceFile>,
+    trajectories: Vec<Xml<'a>>,
     /// Files of CASPR that do not describe the robot itself.
     aside: Vec<String>,
 }
@@ -92,7 +99,8 @@ impl<'a> Sources<'a> {
             "bodies_system" | "links" => self.bodies.push(xml),
             "cables" => self.cables.push(xml),
             "models" => self.wirex.push(xml),
-            "trajectories" | "operational_spaces" => {
+            "trajectories" => self.trajectories.push(xml),
+            "operational_spaces" => {
                 self.aside.push(format!("{} (`{}`)", file.name(), xml.root_name()));
             }
             other => bail!(
@@ -106,8 +114,8 @@ impl<'a> Sources<'a> {
     }
 
     fn read(self, options: &ReadOptions) -> Result<Draft> {
-        let Self { bodies, cables, wirex, moordyn, aside } = self;
-        let is_caspr = !bodies.is_empty() || !cables.is_empty() || !aside.is_empty();
+        let Self { bodies, cables, wirex, moordyn, trajectories, aside } = self;
+        let is_caspr = [&bodies, &cables, &trajectories].iter().any(|of| !of.is_empty()) || !aside.is_empty();
         if [is_caspr, !wirex.is_empty(), !moordyn.is_empty()].into_iter().filter(|given| *given).count() > 1 {
             bail!("the files belong to more than one program; give the files of one robot");
         }
@@ -120,6 +128,7 @@ impl<'a> Sources<'a> {
             let cables = only_file(&cables, "CASPR cables file (<cables>)")?;
             let mut draft = caspr::read(bodies, cables, options.cable_set)?;
             draft.lost.extend(aside.into_iter().map(|file| format!("{file}: it does not describe the robot")));
+            draft.lost.extend(trajectories.iter().map(not_carried));
             return Ok(draft);
         }
 
@@ -132,6 +141,28 @@ impl<'a> Sources<'a> {
             _ => bail!("{} MoorDyn input files are given; give the file of one robot", moordyn.len()),
         }
     }
+}
+
+/// Remark on trajectories that a robot file does not hold.
+fn not_carried(xml: &Xml) -> String {
+    let names: Vec<String> = trajectories::names(xml).iter().map(|name| format!("`{name}`")).collect();
+    format!("{}: trajectories {}; ⟪trajectory⟫ NAME writes one as a table", xml.file().name(), names.join(", "))
+}
+
+/// Table of a trajectory of the files, with what was assumed.
+///
+/// # Errors
+/// The file, the line, the value and the next step.
+fn trajectory(files: &[SourceFile], name: &str) -> Result<TrajectoryTable> {
+    let mut sources = Sources::default();
+    for file in files {
+        sources.add_file(file)?;
+    }
+    if sources.trajectories.is_empty() {
+        bail!("⟪trajectory⟫ needs a CASPR trajectories file (<trajectories>) among the files");
+    }
+    let bodies = only_file(&sources.bodies, "CASPR bodies file (<bodies_system>)")?;
+    trajectories::table(only_file(&sources.trajectories, "CASPR trajectories file (<trajectories>)")?, bodies, name)
 }
 
 /// Returns the only file of a kind.

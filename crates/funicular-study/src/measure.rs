@@ -1,4 +1,4 @@
-//! Catalogue of the numbers that `gradient`, `uncertainty`, `map` and `sweep` name, value and differentiate.
+//! Catalogue of the numbers that `gradient`, `uncertainty`, `map`, `sweep` and `design` name, value and differentiate.
 //!
 //! A [`Measure`] is said once here: its names, its unit, its value and its gradient. Values and gradients of vibration
 //! come from the modes and responses that each command has anyway.
@@ -17,6 +17,10 @@ pub(crate) enum Measure {
     Length(usize),
     /// Tension of a cable at one of its places.
     Tension(usize, TensionPlace),
+    /// Unstrained length of all ropes.
+    RopeLength,
+    /// Mass of all ropes.
+    RopeMass,
     /// Minimum stiffness.
     MinStiffness,
     /// Natural frequency, by its number in the ascending list, from 0.
@@ -35,6 +39,8 @@ pub(crate) enum MeasureGroup {
     Pose,
     Lengths,
     Tensions,
+    RopeLength,
+    RopeMass,
     MinStiffness,
     Frequencies,
     Damping,
@@ -43,10 +49,12 @@ pub(crate) enum MeasureGroup {
 
 impl MeasureGroup {
     /// All groups, in the order of results.
-    pub(crate) const ALL: [Self; 7] = [
+    pub(crate) const ALL: [Self; 9] = [
         Self::Pose,
         Self::Lengths,
         Self::Tensions,
+        Self::RopeLength,
+        Self::RopeMass,
         Self::MinStiffness,
         Self::Frequencies,
         Self::Damping,
@@ -59,6 +67,8 @@ impl MeasureGroup {
             Self::Pose => "pose",
             Self::Lengths => "lengths",
             Self::Tensions => "tensions",
+            Self::RopeLength => "rope-length",
+            Self::RopeMass => "rope-mass",
             Self::MinStiffness => "stiffness-min",
             Self::Frequencies => "frequencies",
             Self::Damping => "damping",
@@ -77,6 +87,8 @@ impl MeasureGroup {
             Self::Pose => components.iter().copied().map(Measure::Pose).collect(),
             Self::Lengths => Measure::lengths(robot),
             Self::Tensions => places.iter().flat_map(|place| Measure::tensions(robot, *place)).collect(),
+            Self::RopeLength => vec![Measure::RopeLength],
+            Self::RopeMass => vec![Measure::RopeMass],
             Self::MinStiffness => vec![Measure::MinStiffness],
             Self::Frequencies | Self::Damping | Self::Response => Vec::new(),
         }
@@ -135,6 +147,8 @@ impl Measure {
             Self::Pose(k) => format!("rotation about {}", AXES[k - 3]),
             Self::Length(i) => format!("length of cable \"{}\"", cable(i)),
             Self::Tension(i, place) => format!("tension of cable \"{}\" at the {}", cable(i), place.name()),
+            Self::RopeLength => "length of all ropes".to_owned(),
+            Self::RopeMass => "mass of all ropes".to_owned(),
             Self::MinStiffness => "minimum stiffness".to_owned(),
             Self::Frequency(k) => format!("frequency {}", k + 1),
             Self::SharedFrequency { first, last, entry: [i, j] } => {
@@ -156,6 +170,8 @@ impl Measure {
             Self::Pose(k) => format!("pose_rotation_{}_rad", AXES[k - 3]),
             Self::Length(i) => format!("unstrained_length_{}_m", cable(i)),
             Self::Tension(i, place) => format!("tension_{}_{}_n", place.name(), cable(i)),
+            Self::RopeLength => "rope_length_m".to_owned(),
+            Self::RopeMass => "rope_mass_kg".to_owned(),
             Self::MinStiffness => "stiffness_min_n_per_m".to_owned(),
             Self::Frequency(k) => format!("frequency_{}_hz", k + 1),
             Self::SharedFrequency { entry: [i, j], .. } => format!("frequency_{}_{}_hz", i + 1, j + 1),
@@ -174,6 +190,8 @@ impl Measure {
             Self::Pose(k) => json!({ "kind": "rotation", "axis": AXES[k - 3] }),
             Self::Length(i) => json!({ "kind": "length", "cable": cable(i) }),
             Self::Tension(i, place) => json!({ "kind": "tension", "cable": cable(i), "place": place.name() }),
+            Self::RopeLength => json!({ "kind": "rope-length" }),
+            Self::RopeMass => json!({ "kind": "rope-mass" }),
             Self::MinStiffness => json!({ "kind": "stiffness-min" }),
             Self::Frequency(k) => json!({ "kind": "frequency", "mode": k + 1 }),
             Self::SharedFrequency { first, last, entry: [i, j] } => {
@@ -188,7 +206,8 @@ impl Measure {
     pub(crate) fn unit(self) -> &'static str {
         match self {
             Self::Pose(k) if k >= 3 => "rad",
-            Self::Pose(_) | Self::Length(_) => "m",
+            Self::Pose(_) | Self::Length(_) | Self::RopeLength => "m",
+            Self::RopeMass => "kg",
             Self::Tension(..) => "N",
             Self::MinStiffness => "N/m",
             Self::Frequency(_) | Self::SharedFrequency { .. } => "Hz",
@@ -227,8 +246,9 @@ impl Measure {
 
     /// Value at an equilibrium; `None` for results of vibration, and for the stiffness of rigid cables. Rotations count
     /// from the undisturbed pose.
-    pub(crate) fn static_value(self, rest: &Equilibrium, undisturbed: &Pose) -> Option<f64> {
+    pub(crate) fn static_value(self, robot: &Robot, rest: &Equilibrium, undisturbed: &Pose) -> Option<f64> {
         let cable = |i: usize| rest.cables.get(i);
+        let lengths = || rest.cables.iter().map(|cable| cable.unstrained_length);
         match self {
             Self::Pose(k) if k < 3 => Some(rest.pose.position_w[k]),
             Self::Pose(k) => Some((rest.pose.rot_wp * undisturbed.rot_wp.inverse()).scaled_axis()[k - 3]),
@@ -236,6 +256,10 @@ impl Measure {
             Self::Tension(i, TensionPlace::Platform) => cable(i).map(|cable| cable.tension_platform),
             Self::Tension(i, TensionPlace::Anchor) => cable(i).map(|cable| cable.tension_anchor),
             Self::Tension(i, TensionPlace::Drum) => cable(i).map(funicular::statics::CableState::tension_drum),
+            Self::RopeLength => Some(lengths().sum()),
+            Self::RopeMass => {
+                Some(lengths().zip(&robot.cables).map(|(l, cable)| l * cable.material.mass_per_length).sum())
+            }
             Self::MinStiffness => rest.stability.min_stiffness(),
             Self::Frequency(_) | Self::SharedFrequency { .. } | Self::Damping(_) | Self::Response(..) => None,
         }
@@ -263,6 +287,8 @@ impl Measure {
             Self::Tension(i, TensionPlace::Platform) => Some(Ok(at_platform[i].clone())),
             Self::Tension(i, TensionPlace::Anchor) => Some(Ok(at_anchor[i].clone())),
             Self::Tension(i, TensionPlace::Drum) => Some(Ok(at_drum[i].clone())),
+            Self::RopeLength => Some(Ok(gradients.rope_length())),
+            Self::RopeMass => Some(Ok(gradients.rope_mass())),
             Self::MinStiffness => Some(gradients.min_stiffness()),
             Self::Frequency(_) | Self::SharedFrequency { .. } | Self::Damping(_) | Self::Response(..) => None,
         };

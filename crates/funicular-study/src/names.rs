@@ -1,5 +1,6 @@
 //! Names of models, rules and terms in requests, on the command line and in Python.
 
+use crate::measure::Measure;
 use funicular::cable::CableModel;
 use funicular::dynamics::Assembly;
 use funicular::gradient::Hold;
@@ -361,14 +362,24 @@ pub enum DesignGoal {
 }
 
 impl DesignGoal {
-    /// Result in words, with its unit.
-    pub fn in_words(self) -> (&'static str, &'static str) {
+    /// Number that improves; with [`Self::Platform`] that of the platform on the static stiffness of its cables.
+    pub(crate) fn measure(self) -> Measure {
         match self {
-            Self::First => ("first natural frequency", "Hz"),
-            Self::Platform => ("first natural frequency of the platform", "Hz"),
-            Self::Stiffness => ("minimum stiffness", "N/m"),
-            Self::RopeMass => ("mass of the ropes", "kg"),
-            Self::RopeLength => ("length of the ropes", "m"),
+            Self::First | Self::Platform => Measure::Frequency(0),
+            Self::Stiffness => Measure::MinStiffness,
+            Self::RopeMass => Measure::RopeMass,
+            Self::RopeLength => Measure::RopeLength,
+        }
+    }
+
+    /// Number in words.
+    pub(crate) fn in_words(self) -> &'static str {
+        match self {
+            Self::First => "first natural frequency",
+            Self::Platform => "first natural frequency of the platform",
+            Self::Stiffness => "minimum stiffness",
+            Self::RopeMass => "mass of the ropes",
+            Self::RopeLength => "length of the ropes",
         }
     }
 
@@ -387,9 +398,9 @@ impl Named for DesignGoal {
 
     fn name(self) -> &'static str {
         match self {
-            Self::First => "first",
+            Self::First => "first-frequency",
             Self::Platform => "platform",
-            Self::Stiffness => "stiffness",
+            Self::Stiffness => "stiffness-min",
             Self::RopeMass => "rope-mass",
             Self::RopeLength => "rope-length",
         }

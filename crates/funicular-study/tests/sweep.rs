@@ -311,7 +311,7 @@ fn rows_of(request: &serde_json::Value) -> (Vec<funicular_study::table::Column>,
 #[test]
 fn sensitivities_are_differences_of_sweeps() {
     use serde_json::json;
-    const RESULTS: [&str; 4] = ["first-frequency", "stiffness-min", "tensions", "lengths"];
+    const RESULTS: [&str; 6] = ["first-frequency", "stiffness-min", "tensions", "lengths", "rope-length", "rope-mass"];
     let quantities = |path: &str| {
         let names = RESULTS.iter().flat_map(|name| [(*name).to_owned(), format!("sensitivity:{name}:{path}")]);
         names.collect::<Vec<_>>()
@@ -363,7 +363,7 @@ fn sensitivities_are_differences_of_sweeps() {
             assert!((derivative - difference).abs() < tolerance, "{}: {derivative} {difference}", column.name);
             compared += 1;
         }
-        assert_eq!(compared, if more["robot"].is_null() { 14 } else { 18 }, "{path}");
+        assert_eq!(compared, if more["robot"].is_null() { 16 } else { 20 }, "{path}");
     }
 
     // Units in the columns; a status for poses without derivatives; paths that no number has.

@@ -338,6 +338,25 @@ impl<'a> Gradients<'a> {
         (0..self.robot().cables.len()).map(|i| self.of(|scalar| scalar.cables[i].length = 1.0)).collect()
     }
 
+    /// Gradient of the sum of the unstrained lengths [m].
+    pub fn rope_length(&self) -> RobotChange {
+        self.of(|scalar| scalar.cables.iter_mut().for_each(|cable| cable.length = 1.0))
+    }
+
+    /// Gradient of the mass of all ropes, Σ μ L [kg].
+    pub fn rope_mass(&self) -> RobotChange {
+        let cables = &self.robot().cables;
+        let mut mass = self.of(|scalar| {
+            for (of, cable) in scalar.cables.iter_mut().zip(cables) {
+                of.length = cable.material.mass_per_length;
+            }
+        });
+        for (of, state) in mass.cables.iter_mut().zip(&self.equilibrium().cables) {
+            of.mass_per_length += state.unstrained_length;
+        }
+        mass
+    }
+
     /// Gradients of the tensions at the platform ends [N], in file order.
     pub fn tensions_platform(&self) -> Vec<RobotChange> {
         let states = self.equilibrium().cables.iter().enumerate();

@@ -52,8 +52,8 @@ pub(crate) enum Format {
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Output")]
 pub(crate) struct OutputArgs {
-    /// Format of the result [default: from the ending of FILE, else text]; FILE.svg and FILE.pdf hold a
-    /// figure, and FILE.uff of `frf` and `modes` is a Universal File
+    /// Format of the result [default: from the ending of FILE, else text]; FILE.parquet holds the rows of
+    /// FILE.csv, FILE.svg and FILE.pdf a figure, and FILE.uff of `frf` and `modes` is a Universal File
     #[arg(long, value_name = "FORMAT", value_enum)]
     pub(crate) format: Option<Format>,
 

@@ -30,9 +30,12 @@ pub(super) fn run(request: &ImportRequest, args: &ImportArgs) -> Result<()> {
     write(request, &mut guard, &args.to.output_file)
 }
 
-/// Writes the robot file of files of other programs.
+/// Writes the robot file, or the table of a trajectory, of files of other programs.
 pub(super) fn write(request: &ImportRequest, guard: &mut Guard, path: &Path) -> Result<()> {
-    let content = Content { name: "the robot file", in_words: "a robot file", fitting: &[Kind::Toml] };
+    let content = match request.trajectory {
+        None => Content { name: "the robot file", in_words: "a robot file", fitting: &[Kind::Toml] },
+        Some(_) => Content { name: "the table", in_words: "a table", fitting: &[Kind::Csv] },
+    };
     let target = Target::open(Some(path), content, guard)?;
     let imported = import::run(request, Words::Program)?;
     target.write(imported.text.as_bytes())?;

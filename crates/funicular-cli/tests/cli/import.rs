@@ -363,7 +363,7 @@ fn losses_and_assumptions_are_reported_on_stderr_and_in_the_file() {
     let output = import(&[&[bodies.as_str(), &cables, "--cable-set", "springs"], &ROPES[..2]].concat());
     let (said, written) = (stderr(&output), stdout(&output).replace("\n#   ", " "));
     assert!(written.contains("[pulleys.wheel]\nradius_m = 0.05"), "{written}");
-    for lost in ["q_min and q_max", "\"ideal\""] {
+    for lost in ["the limits of the platform's motion, q_min", "\"ideal\""] {
         assert!(said.contains(lost) && written.contains(lost), "{lost}: {said}\n{written}");
     }
 
@@ -612,6 +612,62 @@ fn rotating_pulleys_of_caspr_become_pulleys() {
     }
 }
 
+/// Limits of winches and the payload of WireX are those of the robot file.
+#[test]
+fn winches_and_payload_of_wirex_are_carried_over() {
+    let text = Changed::of(&["tripod.wcrfx"], &[]).imported(&["--pose", "0.1,-0.05,1.5"]);
+    let robot = json("check", &text, &[]);
+    let winch = &robot["cables"][3]["winch"];
+    let of = ["max_speed_m_s", "max_acceleration_m_s2", "drum_radius_m"].map(|key| winch[key].as_f64());
+    assert_eq!(of, [Some(1.5), Some(4.0), Some(0.08)], "{winch}");
+    assert!(text.contains("payload_max_kg = 20.0"), "{text}");
+
+    // Zero is a number that WireX does not know.
+    let unknown = [(r#"max_velocity="1.5" max_acceleration="4.0""#, r#"max_velocity="0.0""#), ("20.0", "0.0")];
+    let text = Changed::of(&["tripod.wcrfx"], &unknown).imported(&["--pose", "0.1,-0.05,1.5"]);
+    assert!(!text.contains("[winches") && !text.contains("[required]"), "{text}");
+}
+
+/// A trajectory of CASPR becomes a table that `trajectory` reads; it passes its points at their times.
+#[test]
+fn a_trajectory_of_caspr_is_a_table_of_poses() {
+    let [bodies, trajectories] = [example("tripod_bodies.xml"), example("tripod_trajectories.xml")];
+    let table = |name: &str| import(&[&bodies, &trajectories, "--trajectory", name]);
+    let found = table("lift");
+    let csv = stdout(&found);
+    let rows: Vec<Vec<f64>> =
+        csv.lines().skip(1).map(|line| line.split(',').map(|cell| cell.parse().unwrap()).collect()).collect();
+    assert_eq!((csv.lines().next(), rows.len()), (Some("t_s,x_m,y_m,z_m,roll_deg,pitch_deg,yaw_deg"), 61));
+    let near = |row: &[f64], expected: &[f64]| row.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-12);
+    assert!(near(&rows[30], &[1.5, 0.3, 0.0, 1.7, 0.0, 0.0, 0.1_f64.to_degrees()]), "{:?}", rows[30]);
+    assert!(near(&rows[60], &[3.0, 0.5, -0.1, 1.5, 0.0, 0.0, 0.0]), "{:?}", rows[60]);
+
+    let directory = tempfile::tempdir().unwrap();
+    let path = directory.path().join("lift.csv");
+    std::fs::write(&path, csv).unwrap();
+    let robot = imported(&[&[bodies.as_str(), &example("tripod_cables.xml")], &ROPES[..]].concat());
+    let found = json("trajectory", &robot, &["--path", path.to_str().unwrap()]);
+    assert_eq!(found["duration_s"], 3.0);
+
+    // Errors.
+    let wrong = table("lif");
+    assert_eq!(wrong.status.code(), Some(2));
+    assert!(stderr(&wrong).contains("did you mean `lift`"), "{}", stderr(&wrong));
+    for (right, wrong, message) in [
+        (r#"<point time="1.5">"#, r#"<point time="-1.5">"#, "is not after that of the point before it"),
+        ("<q>0.3 0.0 1.7 0.0 0.0 0.1</q>", "<q>0.3 0.0 1.7</q>", "<q> holds 3 numbers; the joint has 6 coordinates"),
+        ("quintic_spline", "parabolic_blend", "cannot be read; known are linear_spline_trajectory"),
+        (r#"time_step="0.05""#, r#"time_step="1e-9""#, "a time step of 0.000000001 s is not possible"),
+    ] {
+        let damaged = std::fs::read_to_string(&trajectories).unwrap().replace(right, wrong);
+        let file = directory.path().join("damaged.xml");
+        std::fs::write(&file, damaged).unwrap();
+        let output = import(&[&bodies, file.to_str().unwrap(), "--trajectory", "lift"]);
+        assert_eq!(output.status.code(), Some(2), "{message}");
+        assert!(stderr(&output).contains(message), "{}", stderr(&output));
+    }
+}
+
 /// WireX's pulleys become pulleys of the robot file. The lengths are those of WireX's own formula, the sum of two arcs
 /// of cosines times the radius and the free length (doInverseKinematicsPulleyEx).
 #[test]
@@ -625,7 +681,7 @@ fn pulleys_of_wirex_become_pulleys_with_its_lengths() {
     let text = changed.imported(&["--pose", "0.1,-0.05,1.5"]);
     assert!(text.contains("radius_m = 0.08\nentry_direction = [0.0, 0.6, 0.8]"), "{text}");
     assert_eq!(text.matches("\n[pulleys.").count(), 2, "{text}");
-    assert!(text.contains("<winch>") && !text.contains("the pulleys at the base"), "{text}");
+    assert!(text.contains("the drums are at the pulleys"), "{text}");
 
     let robot = json("check", &text, &[]);
     let rest = json("statics", &text, &["--static-model", "ideal"]);

@@ -8,6 +8,7 @@
 
 mod bodies;
 mod cables;
+pub(super) mod trajectories;
 
 use super::draft::{Draft, DraftPlatform, DraftState};
 use super::xml::Xml;
@@ -53,6 +54,7 @@ pub(crate) fn read(bodies: &Xml, cables: &Xml, wanted_set: Option<&str>) -> Resu
         },
         cables: set.cables,
         state: body.pose.map_or(DraftState::Unknown, DraftState::Pose),
+        payload: None,
         notes,
         assumed: body.assumed,
         lost,

@@ -20,6 +20,8 @@ pub(crate) struct Draft {
     pub(crate) platform: DraftPlatform,
     pub(crate) cables: Vec<DraftCable>,
     pub(crate) state: DraftState,
+    /// Payload that the robot has to carry [kg].
+    pub(crate) payload: Option<f64>,
     /// Changes of the numbers that do not change the robot.
     pub(crate) notes: Vec<String>,
     /// Assumptions that the source does not state.
@@ -81,6 +83,17 @@ pub(crate) struct DraftCable {
     pub(crate) unstrained_length: Option<f64>,
     /// Pulley at the anchor, whose entry point is the anchor.
     pub(crate) pulley: Option<DraftPulley>,
+    pub(crate) winch: Option<DraftWinch>,
+}
+
+/// Winch of a draft: what its source says of it, by the keys of a robot file. The cable has no length between its drum
+/// and its anchor.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct DraftWinch {
+    /// Name in the source; may be empty.
+    pub(crate) name: String,
+    /// Keys with their values, SI units.
+    pub(crate) values: Vec<(&'static str, f64)>,
 }
 
 /// Pulley of a draft.

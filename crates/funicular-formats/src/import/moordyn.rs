@@ -90,6 +90,7 @@ pub(crate) fn read(file: &SourceFile) -> Result<Draft> {
         gravity_w: Vec3::new(0.0, 0.0, -model.gravity),
         platform,
         cables,
+        payload: None,
         state: DraftState::Lengths,
         notes: vec![format!("Platform frame: at {frame}. The state is the source's unstrained lengths")],
         assumed: model.assumed,
@@ -231,6 +232,7 @@ fn cable(
             breaking_load: None,
         },
         limits: [None; 2],
+        winch: None,
         unstrained_length: Some(line.unstrained_length),
         pulley: None,
     })

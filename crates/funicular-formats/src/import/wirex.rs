@@ -5,7 +5,9 @@
 //! A. Pott, Cable-Driven Parallel Robots, Springer 2018. The attributes have the meaning that WireX itself gives
 //! them (WireLib of 2019: CRobotData, CCableParameter, CWinchParameter, CStructureMatrix).
 
-use super::draft::{Draft, DraftCable, DraftMotion, DraftPlatform, DraftPulley, DraftRope, DraftState, listed};
+use super::draft::{
+    Draft, DraftCable, DraftMotion, DraftPlatform, DraftPulley, DraftRope, DraftState, DraftWinch, listed,
+};
 use super::xml::{Xml, children, tag};
 use anyhow::{Result, bail};
 use funicular::math::{Mat3, Vec3};
@@ -62,14 +64,13 @@ pub(crate) fn read(xml: &Xml) -> Result<Draft> {
     let cables = cables(xml, root, robot, &rope, &mut assumed, &mut lost)?;
     let platform = platform(xml, robot, motion, &mut assumed)?;
 
-    if children(robot, "application").next().is_some() {
-        lost.push("<application>, its load and its limits".to_owned());
-    }
-    if let Some(winch) = children(root, "winch").next() {
-        lost.push(format!(
-            "<winch>: motors, drums{}, limits of speed; the file does not say how far the drums are from the pulleys",
-            drum(xml, winch)?
-        ));
+    let payload = payload(xml, robot, &mut lost)?;
+    if cables.iter().any(|cable| cable.winch.is_some()) {
+        assumed.push(
+            "that the drums are at the pulleys, and that winches are rigid: the file does not say how far the drums are; \
+             `drum_side_length_m` and `stiffness_n_per_m` of [winches] give other values"
+                .to_owned(),
+        );
     }
 
     let name = clean(robot.attribute("name").unwrap_or_default());
@@ -81,6 +82,7 @@ pub(crate) fn read(xml: &Xml) -> Result<Draft> {
         platform,
         cables,
         state: DraftState::Unknown,
+        payload,
         notes: vec![
             "The file has no pose: give ⟪pose⟫ to import or to an analysis. Gravity 9.81 m/s² along -z".to_owned(),
         ],
@@ -234,11 +236,52 @@ fn rope(xml: &Xml, root: Node, assumed: &mut Vec<String>, lost: &mut Vec<String>
     Ok(rope)
 }
 
-/// Radius of the drum of a winch as a remark; empty if the file does not give it.
-fn drum(xml: &Xml, winch: Node) -> Result<String> {
-    let Some(drum) = children(winch, "drum").next() else { return Ok(String::new()) };
-    let radius = xml.optional_attribute_number(drum, "r_drum")?.filter(|radius| *radius > 0.0);
-    Ok(radius.map_or_else(String::new, |radius| format!(" (radius {radius} m)")))
+/// Mass of the load of the application [kg].
+fn payload(xml: &Xml, robot: Node, lost: &mut Vec<String>) -> Result<Option<f64>> {
+    let Some(application) = children(robot, "application").next() else { return Ok(None) };
+    if let Some(moment) = xml.optional_attribute_number(application, "load_moment")?.filter(|moment| *moment != 0.0) {
+        lost.push(format!("`load_moment` {moment} of <application>, whose axis the file does not say"));
+    }
+    Ok(xml.optional_attribute_number(application, "load_mass")?.filter(|mass| *mass > 0.0))
+}
+
+/// Values of a winch that a robot file holds: the element and attribute of WireX, and the key. Zero stands for unknown.
+/// Older files write the shorter names.
+const WINCH_VALUES: [(&str, &str, &str); 8] = [
+    ("cable", "max_velocity", "max_speed_m_s"),
+    ("cable", "v", "max_speed_m_s"),
+    ("cable", "max_acceleration", "max_acceleration_m_s2"),
+    ("cable", "a", "max_acceleration_m_s2"),
+    ("drum", "r_drum", "drum_radius_m"),
+    ("motor", "gear_ratio", "gear_ratio"),
+    ("motor", "inertia", "motor_inertia_kg_m2"),
+    ("motor", "max_power", "max_power_w"),
+];
+
+/// Winch of a chain; `None` if the file says none of its limits.
+fn winch(xml: &Xml, root: Node, chain: Node) -> Result<Option<DraftWinch>> {
+    let Some(node) = winch_node(root, chain) else { return Ok(None) };
+    let mut values: Vec<(&'static str, f64)> = Vec::new();
+    for (element, attribute, key) in WINCH_VALUES {
+        let Some(part) = children(node, element).next() else { continue };
+        let Some(value) = xml.optional_attribute_number(part, attribute)?.filter(|value| *value != 0.0) else {
+            continue;
+        };
+        if value < 0.0 {
+            bail!(xml.error(part, format!("attribute `{attribute}` of <{element}> is {value}, it must be positive")));
+        }
+        if values.iter().all(|(known, _)| *known != key) {
+            values.push((key, value));
+        }
+    }
+    let name = clean(node.attribute("name").unwrap_or_default());
+    Ok(values.iter().any(|(key, _)| key.starts_with("max_")).then_some(DraftWinch { name, values }))
+}
+
+/// Winch that a chain names.
+fn winch_node<'n>(root: Node<'n, 'n>, chain: Node) -> Option<Node<'n, 'n>> {
+    let kind = chain.attribute("winchtype")?;
+    children(root, "winch").find(|winch| winch.attribute("name") == Some(kind))
 }
 
 /// Swivelling pulley of a `<base>`; `None` without a radius. The swivel axis is the z axis of the frame of the base,
@@ -293,6 +336,7 @@ fn cables(
             limits: [minimum, max_force(xml, root, chain)?],
             unstrained_length: None,
             pulley: pulley(xml, base)?,
+            winch: winch(xml, root, chain)?,
         });
     }
 
@@ -312,10 +356,7 @@ fn cables(
 
 /// Maximum force of the winch of a chain [N]; `None` if the file does not give it.
 fn max_force(xml: &Xml, root: Node, chain: Node) -> Result<Option<f64>> {
-    let Some(kind) = chain.attribute("winchtype") else { return Ok(None) };
-    let Some(winch) = children(root, "winch").find(|winch| winch.attribute("name") == Some(kind)) else {
-        return Ok(None);
-    };
+    let Some(winch) = winch_node(root, chain) else { return Ok(None) };
     let Some(cable) = children(winch, "cable").next() else { return Ok(None) };
     Ok(xml.optional_attribute_number(cable, "f_max")?.filter(|force| *force > 0.0))
 }

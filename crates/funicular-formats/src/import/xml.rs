@@ -141,6 +141,6 @@ pub(crate) fn children<'n, 'a: 'n>(parent: Node<'n, 'a>, name: &str) -> impl Ite
 }
 
 /// All text between the tags, without comments.
-fn content(node: Node) -> String {
+pub(crate) fn content(node: Node) -> String {
     node.children().filter_map(|child| if child.is_text() { child.text() } else { None }).collect()
 }

@@ -39,7 +39,19 @@ from funicular._identify import Identified, read_measurements
 from funicular._live import Live
 from funicular._pages import Page
 from funicular._results import Equilibria, ModeGradients, Modes, ReducedModel, Results, StateSpaceModel
-from funicular._study import Exported, Imported, NewRobot, import_robot, merge, new_robot, paper, run, schema, validate
+from funicular._study import (
+    Exported,
+    Imported,
+    NewRobot,
+    import_robot,
+    import_trajectory,
+    merge,
+    new_robot,
+    paper,
+    run,
+    schema,
+    validate,
+)
 from funicular._sweeps import Sweep
 from funicular._uncertainty import Uncertainty
 
@@ -78,6 +90,7 @@ __all__ = [
     "Uncertainty",
     "__version__",
     "import_robot",
+    "import_trajectory",
     "merge",
     "new_robot",
     "paper",

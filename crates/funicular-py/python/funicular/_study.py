@@ -7,7 +7,8 @@ from os import PathLike
 from pathlib import Path
 from typing import Any, Literal
 
-from numpy.typing import ArrayLike
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from funicular._errors import InputError
 from funicular._funicular import (
@@ -284,6 +285,34 @@ def import_robot(
     made = run(request("import", None, (), given))
     assert isinstance(made, Imported)
     return made
+
+
+def import_trajectory(files: Sequence[File], name: str) -> dict[str, NDArray[np.float64]]:
+    """Reads a trajectory of CASPR, as the program's `import --trajectory`.
+
+    Parameters
+    ----------
+    files
+        The bodies file and the trajectories file of a robot.
+    name
+        Name of the trajectory.
+
+    Returns
+    -------
+    Columns `t_s` [s], `x_m`, `y_m`, `z_m` [m] and, where the platform turns, `roll_deg`, `pitch_deg`, `yaw_deg`, as
+    arrays: the `path` of `Robot.trajectory`.
+
+    Raises
+    ------
+    InputError
+        There is no such trajectory, or it cannot be read; the message says where and why.
+    """
+    listed = [json.loads(source_file(Path(path))) for path in files]
+    made = run({"command": "import", "files": listed, "trajectory": name})
+    assert isinstance(made, Imported)
+    header, *rows = made.text.splitlines()
+    columns = np.array([[float(cell) for cell in row.split(",")] for row in rows]).T
+    return dict(zip(header.split(","), columns, strict=True))
 
 
 def paper(path: File | None = None) -> Page:

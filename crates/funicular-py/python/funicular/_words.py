@@ -10,6 +10,16 @@ Winches = Literal["as-given", "clamped", "torque", "stuck"]
 Hold = Literal["lengths", "pose", "rule"]
 Per = Literal["unit", "percent", "tolerance"]
 Method = Literal["automatic", "linear", "sampled"]
-Goal = Literal["first", "platform", "stiffness", "rope-mass", "rope-length"]
+Goal = Literal["first-frequency", "platform", "stiffness-min", "rope-mass", "rope-length"]
 ExportFormat = Literal["opensees", "moordyn", "vtk"]
-Result = Literal["pose", "lengths", "tensions", "stiffness-min", "frequencies", "damping", "response"]
+Result = Literal[
+    "pose",
+    "lengths",
+    "tensions",
+    "rope-length",
+    "rope-mass",
+    "stiffness-min",
+    "frequencies",
+    "damping",
+    "response",
+]

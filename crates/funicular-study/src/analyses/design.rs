@@ -28,6 +28,7 @@ use report::DesignReport;
 use rows::{Evaluated, linearisation_of_goal};
 use search::{DesignSearch, SearchResult, TOLERANCE, try_other_sides};
 use serde::Serialize;
+use serde_json::Value;
 use variables::{Variable, rounded, variables};
 
 /// Maximum number of poses. Each step computes an equilibrium and a list of modes for each of them.
@@ -45,6 +46,8 @@ pub struct Designed {
     pub models: Models,
     /// Name of the goal.
     pub goal: &'static str,
+    /// Identity of the number that improves, as `gradient` writes it.
+    pub measure: Value,
     /// Goal in words.
     pub goal_means: String,
     pub unit: &'static str,
@@ -135,7 +138,8 @@ pub fn run(request: &DesignRequest, watch: &mut dyn Watch) -> Result<Designed> {
         models,
         goal: request.goal.name(),
         goal_means: report.goal_means(),
-        unit: request.goal.in_words().1,
+        measure: request.goal.measure().identity(parameters.robot()),
+        unit: request.goal.measure().unit(),
         before: goal_of(before),
         after: goal_of(after),
         poses: report.pose_rows()?,

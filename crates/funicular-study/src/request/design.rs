@@ -44,7 +44,7 @@ declared! {
     }
     examples {
         "funicular design robots/cogiro.toml --poses docs/design/cogiro-poses.csv --target-tension-n 350 \\\n    --change 'cables.*.attachment_m=±0.05' -o designed.toml",
-        "funicular design robots/cogiro.toml --pose 1,2,1.5 --change 'cables.*.anchor_m.z=5:6' --goal stiffness \\\n    --page design.html",
+        "funicular design robots/cogiro.toml --pose 1,2,1.5 --change 'cables.*.anchor_m.z=5:6' --goal stiffness-min \\\n    --page design.html",
         "funicular design robots/cogiro.toml --pose 0,0,1.5 --change 'cables.*.anchor_m=±0.5' --goal rope-mass \\\n    --min-stiffness-n-per-m 20000",
     }
 }

@@ -81,6 +81,9 @@ declared! {
         files: Vec<SourceFile> = Vec::new() => (Data(shape::files)).required();
         /// Name of the cable set if a CASPR file has several.
         cable_set: Option<String> = None => (Text).form("NAME").otherwise("from the file");
+        /// Name of a trajectory of a CASPR file; it is written instead of the robot, as a table that `trajectory` and `settle`
+        /// read.
+        trajectory: Option<String> = None => (Text).form("NAME");
         /// Rope values that the files do not give.
         #[serde(flatten)]
         ropes: ImportRopes = ImportRopes::default() => group;
@@ -90,6 +93,7 @@ declared! {
     }
     examples {
         "funicular import docs/import/tripod_bodies.xml docs/import/tripod_cables.xml \\\n    --mass-kg-per-m 0.05 --axial-stiffness-n 1e6 -o tripod.toml",
+        "funicular import docs/import/tripod_bodies.xml docs/import/tripod_trajectories.xml --trajectory lift -o lift.csv",
         "funicular import robot.wcrfx --pose 0,0,1 -o robot.toml",
         "funicular import mooring.txt -o robot.toml",
     }

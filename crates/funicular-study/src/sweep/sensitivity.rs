@@ -12,11 +12,13 @@ use funicular::suggest::nearest;
 use std::fmt::Display;
 
 /// Quantities that can be differentiated, by their names; without a group, the first natural frequency.
-const RESULTS: [(&str, Option<MeasureGroup>); 4] = [
+const RESULTS: [(&str, Option<MeasureGroup>); 6] = [
     ("first-frequency", None),
     of_group(MeasureGroup::MinStiffness),
     of_group(MeasureGroup::Tensions),
     of_group(MeasureGroup::Lengths),
+    of_group(MeasureGroup::RopeLength),
+    of_group(MeasureGroup::RopeMass),
 ];
 
 const fn of_group(group: MeasureGroup) -> (&'static str, Option<MeasureGroup>) {

@@ -25,12 +25,19 @@ pub(super) struct CasprLink {
 }
 
 /// Kind of joint: motion of the body, and its place as a function of the joint's coordinates.
-struct Joint {
-    motion: DraftMotion,
+pub(super) struct Joint {
+    pub(super) motion: DraftMotion,
     /// Number of coordinates.
-    count: usize,
+    pub(super) count: usize,
     /// Translation [m] and rotation relative to the base.
-    place: fn(&[f64]) -> (Vec3, Rotation),
+    pub(super) place: fn(&[f64]) -> (Vec3, Rotation),
+}
+
+impl Joint {
+    /// True if the coordinates hold a quaternion.
+    pub(super) fn has_quaternion(&self) -> bool {
+        self.count == 7
+    }
 }
 
 /// Joint of a platform by its name in CASPR, old names included; `None` for other joints.
@@ -109,7 +116,11 @@ pub(super) fn read(xml: &Xml) -> Result<CasprLink> {
         }
     }
     if joint_node.has_attribute("q_min") || joint_node.has_attribute("q_max") {
-        lost.push("the limits of the platform's motion, q_min and q_max".to_owned());
+        let limits = ["q_min", "q_max"].map(|name| clean(joint_node.attribute(name).unwrap_or("none")));
+        let [least, most] = limits;
+        lost.push(format!(
+            "the limits of the platform's motion, q_min {least} and q_max {most}: as a grid they limit a map or a workspace"
+        ));
     }
     if children(xml.root(), "operational_spaces").next().is_some() {
         lost.push("<operational_spaces>".to_owned());
@@ -150,9 +161,16 @@ fn link<'n>(xml: &'n Xml<'_>) -> Result<Node<'n, 'n>> {
     Ok(link)
 }
 
-/// Motion of a joint, and its place if the file gives the joint's coordinates.
-fn joint(xml: &Xml, node: Node) -> Result<(DraftMotion, Option<(Vec3, Rotation)>)> {
-    let kind = node.attribute("type").unwrap_or_default().trim();
+/// Joint of the body of a file, and the place of its base [m].
+pub(super) fn joint_on_base(xml: &Xml) -> Result<(Joint, Vec3)> {
+    let link = link(xml)?;
+    let joint = known_joint(xml, xml.required(link, "joint")?)?;
+    Ok((joint, xml.child_vector(xml.required(link, "parent")?, "location")?))
+}
+
+/// Joint of a node.
+fn known_joint(xml: &Xml, node: Node) -> Result<Joint> {
+    let kind = kind_of(node);
     let Some(joint) = joint_of(kind) else {
         let which = match kind.split('_').next().unwrap_or_default() {
             "" => bail!(xml.error(node, "<joint> has no attribute `type`")),
@@ -169,7 +187,17 @@ fn joint(xml: &Xml, node: Node) -> Result<(DraftMotion, Option<(Vec3, Rotation)>
             )
         ));
     };
+    Ok(joint)
+}
 
+/// Name of the kind of a joint.
+fn kind_of<'n>(node: Node<'n, '_>) -> &'n str {
+    node.attribute("type").unwrap_or_default().trim()
+}
+
+/// Motion of a joint, and its place if the file gives the joint's coordinates.
+fn joint(xml: &Xml, node: Node) -> Result<(DraftMotion, Option<(Vec3, Rotation)>)> {
+    let (joint, kind) = (known_joint(xml, node)?, kind_of(node));
     if node.attribute("actuated").is_some_and(|text| text.trim() == "true") {
         bail!(xml.error(
             node,
@@ -187,7 +215,7 @@ fn joint(xml: &Xml, node: Node) -> Result<(DraftMotion, Option<(Vec3, Rotation)>
         let count = joint.count;
         bail!(xml.error(node, format!("attribute `q_initial` holds {} numbers, {kind} needs {count}", q.len())));
     }
-    if joint.count == 7 && q[3..].iter().all(|part| *part == 0.0) {
+    if joint.has_quaternion() && q[3..].iter().all(|part| *part == 0.0) {
         bail!(xml.error(node, "attribute `q_initial` holds the quaternion zero, which is no orientation"));
     }
 

@@ -124,7 +124,7 @@ fn read_cable(xml: &Xml, node: Node, center_of_mass_p: &Vec3, losses: &mut Caspr
 
     let Ends { anchor_w, pulley, attachment_p } = ends(xml, xml.required(node, "attachments")?, &name, losses)?;
     let attachment_p = if from_center { attachment_p + center_of_mass_p } else { attachment_p };
-    Ok(DraftCable { name, anchor_w, attachment_p, rope, limits, unstrained_length: None, pulley })
+    Ok(DraftCable { name, anchor_w, attachment_p, rope, limits, unstrained_length: None, pulley, winch: None })
 }
 
 /// True for a cable with stiffness, false for an ideal one. Other kinds are refused.

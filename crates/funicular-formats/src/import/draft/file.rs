@@ -1,6 +1,6 @@
 //! Text of the robot file of a draft.
 
-use super::{Draft, DraftCable, DraftMotion, DraftPulley, DraftRope, DraftState};
+use super::{Draft, DraftCable, DraftMotion, DraftPulley, DraftRope, DraftState, DraftWinch};
 use anyhow::{Result, anyhow};
 use funicular::math::{Mat3, Vec3, rotation};
 use funicular::robot::Robot;
@@ -55,16 +55,27 @@ impl Draft {
         line(format!("gravity_m_s2 = {}", vector(&self.gravity_w)));
         self.write_platform(&mut line);
 
-        let (ropes, pulleys) = (self.ropes(), self.pulleys());
+        if let Some(payload) = self.payload {
+            line(format!("\n[required]\npayload_max_kg = {}", float(payload)));
+        }
+
+        let (ropes, pulleys, winches) = (self.ropes(), self.pulleys(), self.winches());
         write_ropes(&ropes, &mut line);
         for (name, pulley) in &pulleys {
             line(format!("\n[pulleys.{name}]\nradius_m = {}", float(pulley.radius)));
             line(format!("entry_direction = {}", vector(&pulley.entry_direction_w)));
         }
+        for (name, winch) in &winches {
+            line(format!("\n[winches.{}]", quoted(name)));
+            for (key, value) in &winch.values {
+                line(format!("{key} = {}", float(*value)));
+            }
+        }
         for cable in &self.cables {
             let material = ropes.iter().find(|(_, rope)| same(rope, &cable.rope)).map_or("", |(name, _)| name);
             let pulley = cable.pulley.and_then(|own| pulleys.iter().find(|(_, pulley)| *pulley == own));
-            line(self.cable(cable, material, pulley.map(|(name, _)| name)));
+            let winch = cable.winch.as_ref().and_then(|own| winches.iter().find(|(_, winch)| *winch == own));
+            line(self.cable(cable, material, [pulley.map(|(name, _)| &**name), winch.map(|(name, _)| &**name)]));
         }
 
         if let DraftState::Pose(pose) = &self.state {
@@ -116,7 +127,20 @@ impl Draft {
         pulleys
     }
 
-    fn cable(&self, cable: &DraftCable, material: &str, pulley: Option<&String>) -> String {
+    /// Distinct winches, each with a name of its own.
+    fn winches(&self) -> Vec<(String, &DraftWinch)> {
+        let mut winches: Vec<(String, &DraftWinch)> = Vec::new();
+        for winch in self.cables.iter().filter_map(|cable| cable.winch.as_ref()) {
+            if winches.iter().all(|(_, known)| *known != winch) {
+                let is_free = !winch.name.is_empty() && winches.iter().all(|(name, _)| *name != winch.name);
+                let name = if is_free { winch.name.clone() } else { format!("winch-{}", winches.len() + 1) };
+                winches.push((name, winch));
+            }
+        }
+        winches
+    }
+
+    fn cable(&self, cable: &DraftCable, material: &str, [pulley, winch]: [Option<&str>; 2]) -> String {
         let mut text = format!(
             "\n[[cables]]\nname = {}\nmaterial = {}\nanchor_m = {}",
             quoted(&cable.name),
@@ -130,6 +154,9 @@ impl Draft {
 
         if let Some(pulley) = pulley {
             line("pulley", quoted(pulley));
+        }
+        if let Some(winch) = winch {
+            line("winch", quoted(winch));
         }
         if self.platform.motion != DraftMotion::PointMass {
             line("attachment_m", vector(&cable.attachment_p));

@@ -138,7 +138,7 @@ pub(super) struct DesignReport<'a> {
 impl DesignReport<'_> {
     /// Goal in words.
     pub(super) fn goal_means(&self) -> String {
-        let (what, _) = self.request.goal.in_words();
+        let what = self.request.goal.in_words();
         let extreme = if self.request.goal.sign() > 0.0 { "lowest" } else { "largest" };
         match (&self.request.weights, self.poses.count()) {
             (_, 1) => what.to_owned(),
@@ -311,7 +311,7 @@ impl DesignReport<'_> {
 
     /// Sentence on the choices of the sides of a band.
     fn sides_tried(&self) -> Option<String> {
-        let unit = self.request.goal.in_words().1;
+        let unit = self.request.goal.measure().unit();
         let choice = |(i, tried): (usize, &SidesTried)| {
             let numbers: Vec<String> = tried.below.iter().map(usize::to_string).collect();
             let nearer = if i == 0 { " (the nearer sides)" } else { "" };
@@ -336,7 +336,7 @@ impl DesignReport<'_> {
     /// Sentences on what limits the result: poses, demands and bounds.
     pub(super) fn limits(&self) -> Vec<String> {
         let mut sentences = Vec::new();
-        let unit = self.request.goal.in_words().1;
+        let unit = self.request.goal.measure().unit();
         let better = if self.request.goal.sign() > 0.0 { "more" } else { "less" };
 
         let shares = self.shares();

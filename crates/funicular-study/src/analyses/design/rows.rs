@@ -3,9 +3,10 @@
 use super::band::{self, BandCounts};
 use crate::analyses::gradient::{held, no_solution};
 use crate::at_rest::{self, AtRest};
+use crate::measure::Measure;
 use crate::names::DesignGoal;
 use crate::request::DesignRequest;
-use anyhow::Result;
+use anyhow::{Result, anyhow};
 use funicular::cable::CableModel;
 use funicular::dynamics::{Dynamics, Linearisation};
 use funicular::gradient::{Gradients, Hold, VibrationGradients};
@@ -150,10 +151,9 @@ impl PoseRows<'_> {
                 smallest_first(&self.lowest(of_goal)?)
             }
             DesignGoal::Stiffness => smallest_first(&self.stiffnesses()?),
-            // Less is better.
-            DesignGoal::RopeMass | DesignGoal::RopeLength => {
-                let (value, slopes) = self.rope(self.request.goal == DesignGoal::RopeMass);
-                (value, vec![self.row(value, &slopes, -1.0)])
+            goal @ (DesignGoal::RopeMass | DesignGoal::RopeLength) => {
+                let (value, slopes) = self.at_rest(goal.measure())?;
+                (value, vec![self.row(value, &slopes, goal.sign())])
             }
         })
     }
@@ -232,23 +232,13 @@ impl PoseRows<'_> {
         Ok(rows.into_iter().map(|row| (row.hz, row.slopes)).collect())
     }
 
-    /// Mass [kg] or length [m] of all ropes, with its derivatives.
-    fn rope(&self, by_mass: bool) -> (f64, Slopes) {
-        let cables = &self.at_rest.robot.cables;
-        let mut own = RobotChange::none(cables.len());
-        let (mut sum, mut slopes) = (0.0, Vec::new());
-        for (i, (length, state)) in self.gradients.lengths().iter().zip(&self.at_rest.equilibrium.cables).enumerate() {
-            let factor = if by_mass { cables[i].material.mass_per_length } else { 1.0 };
-            sum += factor * state.unstrained_length;
-            let of_length = self.along(length);
-            slopes.resize(of_length.len(), 0.0);
-            slopes.iter_mut().zip(&of_length).for_each(|(sum, slope)| *sum += factor * slope);
-            if by_mass {
-                own.cables[i].mass_per_length = state.unstrained_length;
-            }
-        }
-        slopes.iter_mut().zip(self.along(&own)).for_each(|(sum, slope)| *sum += slope);
-        (sum, slopes)
+    /// Value of a measure of the equilibrium, with its derivatives.
+    fn at_rest(&self, measure: Measure) -> Result<(f64, Slopes)> {
+        let AtRest { robot, equilibrium, .. } = self.at_rest;
+        let none = || anyhow!("the {} has no derivatives", measure.name(robot));
+        let value = measure.static_value(robot, equilibrium, &equilibrium.pose).ok_or_else(none)?;
+        let gradient = Measure::static_gradients(&[measure], self.gradients).pop().flatten().ok_or_else(none)?;
+        Ok((value, self.along(&gradient.map_err(no_solution)?)))
     }
 }
 

@@ -33,7 +33,7 @@ impl GradientRows<'_> {
         let found = Measure::static_gradients(&measures, gradients);
         for (measure, gradient) in measures.into_iter().zip(found) {
             let Some(gradient) = gradient else { continue };
-            let value = measure.static_value(rest, &rest.pose).unwrap_or_default();
+            let value = measure.static_value(robot, rest, &rest.pose).unwrap_or_default();
             self.push(measure, value, gradient);
         }
     }

@@ -161,7 +161,7 @@ fn rows(kinds: &[Measure], at_rest: &AtRest, modes: Option<&NominalModes>, respo
         Measure::Damping(k) => modes?.damped.get(k).map(funicular::modes::damped::DampedMode::damping_ratio),
         // A rotation is counted from here.
         Measure::Pose(3..) => Some(0.0),
-        other => other.static_value(&at_rest.equilibrium, &at_rest.equilibrium.pose),
+        other => other.static_value(&at_rest.robot, &at_rest.equilibrium, &at_rest.equilibrium.pose),
     };
     let row =
         |kind: &Measure| Some(Row { kind: *kind, value: value(*kind)?, derivatives: None, sampling_reason: None });

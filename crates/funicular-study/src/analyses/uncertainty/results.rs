@@ -61,7 +61,7 @@ pub(super) fn values(
         }
         Measure::Frequency(k) => found.as_ref()?.1.modes.get(k).map(|mode| mode.frequency_hz),
         Measure::Damping(k) => damped.as_ref()?.get(k).map(modes::damped::DampedMode::damping_ratio),
-        other => other.static_value(rest, undisturbed),
+        other => other.static_value(robot, rest, undisturbed),
     };
     kinds.iter().map(|kind| value(kind).unwrap_or(f64::NAN)).collect()
 }

@@ -216,6 +216,22 @@ pub(super) static TABLE: &[Definition] = &[
         ..Definition::PLAIN
     },
     Definition {
+        name: "rope-length",
+        about: "unstrained length of all ropes",
+        documentation: "`rope_length_m`: sum of the unstrained lengths of all cables",
+        columns: |robot, _| columns_of_measures(robot, &[Measure::RopeLength], "unstrained length of all ropes"),
+        values: |row, _, out| push_measures(row, &[Measure::RopeLength], out),
+        ..Definition::PLAIN
+    },
+    Definition {
+        name: "rope-mass",
+        about: "mass of all ropes",
+        documentation: "`rope_mass_kg`: mass of all ropes, from the platform to the winches",
+        columns: |robot, _| columns_of_measures(robot, &[Measure::RopeMass], "mass of all ropes"),
+        values: |row, _, out| push_measures(row, &[Measure::RopeMass], out),
+        ..Definition::PLAIN
+    },
+    Definition {
         name: "tension-margin",
         about: "minimum distance of a tension from its limits, negative beyond them",
         documentation: "`tension_margin_n`: minimum distance of a tension from its limits (the limits that \
@@ -644,7 +660,7 @@ fn columns_of_measures(robot: &Robot, measures: &[Measure], about: &str) -> Vec<
 
 /// Adds the values of measures of the equilibrium of a row.
 fn push_measures(row: &PointEvaluation<'_>, measures: &[Measure], out: &mut Vec<Value>) {
-    out.extend(measures.iter().map(|measure| Value::real(measure.static_value(row.rest, &row.rest.pose))));
+    out.extend(measures.iter().map(|measure| Value::real(measure.static_value(row.robot, row.rest, &row.rest.pose))));
 }
 
 fn stiffness_columns(robot: &Robot) -> Vec<Column> {
