@@ -3,9 +3,10 @@
 
 use funicular::robot::Robot;
 use funicular_files::{Begin, FilesError, Job, Opened, Outcome, SweepFile, Table, merge, threads};
+use funicular_study::columns::{Cell, ResultTable};
 use funicular_study::request::Axis;
 use funicular_study::sweep::{Options, Plan, Poses, Quantity, Steps};
-use funicular_study::table::{Chunk, Part, Record, Values};
+use funicular_study::table::{Chunk, Column, ColumnKind, Part, Record, Values};
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::record::Field;
 use serde_json::{Map, json};
@@ -438,4 +439,33 @@ fn a_run_that_is_cancelled_or_refused_delivers_complete_chunks() {
         });
         assert_eq!(refused, Err("the disk is full"));
     });
+}
+
+/// Rows of a result in a Parquet file are those of its table; what a row does not have is empty, and no file of a sweep.
+#[test]
+fn results_are_parquet_files() {
+    let column = |name: &str, kind| Column { name: name.to_owned(), unit: "m".into(), about: "test".to_owned(), kind };
+    let columns =
+        vec![column("x_m", ColumnKind::Real), column("is_near", ColumnKind::Flag), column("of", ColumnKind::Text)];
+    let rows = [
+        vec![Cell::Number(1.25), Cell::Flag(true), Cell::Text("a".to_owned())],
+        vec![Cell::Missing(None), Cell::Flag(false), Cell::Missing(None)],
+        vec![Cell::Count(3), Cell::Flag(true), Cell::Text("ü, ö".to_owned())],
+    ];
+    let table = ResultTable { columns, rows: Box::new(rows.into_iter()) };
+    let directory = tempfile::tempdir().unwrap();
+    let path = directory.path().join("a result.parquet");
+    fs::write(&path, funicular_files::parquet_of_result("trajectory", table).unwrap()).unwrap();
+
+    let file = SerializedFileReader::new(File::open(&path).unwrap()).unwrap();
+    let rows: Vec<Vec<Field>> = file
+        .get_row_iter(None)
+        .unwrap()
+        .map(|row| row.unwrap().get_column_iter().map(|(_, field)| field.clone()).collect())
+        .collect();
+    let text = |text: &str| Field::Str(text.to_owned());
+    assert_eq!(rows[0], [Field::Double(1.25), Field::Bool(true), text("a")]);
+    assert_eq!(rows[1], [Field::Null, Field::Bool(false), Field::Null]);
+    assert_eq!(rows[2], [Field::Double(3.0), Field::Bool(true), text("ü, ö")]);
+    assert!(merge(&[path], &directory.path().join("b.parquet")).is_err());
 }

@@ -1,6 +1,7 @@
 //! Static state that an analysis starts from, given by the request or else by the robot file.
 
 mod holder;
+mod in_gusts;
 mod loads;
 mod pose;
 mod requirements;
@@ -11,6 +12,7 @@ mod warnings;
 
 pub use holder::holder;
 pub(crate) use holder::holder_of;
+pub(crate) use in_gusts::{expected_peak, moments_in_gusts};
 pub(crate) use loads::payload_center;
 pub use pose::{OrientationOfPointMass, check_pose, refuse_orientation};
 pub(crate) use requirements::{with_required, with_required_velocities};

@@ -7,6 +7,7 @@
 mod arc;
 mod bounded;
 mod cable_pair;
+mod free_way;
 mod moves;
 mod segments;
 mod solid;
@@ -20,6 +21,7 @@ use solid::PlacedBody;
 use span::{FreeSpan, SpanEnd};
 use std::sync::Arc;
 
+pub use free_way::FreeWay;
 pub use moves::{Crossing, OnTheWay, WAY_TOLERANCE, straight_crossings};
 
 /// Bound of the error of a distance between two cables [m].

@@ -1,5 +1,10 @@
 //! `clearance`: distances between cables, platform and obstacles at rest.
 
+mod swaying;
+mod ways;
+
+pub use ways::WayAround;
+
 use super::fields::AXES;
 use super::found;
 use super::shared::PoseRow;
@@ -13,8 +18,9 @@ use anyhow::{Result, bail};
 use funicular::clearance::{Clearance, ClearancePair, HULL, OnTheWay, Surroundings};
 use funicular::path::StraightMove;
 use funicular::robot::{Pose, Robot, State};
-use funicular::statics;
+use funicular::statics::{self, Equilibrium, StaticsError};
 use serde::Serialize;
+use swaying::Excursions;
 
 /// Results of `clearance`.
 #[derive(Serialize)]
@@ -28,6 +34,9 @@ pub struct Clearances {
     pub move_to: Option<PoseRow>,
     /// True if every pair keeps its required distance.
     pub free: bool,
+    /// Way to the end of the move on which every pair keeps its distance, if it was searched.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub way: Option<WayAround>,
     /// All pairs, that with the least margin first.
     pub pairs: Vec<ClearanceRow>,
     #[serde(skip)]
@@ -45,7 +54,11 @@ pub struct ClearanceRow {
     pub second: String,
     /// Distance between the surfaces.
     pub distance_m: f64,
+    /// Required distance, vibration included.
     pub required_m: f64,
+    /// Part of the required distance for the motions of both in gusts; absent without them.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub vibration_m: Option<f64>,
     pub margin_m: f64,
     /// Nearest points, on the centre lines of cables.
     pub points_m: [[f64; 3]; 2],
@@ -62,6 +75,9 @@ pub struct ClearanceRow {
 /// # Errors
 /// A robot without such an equilibrium, or a move on which the cables do not hold the platform everywhere.
 pub fn run(robot: Robot, request: &ClearanceRequest) -> Result<Clearances> {
+    if request.in_gusts && request.move_to.is_some() {
+        bail!("⟪in_gusts⟫ belongs to a platform that stays at a pose: leave out ⟪move_to⟫, or ask for its end alone");
+    }
     let at_rest = at_rest::equilibrium(robot, &request.robot, &request.state, &request.tensions)?;
     let (robot, rest) = (&at_rest.robot, &at_rest.equilibrium);
     let around = Surroundings::of(robot);
@@ -70,6 +86,10 @@ pub fn run(robot: Robot, request: &ClearanceRequest) -> Result<Clearances> {
         None => around.clearances(rest, None).iter().map(|of| ClearanceRow::of(robot, &around, of)).collect(),
         Some(end) => on_the_way(&at_rest, &around, end)?,
     };
+    if request.in_gusts {
+        Excursions::of(&at_rest, &around)?.enlarge(&mut pairs);
+    }
+    let way = end.as_ref().filter(|_| request.find_way).map(|end| WayAround::find(&at_rest, &around, end));
     pairs.sort_by(|a, b| a.margin_m.total_cmp(&b.margin_m));
 
     Ok(Clearances {
@@ -78,6 +98,7 @@ pub fn run(robot: Robot, request: &ClearanceRequest) -> Result<Clearances> {
         pose: PoseRow::of(&rest.pose),
         move_to: end.as_ref().map(PoseRow::of),
         free: pairs.iter().all(|pair| pair.margin_m >= 0.0),
+        way,
         pairs,
         warnings: at_rest.warnings(None),
     })
@@ -93,13 +114,18 @@ fn move_end(at_rest: &AtRest, request: &ClearanceRequest, pose: request::Pose) -
     Ok(end)
 }
 
+/// Equilibrium at another pose, with the model and the rule of this one.
+fn rest_at(at_rest: &AtRest) -> impl FnMut(&Pose) -> Result<Equilibrium, StaticsError> {
+    let AtRest { robot, equilibrium, rule, .. } = at_rest;
+    let rule = rule.clone().unwrap_or_default();
+    move |pose| Ok(statics::solve_at(robot, &State::Pose(*pose), equilibrium.model, &rule)?.equilibrium)
+}
+
 /// Pairs on the way from the pose of an equilibrium to another one.
 fn on_the_way(at_rest: &AtRest, around: &Surroundings, end: &Pose) -> Result<Vec<ClearanceRow>> {
-    let AtRest { robot, equilibrium: rest, rule, .. } = at_rest;
-    let rule = rule.clone().unwrap_or_default();
-    let rest_at =
-        |pose: &Pose| statics::solve_at(robot, &State::Pose(*pose), rest.model, &rule).map(|found| found.equilibrium);
-    let found = around.on_the_way(&StraightMove::between(&rest.pose, end), rest_at).map_err(|(fraction, error)| {
+    let AtRest { robot, equilibrium: rest, .. } = at_rest;
+    let straight = StraightMove::between(&rest.pose, end);
+    let found = around.on_the_way(&straight, rest_at(at_rest)).map_err(|(fraction, error)| {
         NoSolution(format!("at {} % of the move: {error}", significant(100.0 * fraction, 4)))
     })?;
     let row = |of: &OnTheWay| ClearanceRow {
@@ -108,6 +134,13 @@ fn on_the_way(at_rest: &AtRest, around: &Surroundings, end: &Pose) -> Result<Vec
         ..ClearanceRow::of(robot, around, &of.least)
     };
     Ok(found.iter().map(row).collect())
+}
+
+impl Clearances {
+    /// Columns of the pairs.
+    pub fn columns(&self) -> Columns<ClearanceRow> {
+        ClearanceRow::columns(self.move_to.is_some(), self.pairs.iter().any(|pair| pair.vibration_m.is_some()))
+    }
 }
 
 impl ClearanceRow {
@@ -127,6 +160,7 @@ impl ClearanceRow {
             second,
             distance_m: found.distance,
             required_m: found.required,
+            vibration_m: None,
             margin_m: found.margin(),
             points_m: found.points_w.map(Into::into),
             fraction: None,
@@ -134,8 +168,8 @@ impl ClearanceRow {
         }
     }
 
-    /// Columns of the pairs; those of a move are read if there is one.
-    pub fn columns(moves: bool) -> Columns<Self> {
+    /// Columns of the pairs; those of a move and of gusts are read if there are such.
+    pub fn columns(moves: bool, sways: bool) -> Columns<Self> {
         Columns::new([
             column("kind", "", "kind of the pair: cables, platform or obstacles", |row: &Self| row.kind).plain("kind"),
             column("first", "", "name of the first cable, or of a body of the platform", |row: &Self| {
@@ -158,6 +192,11 @@ impl ClearanceRow {
             .decimals("crosses at", "", 6)
             .read_if(moves),
             column("required_m", "m", "required distance", |row: &Self| row.required_m).decimals("required", "m", 4),
+            column("vibration_m", "m", "part of the required distance for the motions in gusts", |row: &Self| {
+                row.vibration_m
+            })
+            .decimals("for gusts", "m", 4)
+            .read_if(sways),
             column("margin_m", "m", "distance beyond the required one", |row: &Self| row.margin_m).read_if(false),
             parts(
                 "first_{}_m",
@@ -175,11 +214,11 @@ impl ClearanceRow {
 
 impl Tabled for Clearances {
     fn tables() -> Vec<(&'static str, Vec<Column>)> {
-        vec![("", ClearanceRow::columns(true).described())]
+        vec![("", ClearanceRow::columns(true, true).described())]
     }
 
     fn table(&self) -> ResultTable<'_> {
-        ResultTable::new(ClearanceRow::columns(self.move_to.is_some()), &self.pairs)
+        ResultTable::new(self.columns(), &self.pairs)
     }
 }
 

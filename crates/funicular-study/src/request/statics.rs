@@ -73,6 +73,11 @@ declared! {
         /// Pose x,y,z[,roll,pitch,yaw] [m, degrees] to which the platform moves, straight and with one turn; the
         /// distances are then the least on the way, and cables that cross each other are shown.
         move_to: Option<Pose> = None => (Pose);
+        /// Search a way to the end of the move through one or two other poses if something is too near on the straight one.
+        find_way: bool = false => (Switch).needs("move_to");
+        /// Enlarge every required distance by the expected largest motions of both within ten minutes in the gusts of the
+        /// robot file.
+        in_gusts: bool = false => (Switch);
         /// State and loads.
         #[serde(flatten)]
         state: State = State::default() => group;
@@ -83,6 +88,7 @@ declared! {
     examples {
         "funicular clearance robots/cogiro.toml --pose 2,1,1.5",
         "funicular clearance robots/cogiro.toml --pose 0,0,1.5 --move-to 5,3,1.5,0,0,30",
+        "funicular clearance robots/cogiro.toml --pose 0,0,1.5 --move-to 5,3,1.5,0,0,30 --find-way",
         "funicular clearance robots/cogiro.toml --pose 2,1,1.5,0,0,20 --set clearance.cables_m=0.05 --format csv",
         "funicular map robots/cogiro.toml --grid x=-6:6:25 --grid y=-4:4:17 --grid z=1.5 --quantity clearance -o free.parquet",
     }

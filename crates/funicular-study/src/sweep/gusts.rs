@@ -1,16 +1,15 @@
 //! Response to the gusts of the robot file at a point.
 
 use super::status::Status;
-use crate::at_rest::{AtRest, ModesBelow};
+use crate::at_rest::{AtRest, expected_peak, moments_in_gusts};
 use crate::request::GUST_DURATION;
 use funicular::cable::catenary_dynamic::DriveSignal;
 use funicular::dynamics::Linearisation;
-use funicular::gust::{self, Gusts, PeakFactor};
+use funicular::gust;
 use funicular::math::Vec3;
-use funicular::modes;
-use funicular::response::{Quantity, Signal};
+use funicular::response::Signal;
 use funicular::robot::Robot;
-use funicular::statics::{CableState, Equilibrium};
+use funicular::statics::Equilibrium;
 
 /// Code of a point without a response.
 const CODE: &str = "no-gusts";
@@ -37,36 +36,18 @@ pub(super) fn at_point(
     rest: &Equilibrium,
     linearisation: Linearisation,
 ) -> Result<PointInGusts, Status> {
-    if robot.turbulence.is_none() {
-        return Err(Status::new(CODE, "the robot file has no turbulence: give it `turbulence` in [wind]"));
-    }
-    if rest.cables.iter().any(CableState::is_slack) {
-        return Err(Status::new(CODE, "a cable is slack in the mean wind, and the linear response does not know that"));
-    }
     let (robot, equilibrium) = (robot.clone(), rest.clone());
-    let whole = AtRest { robot, equilibrium, requested_pose: None, rule: None, held_pose: None };
-    let at_rest = &*whole.vibrating();
-    let refused = |error: anyhow::Error| Status::new(CODE, &error);
-    let limit = at_rest.sway_limit(linearisation).map_err(refused)?;
-    let ModesBelow { dynamics, modes, .. } =
-        at_rest.modes_below(linearisation, limit, modes::MAX_MODES).map_err(refused)?;
-    let AtRest { robot, equilibrium, .. } = at_rest;
+    let at_rest = AtRest { robot, equilibrium, requested_pose: None, rule: None, held_pose: None };
+    let AtRest { robot, equilibrium, .. } = &at_rest;
 
     let along = |direction_w| Signal::Along { direction_w, point_p: Vec3::zeros() };
     let tension = |cable| Signal::Drive { cable, signal: DriveSignal::Tension };
     let motions = [Vec3::x(), Vec3::y(), Vec3::z()].map(along).into_iter();
-    let signals: Vec<(Signal, Quantity)> =
-        motions.chain((0..robot.cables.len()).map(tension)).map(|signal| (signal, Quantity::Displacement)).collect();
-    let natural: Vec<f64> = modes.modes.iter().map(|mode| mode.frequency_hz).collect();
-    let spectra = Gusts::new(robot, equilibrium, &dynamics, &signals, limit)
-        .and_then(|gusts| gusts.spectra(limit, &natural))
-        .map_err(|error| Status::new(CODE, &error))?;
+    let signals: Vec<Signal> = motions.chain((0..robot.cables.len()).map(tension)).collect();
+    let moments = moments_in_gusts(&at_rest, linearisation, &signals).map_err(|error| Status::new(CODE, &error))?;
 
-    let (motions, tensions) = spectra.moments.split_at(TRANSLATIONS);
-    let peak = |of: &gust::Moments| {
-        // An output without motion has no crossings, and no peak.
-        if of.variance == 0.0 { Some(0.0) } else { Some(PeakFactor::new(of.rate(), GUST_DURATION)?.mean * of.rms()) }
-    };
+    let (motions, tensions) = moments.split_at(TRANSLATIONS);
+    let peak = |of: &gust::Moments| expected_peak(of, GUST_DURATION);
     let mean = |cable: usize| equilibrium.cables[cable].force_on_platform_w.norm();
     let smallest = tensions.iter().enumerate().map(|(i, of)| Some(mean(i) - peak(of)?));
     let slack = |(i, of): (usize, &gust::Moments)| gust::slack_probability(mean(i), of.rms(), of.rate(), GUST_DURATION);

@@ -11,7 +11,7 @@ use crate::statics::Equilibrium;
 pub const WAY_TOLERANCE: f64 = 2e-3;
 
 /// Least part of a move between two stations, a guard.
-const MIN_STEP: f64 = 1.0 / 16384.0;
+pub(super) const MIN_STEP: f64 = 1.0 / 16384.0;
 
 /// Triple product over the lengths that it is made of at which two lines lie in one plane: rounding.
 const COPLANAR: f64 = 1e-13;
@@ -187,10 +187,10 @@ fn bisected([mut low, mut high]: [f64; 2], first: f64, mut value: impl FnMut(f64
 }
 
 /// Distances of all pairs at one place of a move.
-struct Station {
-    fraction: f64,
+pub(super) struct Station {
+    pub(super) fraction: f64,
     /// Distances of the pairs, in their order; `None` without one.
-    clearances: Vec<Option<Clearance>>,
+    pub(super) clearances: Vec<Option<Clearance>>,
     /// Signs of the pairs of cables: the side on which the first passes the second.
     sides: Vec<f64>,
     /// Largest distance of each cable from its chord [m].
@@ -263,7 +263,7 @@ impl Surroundings<'_> {
     }
 
     /// Distances at a place of a move.
-    fn station(&self, fraction: f64, rest: &Equilibrium) -> Station {
+    pub(super) fn station(&self, fraction: f64, rest: &Equilibrium) -> Station {
         let at = self.at(rest);
         let pairs = at.pairs();
         let clearances: Vec<Option<Clearance>> = pairs.iter().map(|pair| at.clearance(*pair, f64::INFINITY)).collect();
@@ -274,7 +274,7 @@ impl Surroundings<'_> {
 
     /// Bound of the change of a pair's distance over the fraction of a move, with straight cables [m]: each point of a
     /// cable moves by its share of the way of the attachment.
-    fn way_of(&self, pair: ClearancePair, straight: &StraightMove) -> f64 {
+    pub(super) fn way_of(&self, pair: ClearancePair, straight: &StraightMove) -> f64 {
         let lever = |i: usize| self.robot.cables[i].attachment_p.norm();
         let turn = straight.turn_w.norm();
         match pair {
@@ -286,7 +286,7 @@ impl Surroundings<'_> {
     }
 
     /// Largest distance of a point of the platform from its origin [m].
-    fn platform_reach(&self) -> f64 {
+    pub fn platform_reach(&self) -> f64 {
         let attachments = self.robot.cables.iter().map(|cable| cable.attachment_p.norm());
         let bodies = self.robot.platform.bodies.iter().flat_map(Body::triangles);
         attachments.chain(bodies.flatten().map(|corner| corner.norm())).fold(0.0, f64::max)
@@ -304,20 +304,25 @@ fn keep_least(found: &mut [Option<OnTheWay>], station: &Station) {
     }
 }
 
-/// True if some pair may be nearer between two stations than known so far, by more than the tolerance, (40u).
+/// True if some pair may be nearer between two stations than known so far, by more than the tolerance.
 fn may_be_nearer(found: &[Option<OnTheWay>], one: &Station, other: &Station, ways: &[f64]) -> bool {
+    let known = |k: usize| found[k].as_ref().map(|known| known.least.margin());
+    least_between(one, other, ways).any(|(k, least)| known(k).is_some_and(|known| least < known - WAY_TOLERANCE))
+}
+
+/// Lower bounds of the margins of all pairs between two stations, with the numbers of the pairs, (40u).
+pub(super) fn least_between(one: &Station, other: &Station, ways: &[f64]) -> impl Iterator<Item = (usize, f64)> {
     let step = other.fraction - one.fraction;
     let sag = |i: usize| (one.sagittas[i] - other.sagittas[i]).abs();
-    let pairs = found.iter().zip(one.clearances.iter().zip(&other.clearances)).zip(ways);
-    let mut of_pairs =
-        pairs.filter_map(|((found, (a, b)), way)| Some((found.as_ref()?.least.margin(), (*a)?, (*b)?, way)));
-    of_pairs.any(|(known, a, b, way)| {
+    let pairs = one.clearances.iter().zip(&other.clearances).zip(ways).enumerate();
+    pairs.filter_map(move |(k, ((a, b), way))| {
+        let (a, b) = ((*a)?, (*b)?);
         let sag = match a.pair {
             ClearancePair::Cables(i, j) => sag(i) + sag(j),
             ClearancePair::CableAndPlatform { cable, .. } | ClearancePair::CableAndObstacle { cable, .. } => sag(cable),
             ClearancePair::PlatformAndObstacle { .. } => 0.0,
         };
-        0.5 * (a.margin() + b.margin() - way * step) - sag < known - WAY_TOLERANCE
+        Some((k, 0.5 * (a.margin() + b.margin() - way * step) - sag))
     })
 }
 

@@ -480,3 +480,68 @@ fn sagging_cables_cross_near_the_straight_ones_and_nothing_is_nearer_than_found(
         }
     }
 }
+
+/// A move is free if and only if no pair has a negative margin on it, by the search for the least margins.
+#[test]
+fn a_move_is_free_as_its_least_margins_say() {
+    let mut robot = cogiro();
+    robot.clearance =
+        Some(RequiredClearance { cables: 0.05, platform: 0.0, from_end: Some(0.1), ..Default::default() });
+    robot.obstacles = vec![column("post", Pose::new([1.0, 0.5, 1.0], [0.0; 3]), mesh_of_box([0.2, 0.2, 1.0]))];
+    let around = Surroundings::of(&robot);
+    let mut draw = Draw(7);
+    let mut counts = [0, 0];
+    for pair in poses(&mut draw, 40).chunks(2) {
+        let mut rest_at = |pose: &Pose| {
+            let limits = funicular::robot::TensionLimits { minimum: Some(50.0), maximum: Some(5000.0) };
+            let posed = Robot { state: State::Pose(*pose), ..robot.with_tension_limits(limits) };
+            statics::solve(&posed, StaticModel::Catenary, None).map(|found| found.equilibrium)
+        };
+        let straight = StraightMove::between(&pair[0], &pair[1]);
+        let Ok(found) = around.on_the_way(&straight, &mut rest_at) else { continue };
+        let least = found.iter().map(|of| of.least.margin()).fold(f64::INFINITY, f64::min);
+        let is_free = around.is_free_way(&straight, &mut rest_at);
+        // The least margin is known to this tolerance.
+        if least.abs() < WAY_TOLERANCE {
+            continue;
+        }
+        assert_eq!(is_free, least >= 0.0, "{least}");
+        counts[usize::from(is_free)] += 1;
+    }
+    assert!(counts.iter().all(|count| *count > 2), "{counts:?}");
+}
+
+/// Where a column stands on the straight move, a way leads around it, and all its moves are free.
+#[test]
+fn a_way_leads_around_a_column() {
+    let mut robot = cogiro();
+    robot.obstacles = vec![column("post", Pose::new([0.0, 0.0, 0.8], [0.0; 3]), mesh_of_box([0.15, 0.15, 0.8]))];
+    let around = Surroundings::of(&robot);
+    let mut rest_at = |pose: &Pose| {
+        let limits = funicular::robot::TensionLimits { minimum: Some(50.0), maximum: Some(5000.0) };
+        let posed = Robot { state: State::Pose(*pose), ..robot.with_tension_limits(limits) };
+        statics::solve(&posed, StaticModel::Catenary, None).map(|found| found.equilibrium)
+    };
+    let [from, to] = [-2.5, 2.5].map(|x| Pose::new([x, 0.0, 1.2], [0.0; 3]));
+    assert!(!around.is_free_way(&StraightMove::between(&from, &to), &mut rest_at));
+    let candidates: Vec<Pose> = (0..27)
+        .map(|n| {
+            Pose::new(
+                [f64::from(n % 3 - 1) * 2.0, f64::from(n / 3 % 3 - 1) * 2.0, 1.0 + 0.8 * f64::from(n / 9)],
+                [0.0; 3],
+            )
+        })
+        .collect();
+    let found = around.free_way([&from, &to], &candidates, 500, &mut rest_at);
+    let way = found.through.unwrap();
+    assert!((1..=2).contains(&way.len()) && found.moves > 1);
+    let all: Vec<Pose> = [vec![from], way, vec![to]].concat();
+    for leg in all.windows(2) {
+        let found = around.on_the_way(&StraightMove::between(&leg[0], &leg[1]), &mut rest_at).unwrap();
+        assert!(found.iter().all(|of| of.least.margin() >= 0.0 && of.crossings.is_empty()), "{leg:?}");
+    }
+
+    // Nothing is found where the search may not look.
+    let none = around.free_way([&from, &to], &candidates, 1, &mut rest_at);
+    assert_eq!((none.through, none.moves), (None, 1));
+}

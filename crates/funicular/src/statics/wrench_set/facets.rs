@@ -22,7 +22,7 @@ pub(in crate::statics) fn facet_normals(columns: &[Vec6], dof: usize) -> Option<
         return None;
     }
 
-    let mut normals = Vec::new();
+    let mut normals = Vec::with_capacity(subsets(units.len(), dof - 1));
     let mut scalar = [0.0; BLADES];
     scalar[0] = 1.0;
     add_normals(&units, dof, 0, &scalar, &mut normals);
@@ -53,34 +53,76 @@ const BLADES: usize = 64;
 /// Exterior product of some columns: coefficients of sets of as many axes.
 type Blade = [f64; BLADES];
 
+/// Term of the exterior product with a column: the coefficient of `axes` gets that of `rest`, which lacks `axis`, times
+/// the component of the column along this axis.
+#[derive(Clone, Copy)]
+struct Term {
+    axes: usize,
+    rest: usize,
+    axis: usize,
+    sign: f64,
+}
+
+/// Number of axes.
+const AXES: usize = 6;
+
+/// Number of terms of the products of up to five columns.
+const TERM_COUNT: usize = 186;
+
+/// Terms by the number of axes of their sets, ascending, and the place of the first term of each number.
+const TERMS: ([Term; TERM_COUNT], [usize; AXES + 1]) = terms();
+
+const fn terms() -> ([Term; TERM_COUNT], [usize; AXES + 1]) {
+    let mut all = [Term { axes: 0, rest: 0, axis: 0, sign: 0.0 }; TERM_COUNT];
+    let mut first = [0; AXES + 1];
+    let (mut count, mut grade) = (0, 1);
+    while grade < AXES {
+        first[grade] = count;
+        let mut axes = 1;
+        while axes < BLADES {
+            let mut axis = 0;
+            while axis < AXES && axes.count_ones() as usize == grade {
+                if axes & (1 << axis) != 0 {
+                    let rest = axes ^ (1 << axis);
+                    all[count] = Term { axes, rest, axis, sign: sign(rest, axis) };
+                    count += 1;
+                }
+                axis += 1;
+            }
+            axes += 1;
+        }
+        grade += 1;
+    }
+    first[AXES] = count;
+    (all, first)
+}
+
 /// Adds the normals of all sets of columns that extend a product of `depth` columns by columns from `units`. Products
 /// of the first columns are shared, which makes 56 normals of eight cables a matter of microseconds.
-fn add_normals(units: &[Vec6], dof: usize, depth: u32, product: &Blade, normals: &mut Vec<Vec6>) {
-    let all = (1_usize << dof) - 1;
-    if depth as usize == dof - 1 {
-        let normal =
-            Vec6::from_fn(
-                |axis, _| {
-                    if axis < dof { sign(all ^ (1 << axis), axis) * product[all ^ (1 << axis)] } else { 0.0 }
-                },
-            );
+fn add_normals(units: &[Vec6], dof: usize, depth: usize, product: &Blade, normals: &mut Vec<Vec6>) {
+    let missing = dof - 1 - depth;
+    if missing == 0 {
+        let all = (1_usize << dof) - 1;
+        let component = |axis: usize| sign(all ^ (1 << axis), axis) * product[all ^ (1 << axis)];
+        let normal = Vec6::from_fn(|axis, _| if axis < dof { component(axis) } else { 0.0 });
         normals.extend(normal.try_normalize(DEPENDENT));
         return;
     }
-    for (i, unit) in units.iter().enumerate() {
+
+    let (all, first) = &TERMS;
+    let terms = &all[first[depth + 1]..first[depth + 2]];
+    // Later columns leave too few for a set.
+    for (i, unit) in units.iter().enumerate().take((units.len() + 1).saturating_sub(missing)) {
         let mut longer = [0.0; BLADES];
-        for axes in (1..=all).filter(|axes| axes.count_ones() == depth + 1) {
-            for axis in (0..dof).filter(|axis| axes & (1 << axis) != 0) {
-                let rest = axes ^ (1 << axis);
-                longer[axes] += sign(rest, axis) * product[rest] * unit[axis];
-            }
+        for term in terms {
+            longer[term.axes] += term.sign * product[term.rest] * unit[term.axis];
         }
         add_normals(&units[i + 1..], dof, depth + 1, &longer, normals);
     }
 }
 
 /// Sign of the product of a set of axes with a further axis: negative for an odd number of axes behind it.
-fn sign(axes: usize, axis: usize) -> f64 {
+const fn sign(axes: usize, axis: usize) -> f64 {
     if (axes >> axis).count_ones().is_multiple_of(2) { 1.0 } else { -1.0 }
 }
 

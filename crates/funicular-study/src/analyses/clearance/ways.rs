@@ -1,0 +1,62 @@
+//! Ways around: from pose to pose through others where the straight move touches.
+
+use super::{PoseRow, rest_at};
+use crate::at_rest::AtRest;
+use funicular::clearance::Surroundings;
+use funicular::math::Vec3;
+use funicular::robot::{PlatformMotion, Pose, Robot};
+use serde::Serialize;
+
+/// Number of positions along each axis of the lattice of poses through which a way may lead.
+const LATTICE: usize = 5;
+
+/// Maximum number of straight moves that a search examines: some ten seconds for a robot with eight sagging cables.
+const MOST_MOVES: usize = 1000;
+
+/// Way from the pose of the state to the end of a move.
+#[derive(Serialize)]
+pub struct WayAround {
+    /// Poses between both, in their order; absent if no way was found, which does not mean that there is none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub through: Option<Vec<PoseRow>>,
+    /// Number of straight moves that were examined.
+    pub moves_examined: usize,
+}
+
+impl WayAround {
+    /// Searches a way through a lattice of positions between the anchors, with the orientations of both ends.
+    pub(super) fn find(at_rest: &AtRest, around: &Surroundings, end: &Pose) -> Self {
+        let start = at_rest.equilibrium.pose;
+        let candidates = candidates(&at_rest.robot, [&start, end]);
+        let found = around.free_way([&start, end], &candidates, MOST_MOVES, &mut rest_at(at_rest));
+        Self {
+            through: found.through.map(|poses| poses.iter().map(PoseRow::of).collect()),
+            moves_examined: found.moves,
+        }
+    }
+}
+
+/// Poses of the lattice: inside the box of anchors and both poses, in the plane of a planar platform, each orientation of
+/// the ends once.
+fn candidates(robot: &Robot, ends: [&Pose; 2]) -> Vec<Pose> {
+    let corners = robot.cables.iter().map(|cable| cable.anchor.reference_w()).chain(ends.map(|pose| pose.position_w));
+    let (lower, upper) = corners.fold((ends[0].position_w, ends[0].position_w), |(lower, upper), corner| {
+        (lower.inf(&corner), upper.sup(&corner))
+    });
+    let turns = if ends[0].rot_wp == ends[1].rot_wp { 1 } else { 2 };
+
+    let at = |k: usize, i: usize| lower[k] + (upper[k] - lower[k]) * (i as f64 + 0.5) / LATTICE as f64;
+    let in_plane = |position_w: Vec3| match &robot.platform.motion {
+        PlatformMotion::Planar(plane) => {
+            let normal_w = plane.normal_w();
+            position_w - normal_w * normal_w.dot(&(position_w - ends[0].position_w))
+        }
+        PlatformMotion::Rigid | PlatformMotion::PointMass => position_w,
+    };
+    let mut poses = Vec::new();
+    for (i, j, k) in (0..LATTICE.pow(3)).map(|n| (n % LATTICE, n / LATTICE % LATTICE, n / LATTICE / LATTICE)) {
+        let position_w = in_plane(Vec3::new(at(0, i), at(1, j), at(2, k)));
+        poses.extend(ends[..turns].iter().map(|end| Pose { position_w, rot_wp: end.rot_wp }));
+    }
+    poses
+}

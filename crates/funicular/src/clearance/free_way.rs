@@ -1,0 +1,114 @@
+//! Ways on which nothing touches: whether a straight move is one, and a way through other poses where it is not.
+
+use super::moves::{MIN_STEP, Station, least_between};
+use super::{Clearance, Surroundings};
+use crate::path::StraightMove;
+use crate::robot::Pose;
+use crate::statics::Equilibrium;
+
+/// Search for a way between two poses.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FreeWay {
+    /// Poses between the first and the last one; `None` if no way was found, which does not mean that there is none.
+    pub through: Option<Vec<Pose>>,
+    /// Number of straight moves that were examined.
+    pub moves: usize,
+}
+
+impl Surroundings<'_> {
+    /// True if every pair keeps its required distance everywhere on a move; then no cables cross either. A move that
+    /// comes nearer to a limit than the finest step can tell counts as not free, and so does one with a pose that the
+    /// cables do not hold. `rest_at` gives the equilibrium at a pose.
+    ///
+    /// # References
+    /// docs/theory.md, equation (40u).
+    pub fn is_free_way<E>(
+        &self,
+        straight: &StraightMove,
+        rest_at: &mut dyn FnMut(&Pose) -> Result<Equilibrium, E>,
+    ) -> bool {
+        let mut station = |fraction: f64| {
+            let rest = rest_at(&straight.pose(fraction)).ok()?;
+            let station = self.station(fraction, &rest);
+            let is_free = station.clearances.iter().flatten().all(|of: &Clearance| of.margin() >= 0.0);
+            is_free.then_some((station, rest))
+        };
+        let Some((end, _)) = station(1.0) else { return false };
+        let Some((mut from, rest)) = station(0.0) else { return false };
+        let ways: Vec<f64> = self.at(&rest).pairs().iter().map(|pair| self.way_of(*pair, straight)).collect();
+
+        // The nearest end of the rest of the way comes last.
+        let mut ahead: Vec<Station> = vec![end];
+        while let Some(to) = ahead.last() {
+            if least_between(&from, to, &ways).all(|(_, least)| least >= 0.0) {
+                let Some(reached) = ahead.pop() else { break };
+                from = reached;
+                continue;
+            }
+            let middle = 0.5 * (from.fraction + to.fraction);
+            if to.fraction - from.fraction <= MIN_STEP {
+                return false;
+            }
+            let Some((middle, _)) = station(middle) else { return false };
+            ahead.push(middle);
+        }
+        true
+    }
+
+    /// Way from one pose to another along straight moves on which every pair keeps its distance: directly, through one
+    /// of the given poses, or through two of them, shorter ways first. At most `most` moves are examined.
+    pub fn free_way<E>(
+        &self,
+        [from, to]: [&Pose; 2],
+        candidates: &[Pose],
+        most: usize,
+        rest_at: &mut dyn FnMut(&Pose) -> Result<Equilibrium, E>,
+    ) -> FreeWay {
+        let mut moves = 0;
+        let mut is_free = |a: &Pose, b: &Pose| {
+            moves += 1;
+            (moves <= most).then(|| self.is_free_way(&StraightMove::between(a, b), rest_at))
+        };
+        let through = way_through([from, to], candidates, &mut is_free);
+        FreeWay { through, moves: moves.min(most) }
+    }
+}
+
+/// Poses between the ends of the first way that is free; `is_free` is `None` when the search shall end.
+fn way_through(
+    [from, to]: [&Pose; 2],
+    candidates: &[Pose],
+    is_free: &mut dyn FnMut(&Pose, &Pose) -> Option<bool>,
+) -> Option<Vec<Pose>> {
+    if is_free(from, to)? {
+        return Some(Vec::new());
+    }
+
+    let length = |a: &Pose, b: &Pose| (a.position_w - b.position_w).norm();
+    let mut sorted: Vec<&Pose> = candidates.iter().collect();
+    sorted.sort_by(|a, b| (length(from, a) + length(a, to)).total_cmp(&(length(from, b) + length(b, to))));
+    let (mut behind_first, mut before_last) = (Vec::new(), Vec::new());
+    for pose in sorted {
+        let (first, last) = (is_free(from, pose)?, is_free(pose, to)?);
+        if first && last {
+            return Some(vec![*pose]);
+        }
+        if first {
+            behind_first.push(pose);
+        }
+        if last {
+            before_last.push(pose);
+        }
+    }
+
+    let of_two = |[a, b]: [&Pose; 2]| length(from, a) + length(a, b) + length(b, to);
+    let mut pairs: Vec<[&Pose; 2]> =
+        behind_first.iter().flat_map(|a| before_last.iter().map(move |b| [*a, *b])).collect();
+    pairs.sort_by(|a, b| of_two(*a).total_cmp(&of_two(*b)));
+    for [a, b] in pairs {
+        if is_free(a, b)? {
+            return Some(vec![*a, *b]);
+        }
+    }
+    None
+}
