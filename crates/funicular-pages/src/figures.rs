@@ -17,6 +17,7 @@ pub(crate) mod hull;
 mod making;
 pub(crate) mod map;
 mod pdf;
+mod sections;
 mod settling;
 pub(crate) mod space;
 pub(crate) mod style;
@@ -24,7 +25,7 @@ pub(crate) mod supports;
 mod svg;
 pub(crate) mod view;
 
-pub use making::{RequestFigure, of_decay, of_request};
+pub use making::{RequestFigure, of_decay, of_request, of_sections};
 
 pub use crate::figure_style::{DEFAULT_FONT_SIZE_PT, DEFAULT_WIDTH_MM, FONT_SIZE_LIMITS_PT, WIDTH_LIMITS_MM, WIDTHS};
 

@@ -322,7 +322,7 @@ pub(crate) struct WorkspaceArgs {
     pub(crate) compare_set: Vec<Change>,
 
     #[command(flatten)]
-    pub(crate) sink: OutputArgs,
+    pub(crate) drawn: DrawArgs,
 
     /// Write the closed surface of the set [m] to FILE.stl, FILE.ply or FILE.vtp (ParaView); -o does the same with such a
     /// file (repeatable)

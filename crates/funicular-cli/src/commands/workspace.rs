@@ -1,9 +1,9 @@
 //! `workspace`: run on all cores, text, and files of the surface.
 
-use crate::args::{ChangeArgs, Cli, OutputArgs, WorkspaceArgs};
+use crate::args::{ChangeArgs, Cli, DrawArgs, FigureArgs, OutputArgs, WorkspaceArgs};
 use crate::errors::{self, Interrupted};
 use crate::interrupt::{STOPPED, stop_at_next_row};
-use crate::output::{Content, Printed, Sink, Target};
+use crate::output::{Content, FigureSink, Printed, Sink, Target};
 use crate::progress::Progress;
 use crate::robot_file;
 use crate::table::{Table, counted, short, significant, vector};
@@ -11,6 +11,7 @@ use anyhow::{Result, bail};
 use funicular_files::endings::Kind;
 use funicular_files::{Guard, WorkspaceRun, threads};
 use funicular_formats::surface::{self, SurfaceFormat};
+use funicular_pages::figures;
 use funicular_study::analyses::workspace::{
     ComparedSets, PartOfWorkspace, RaysOfWorkspace, VolumeRow, Workspace, WorkspaceStudy,
 };
@@ -44,24 +45,32 @@ pub(super) fn request(cli: &Cli, further: Map<String, Value>) -> Result<Request>
 
 /// Runs `workspace`: prints the result, writes the surface and the page. `-o` may name either of them.
 pub(super) fn run(of: &WorkspaceRequest, args: &WorkspaceArgs, guard: &mut Guard) -> Result<()> {
-    let output = args.sink.output_file.as_deref().filter(|_| args.sink.format.is_none());
+    let DrawArgs { output: sink, figure } = &args.drawn;
+    let output = sink.output_file.as_deref().filter(|_| sink.format.is_none());
     let to_surface = output.filter(|path| format_of(path).is_some());
     let to_page = output.filter(|path| Kind::of(path) == Some(Kind::Html));
     if let (Some(_), Some(_)) = (to_page, &args.page) {
         bail!("⟪page⟫ and -o name a page each: leave out one of them");
     }
 
-    let is_elsewhere = to_surface.is_some() || to_page.is_some();
-    let printed =
-        OutputArgs { format: args.sink.format, output_file: args.sink.output_file.clone().filter(|_| !is_elsewhere) };
-    let sink = Sink::open(&printed, &[&SURFACES[..], &[Kind::Html]].concat(), guard)?;
+    let drawn = FigureSink::open(output, *figure, guard)?;
+    let is_elsewhere = to_surface.is_some() || to_page.is_some() || drawn.is_some();
+    let printed = OutputArgs { format: sink.format, output_file: sink.output_file.clone().filter(|_| !is_elsewhere) };
+    let sink = Sink::open(&printed, &[&SURFACES[..], &[Kind::Html, Kind::Svg, Kind::Pdf]].concat(), guard)?;
     let surfaces = to_surface.into_iter().chain(args.surface.iter().map(PathBuf::as_path));
     let surfaces = surfaces.map(|path| open_surface(path, guard)).collect::<Result<Vec<_>>>()?;
     let page = to_page.or(args.page.as_deref());
     let page = page.map(|path| anyhow::Ok((Target::open(Some(path), Content::PAGE, guard)?, path))).transpose()?;
 
-    let found = compute(of, args.threads)?;
+    let study = WorkspaceStudy::new(of.robot.read()?.robot, of)?;
+    if drawn.is_some() && !study.has_sections() {
+        bail!("a figure of a workspace shows its sections: give ⟪section⟫, as in z=0.5,1,1.5");
+    }
+    let found = compute(&study, args.threads)?;
     sink.write(&found)?;
+    if let Some(drawn) = drawn {
+        drawn.write(&figures::of_sections(&found)?)?;
+    }
     for (target, format, path) in surfaces {
         target.write(&surface::of_workspace(&found, format)?)?;
         errors::note(&format!("{} in {}", counted(found.triangles.len(), "triangle"), path.display()));
@@ -79,9 +88,10 @@ pub(super) fn run(of: &WorkspaceRequest, args: &WorkspaceArgs, guard: &mut Guard
 
 /// Runs a request and prints its results, or writes its surface or page.
 pub(super) fn print(of: &WorkspaceRequest, output: &OutputArgs, guard: &mut Guard) -> Result<()> {
-    let sink = OutputArgs { format: output.format, output_file: output.output_file.clone() };
+    let output = OutputArgs { format: output.format, output_file: output.output_file.clone() };
+    let drawn = DrawArgs { output, figure: FigureArgs::default() };
     let nothing =
-        WorkspaceArgs { compare: None, compare_set: Vec::new(), sink, surface: Vec::new(), page: None, threads: None };
+        WorkspaceArgs { compare: None, compare_set: Vec::new(), drawn, surface: Vec::new(), page: None, threads: None };
     run(of, &nothing, guard)
 }
 
@@ -100,15 +110,14 @@ fn open_surface<'a>(path: &'a Path, guard: &mut Guard) -> Result<(Target, Surfac
 }
 
 /// Finds the workspace on all cores.
-fn compute(of: &WorkspaceRequest, threads: Option<NonZeroUsize>) -> Result<Workspace> {
-    let study = WorkspaceStudy::new(of.robot.read()?.robot, of)?;
+fn compute(study: &WorkspaceStudy, threads: Option<NonZeroUsize>) -> Result<Workspace> {
     stop_at_next_row()?;
     let mut bar: Option<Progress> = None;
     let mut progress = |done: usize, total: usize, what: &'static str| {
         bar.get_or_insert_with(|| Progress::with_rate(total, what)).reach(done, total);
     };
     let run = WorkspaceRun { threads: threads::or_all(threads), cancel: &STOPPED };
-    let found = run.run(&study, &mut progress)?;
+    let found = run.run(study, &mut progress)?;
     found.ok_or_else(|| Interrupted("stopped before anything was found".to_owned()).into())
 }
 
@@ -122,20 +131,36 @@ impl Printed for Workspace {
         line("conditions", &conditions.join(", "));
         line("orientations", &orientation_text(self));
         let volume = self.volume();
-        line("volume", &format!("{} m³{}", significant(volume.volume_m3, 6), change_text(self)));
-        line("area", &format!("{} m²", significant(volume.area_m2.unwrap_or(0.0), 6)));
+        match &self.plane {
+            Some(plane) => {
+                line("plane", &format!("{} = {} m", plane.axis, short(plane.at_m, 6)));
+                line("area", &format!("{} m²{}", significant(plane.area_m2, 6), change_text(self)));
+            }
+            None => {
+                line("volume", &format!("{} m³{}", significant(volume.volume_m3, 6), change_text(self)));
+                line("area", &format!("{} m²", significant(volume.area_m2.unwrap_or(0.0), 6)));
+            }
+        }
         if let Some(centroid) = volume.centroid_m {
             line("centroid", &format!("({}) m", vector(&centroid, 4)));
         }
         let [low, high] = self.bounds_m;
         line("reaches from", &format!("({}) m to ({}) m", vector(&low, 4), vector(&high, 4)));
-        line("parts", &pieces_text(&self.parts));
-        line("holes", &pieces_text(&self.holes));
+        match &self.plane {
+            Some(plane) => {
+                line("parts", &plane.parts.to_string());
+                line("holes", &plane.holes.to_string());
+            }
+            None => {
+                line("parts", &pieces_text(&self.parts));
+                line("holes", &pieces_text(&self.holes));
+            }
+        }
         line("box of the grid", &box_text(self));
         let steps: Vec<String> = self.grid.step_m.iter().map(|step| short(*step, 4)).collect();
         let first = short(self.grid.first_step_m, 4);
         line("steps", &format!("{} m; parts and holes between steps of {first} m can be missed", steps.join(", ")));
-        if let Some(inner) = &self.inner_box {
+        if let Some(inner) = self.inner_box.as_ref().filter(|_| self.plane.is_none()) {
             let (low, high) = (vector(&inner.lower_m, 3), vector(&inner.upper_m, 3));
             line(
                 "box inside",
@@ -144,6 +169,9 @@ impl Printed for Workspace {
         }
         line("evaluations", &self.evaluations.to_string());
 
+        if self.plane.is_some() {
+            return text + &self.compared.as_ref().map_or_else(String::new, |of| compared_text(of, "m²"));
+        }
         let _ = write!(text, "\n{}", Table::of(&VolumeRow::columns(), &self.volumes));
         if !self.sections.is_empty() {
             let _ = write!(text, "\n{}", sections(self));
@@ -152,7 +180,7 @@ impl Printed for Workspace {
             text += &rays_text(rays);
         }
         if let Some(compared) = &self.compared {
-            text += &compared_text(compared);
+            text += &compared_text(compared, "m³");
         }
         text
     }
@@ -190,6 +218,9 @@ fn box_text(of: &Workspace) -> String {
     let (low, high) = (vector(&of.grid.lower_m, 3), vector(&of.grid.upper_m, 3));
     let touches = match of.touches[..] {
         [] => "not reached".to_owned(),
+        ref faces if of.plane.is_some() => {
+            format!("reached at {}, where {} m are cut", faces.join(", "), significant(of.cut_area_m2, 4))
+        }
         ref faces => format!("reached at {}, where {} m² are cut", faces.join(", "), significant(of.cut_area_m2, 4)),
     };
     format!("({low}) m to ({high}) m, {touches}")
@@ -214,9 +245,10 @@ fn rays_text(rays: &RaysOfWorkspace) -> String {
     )
 }
 
-fn compared_text(of: &ComparedSets) -> String {
+fn compared_text(of: &ComparedSets, unit: &str) -> String {
     format!(
-        "\nCompared with {}, on the same grid: {} m³; common to both {} m³, only here {} m³, only there {} m³.\n",
+        "\nCompared with {}, on the same grid: {} {unit}; common to both {} {unit}, only here {} {unit}, only there {} \
+         {unit}.\n",
         of.other,
         significant(of.other_volume_m3, 6),
         significant(of.common_volume_m3, 6),

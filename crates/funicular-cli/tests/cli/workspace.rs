@@ -149,8 +149,14 @@ fn what_cannot_be_searched_is_refused_with_what_to_give() {
     assert!(many.status.code() == Some(2) && stderr(&many).contains("are too many"), "{}", stderr(&many));
     let listed = run(&["workspace", &cube, "--grid", "x=0,1"]);
     assert!(listed.status.code() == Some(2) && stderr(&listed).contains("needs a range"), "{}", stderr(&listed));
-    let planar = run(&["workspace", &robot("kntu-planar.toml")]);
-    assert!(planar.status.code() == Some(2) && stderr(&planar).contains("planar"), "{}", stderr(&planar));
+    for (more, says) in [
+        (["--grid", "z=-1:1:9"], "leave this axis out"),
+        (["--rays", "18"], "leave out --rays"),
+        (["--section", "z=0"], "leave out --section"),
+    ] {
+        let planar = run(&[&["workspace", &robot("kntu-planar.toml")][..], &more].concat());
+        assert!(planar.status.code() == Some(2) && stderr(&planar).contains(says), "{}", stderr(&planar));
+    }
 
     let nothing = run(&words(&cube, &["--at-least", "unstrained_length_1_m=9"]));
     assert!(nothing.status.code() == Some(1) && stderr(&nothing).contains("no position"), "{}", stderr(&nothing));
@@ -197,4 +203,27 @@ fn what_the_grid_leaves_open_is_said() {
     assert!(coarse.contains("the grid is coarse for this set"), "{coarse}");
     let alone = warned(&["workspace", &cube, "--static-model", "ideal", "--grid", "x=-1.2:1.2:10"]);
     assert!(alone.contains("a multiple of 4"), "{alone}");
+}
+
+/// The set of a planar platform is an area: that of the cells of a map, to the error of counting cells.
+#[test]
+fn a_planar_platform_has_an_area() {
+    let kntu = robot("kntu-planar.toml");
+    let found = json(&["workspace", &kntu, "--step-m", "0.05"]);
+    let area = number(&found["plane"]["area_m2"]);
+    let folder = tempfile::tempdir().unwrap();
+    let rows = folder.path().join("rows.csv").display().to_string();
+    let grid = ["--grid", "x=-1.11:1.11:112", "--grid", "y=-1.04:1.04:105", "-o", &rows];
+    succeed(&[&["map", &kntu, "--grid", "z=0"][..], &grid].concat());
+    let text = std::fs::read_to_string(&rows).unwrap();
+    let counted =
+        text.lines().filter(|line| line.contains(",ok,") || line.ends_with(",ok")).count() as f64 * 0.02 * 0.02;
+    assert!(area > 1.0 && (area / counted - 1.0).abs() < 0.02, "{area} {counted}");
+
+    let text = stdout(&run(&["workspace", &kntu, "--step-m", "0.05"])).to_owned();
+    assert!(text.contains("plane             z = 0 m") && !text.contains("m³"), "{text}");
+    let figure = folder.path().join("area.svg").display().to_string();
+    succeed(&["workspace", &kntu, "--step-m", "0.1", "-o", &figure]);
+    let svg = std::fs::read_to_string(&figure).unwrap();
+    assert!(svg.contains("<svg") && svg.contains("anchor"), "{svg}");
 }

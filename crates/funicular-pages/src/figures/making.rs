@@ -5,7 +5,7 @@ use super::chart::{Chart, Entry, Layer, Panel, Sample};
 use super::drawing::{BLACK, Stroke};
 use super::space::{RobotShape, Space};
 use super::style::{self, GREY, ModelStyle, Symbol};
-use super::{Figure, FigureChoice, FigureContent, gusts, settling};
+use super::{Figure, FigureChoice, FigureContent, gusts, sections, settling};
 use crate::figure_style::{MODE_TICKS, ModeTick, rgb};
 use anyhow::{Result, bail};
 use funicular::cable::CableModel;
@@ -17,6 +17,7 @@ use funicular::robot::Robot;
 use funicular_study::Watch;
 use funicular_study::analyses::modes::with_rigid_cables;
 use funicular_study::analyses::settle::Settled;
+use funicular_study::analyses::workspace::Workspace;
 use funicular_study::analyses::{compare, frf, gust, settle, statics};
 use funicular_study::at_rest::{self, AtRest, ModesBelow};
 use funicular_study::names::Named;
@@ -60,8 +61,8 @@ pub fn of_request(
         }
         Request::Compare(of) => comparison(robot, of),
         other => bail!(
-            "`{}` has no figure of its own: `statics`, `modes`, `frf`, `settle`, `gust`, `compare` and `plot` write \
-             .svg and .pdf; give another ending",
+            "`{}` has no figure of its own: `statics`, `modes`, `frf`, `settle`, `gust`, `workspace`, `compare` and `plot` \
+             write .svg and .pdf; give another ending",
             other.command()
         ),
     }
@@ -70,6 +71,14 @@ pub fn of_request(
 /// Makes the figure of a decay that has been computed before.
 pub fn of_decay(found: &Settled) -> Figure {
     Figure(FigureContent::Chart(settling::chart(found)))
+}
+
+/// Makes the figure of the sections of a workspace.
+///
+/// # Errors
+/// No section, or sections along several axes.
+pub fn of_sections(found: &Workspace) -> Result<Figure> {
+    Ok(Figure(FigureContent::Chart(sections::chart(found)?)))
 }
 
 fn chart(chart: Chart, warnings: Vec<String>) -> RequestFigure {

@@ -46,12 +46,21 @@ pub fn page(found: &Workspace, command_line: String) -> anyhow::Result<String> {
         shell: Shell::new(format!("{}: workspace", found.robot), contents),
         found,
         conditions: found.conditions.iter().map(ToString::to_string).collect::<Vec<_>>().join(", "),
-        summary: format!(
-            "{} m³ with steps of {} m, with {} cables.",
-            significant(volume.volume_m3, 5),
-            short(volume.step_m, 4),
-            found.static_model
-        ),
+        summary: match &found.plane {
+            Some(plane) => format!(
+                "{} m² in the plane {} = {} m, with {} cables. The surface and its volumes are those of a slab of 1 m.",
+                significant(plane.area_m2, 5),
+                plane.axis,
+                short(plane.at_m, 4),
+                found.static_model
+            ),
+            None => format!(
+                "{} m³ with steps of {} m, with {} cables.",
+                significant(volume.volume_m3, 5),
+                short(volume.step_m, 4),
+                found.static_model
+            ),
+        },
         surface: surface(found),
         volumes: volumes(found),
         pieces: pieces(found),

@@ -1,7 +1,6 @@
 //! Rows over time of poses or of unstrained lengths, from a table.
 
 use crate::at_rest::check_pose;
-use crate::names::suggestion;
 use crate::request::NumberColumns;
 use crate::table_fault::TableFault;
 use crate::values::{finite, positive};
@@ -39,18 +38,15 @@ impl TimedRows {
     /// The first fault: a column that is missing or unknown, fewer than two rows, times that do not rise, a pose that
     /// the platform cannot have, or a length that is none.
     pub(super) fn read(key: &'static str, columns: &NumberColumns, robot: &Robot) -> Result<Self, TableFault> {
-        let fault = |text: String| TableFault { key, row: None, text };
+        let fault = |text: String| TableFault::of_table(key, text);
         let of_lengths: Vec<String> =
             robot.cables.iter().map(|cable| format!("unstrained_length_{}_m", cable.name)).collect();
         let known: Vec<String> =
             [TIME].iter().chain(&POSE).map(|name| (*name).to_owned()).chain(of_lengths.clone()).collect();
-        if let Some(unknown) = columns.keys().find(|name| !known.contains(name)) {
-            return Err(fault(format!(
-                "there is a column `{unknown}`{}: a trajectory has {TIME}, and either x_m, y_m, z_m, roll_deg, pitch_deg, \
-                 yaw_deg or unstrained_length_NAME_m of every cable; drop other columns",
-                suggestion(unknown, &known)
-            )));
-        }
+        let wanted = "a trajectory has t_s, and either x_m, y_m, z_m, roll_deg, pitch_deg, yaw_deg or \
+                      unstrained_length_NAME_m of every cable";
+        TableFault::refuse_unknown(key, columns, &known, wanted)?;
+        TableFault::refuse_uneven(key, columns)?;
         let is_there = |name: &str| columns.contains_key(name);
         let [poses, lengths] = [POSE.iter().any(|name| is_there(name)), of_lengths.iter().any(|name| is_there(name))];
         let holds = match (poses, lengths) {
@@ -82,14 +78,9 @@ impl TimedRows {
         robot: &Robot,
     ) -> Result<Self, TableFault> {
         let count = columns[TIME].len();
-        if let Some((name, values)) = columns.iter().find(|(_, values)| values.len() != count) {
-            let text =
-                format!("`{name}` has {} values and `{TIME}` {count}: give as many in all columns", values.len());
-            return Err(TableFault { key, row: None, text });
-        }
         if count < 2 || count as f64 > MAX_SAMPLES {
             let text = format!("there are {count} rows: give at least two and at most {MAX_SAMPLES}");
-            return Err(TableFault { key, row: None, text });
+            return Err(TableFault::of_table(key, text));
         }
         let value = |name: &str, row: usize| columns.get(name).map_or(0.0, |values| values[row]);
         let rows = Self {

@@ -7,7 +7,8 @@ mod study;
 
 pub use conditions::ConditionRow;
 pub use rows::{
-    ComparedSets, GridOfWorkspace, InnerBox, PartOfWorkspace, RaysOfWorkspace, SectionOfWorkspace, VolumeRow, Workspace,
+    AreaOfWorkspace, ComparedSets, GridOfWorkspace, InnerBox, PartOfWorkspace, RaysOfWorkspace, SectionOfWorkspace,
+    VolumeRow, Workspace,
 };
 pub use study::{EvaluateSet, SearchedSet, WorkspaceStudy};
 

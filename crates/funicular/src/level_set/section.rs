@@ -57,8 +57,9 @@ impl BoundaryMesh {
     }
 }
 
-/// Area of a polygon in a plane at right angles to an axis, positive counterclockwise.
-fn signed_area(polygon: &[Vec3], axis: usize) -> f64 {
+/// Area of a polygon in a plane at right angles to axis 0, 1 or 2 [m²], positive counterclockwise: for the polygons of a
+/// section, positive around the set and negative around holes.
+pub fn signed_area(polygon: &[Vec3], axis: usize) -> f64 {
     let first = polygon.first().copied().unwrap_or_default();
     let pairs = polygon.iter().zip(polygon.iter().skip(1));
     0.5 * pairs.map(|(a, b)| (a - first).cross(&(b - first))[axis]).sum::<f64>()

@@ -7,6 +7,9 @@ use crate::text::significant;
 use anyhow::{Result, bail};
 use funicular::robot::{MeasuredSpectrum, MeasuredSpectrumError, Robot, Turbulence, TurbulenceSpectrum};
 
+/// Key of the table.
+const KEY: &str = "spectrum";
+
 /// Columns: frequency, and the densities along the mean wind, lateral and up.
 const FREQUENCY: &str = "frequency_hz";
 const DENSITIES: [&str; 3] = ["along_m2_s", "lateral_m2_s", "up_m2_s"];
@@ -25,27 +28,22 @@ pub fn check(columns: &NumberColumns) -> Result<(), TableFault> {
 }
 
 fn read(columns: &NumberColumns) -> Result<MeasuredSpectrum, TableFault> {
-    let fault = |row: Option<usize>, text: String| TableFault { key: "spectrum", row, text };
-    let names = || [FREQUENCY].into_iter().chain(DENSITIES);
-    if let Some(unknown) = columns.keys().find(|name| !names().any(|known| known == name.as_str())) {
-        let all = names().collect::<Vec<_>>().join(", ");
-        return Err(fault(None, format!("there is a column `{unknown}`: give {all}, and drop others")));
-    }
-    if let Some(missing) = names().find(|name| !columns.contains_key(*name)) {
+    let names: Vec<String> = [FREQUENCY].iter().chain(&DENSITIES).map(|name| (*name).to_owned()).collect();
+    TableFault::refuse_unknown(KEY, columns, &names, &format!("measured spectra have {}", names.join(", ")))?;
+    if let Some(missing) = names.iter().find(|name| !columns.contains_key(*name)) {
         let text = format!("there is no column `{missing}`: a component that was not measured has zeros");
-        return Err(fault(None, text));
+        return Err(TableFault::of_table(KEY, text));
     }
+    TableFault::refuse_uneven(KEY, columns)?;
+
     let frequencies = &columns[FREQUENCY];
-    if let Some(name) = DENSITIES.iter().find(|name| columns[**name].len() != frequencies.len()) {
-        return Err(fault(None, format!("`{name}` has another number of values than `{FREQUENCY}`")));
-    }
     let densities = (0..frequencies.len()).map(|row| DENSITIES.map(|name| columns[name][row])).collect();
     MeasuredSpectrum::new(frequencies.clone(), densities).map_err(|error| {
         let row = match error {
             MeasuredSpectrumError::Rows { .. } => None,
             MeasuredSpectrumError::Falling { row, .. } | MeasuredSpectrumError::Density { row, .. } => Some(row),
         };
-        fault(row, error.to_string())
+        TableFault { key: KEY, row, text: error.to_string() }
     })
 }
 

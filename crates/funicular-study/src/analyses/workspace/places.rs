@@ -19,12 +19,46 @@ const MAX_ORIENTATIONS: usize = 10_000;
 /// Maximum number of sections.
 const MAX_SECTIONS: usize = 1000;
 
-/// Grid of positions of a request. Sides that the request does not give reach from the least to the greatest coordinate
+/// Thickness of the slab that stands for the plane of a planar platform [m]: its volume in m³ is the area in m².
+pub(super) const THICKNESS: f64 = 1.0;
+
+/// Plane in which a planar platform moves: the number of the axis at right angles to it, and its coordinate there [m].
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct PlaneOfMotion {
+    pub(super) axis: usize,
+    pub(super) at: f64,
+}
+
+impl PlaneOfMotion {
+    /// Plane of a robot; `None` for a platform that moves in space.
+    ///
+    /// # Errors
+    /// A plane at an angle to the axes of the world.
+    fn of(robot: &Robot) -> Result<Option<Self>> {
+        let PlatformMotion::Planar(plane) = &robot.platform.motion else { return Ok(None) };
+        let normal = plane.normal_w();
+        let Some(axis) = (0..3).find(|k| normal[*k].abs() == 1.0) else {
+            bail!(
+                "the plane of the platform is at an angle to the axes of the world, along which the grid is: use \
+                 `funicular map` with ⟪poses⟫ in the plane"
+            );
+        };
+        Ok(Some(Self { axis, at: plane.offset() * normal[axis] }))
+    }
+
+    /// The position in the plane that stands for all beside it.
+    pub(super) fn project(&self, mut position: Vec3) -> Vec3 {
+        position[self.axis] = self.at;
+        position
+    }
+}
+
+/// Grid of positions of a request, and the plane of a planar platform, which the grid covers as a slab. Sides that the request does not give reach from the least to the greatest coordinate
 /// of the anchors and the origin.
 ///
 /// # Errors
 /// An axis that is given twice or is no range, a box without a side, or too many nodes.
-pub(super) fn grid(request: &WorkspaceRequest, robot: &Robot) -> Result<PointGrid> {
+pub(super) fn grid(request: &WorkspaceRequest, robot: &Robot) -> Result<(PointGrid, Option<PlaneOfMotion>)> {
     if let Some(step) = request.step_m {
         check_positive("step_m", step)?;
     }
@@ -40,13 +74,26 @@ pub(super) fn grid(request: &WorkspaceRequest, robot: &Robot) -> Result<PointGri
         }
     }
 
+    let plane = PlaneOfMotion::of(robot)?;
+    if let Some(PlaneOfMotion { axis, at }) = plane {
+        let slab = (at - 0.5 * THICKNESS, at + 0.5 * THICKNESS, FIRST_STRIDE);
+        if sides[axis].replace(slab).is_some() {
+            bail!(
+                "⟪grid⟫ {}: the platform stays in the plane {} = {at} m; leave this axis out",
+                AXES[axis],
+                AXES[axis]
+            );
+        }
+    }
+
     let anchors: Vec<Vec3> = robot.cables.iter().map(|cable| cable.anchor.reference_w()).collect();
     let corner = |choose: fn(f64, f64) -> f64, k: usize| anchors.iter().map(|anchor| anchor[k]).fold(0.0, choose);
     let ends: [(f64, f64); 3] = std::array::from_fn(|k| match sides[k] {
         Some((from, to, _)) => (from, to),
         None => (corner(f64::min, k), corner(f64::max, k)),
     });
-    let longest = ends.iter().map(|(from, to)| to - from).fold(0.0, f64::max);
+    let in_space = (0..3).filter(|k| plane.is_none_or(|plane| plane.axis != *k));
+    let longest = in_space.map(|k| ends[k].1 - ends[k].0).fold(0.0, f64::max);
     let step = request.step_m.unwrap_or(longest / STEPS);
     let mut counts = [0; 3];
     for k in 0..3 {
@@ -61,12 +108,13 @@ pub(super) fn grid(request: &WorkspaceRequest, robot: &Robot) -> Result<PointGri
     }
 
     let [lower, upper] = [ends.map(|end| end.0), ends.map(|end| end.1)].map(Vec3::from);
-    PointGrid::new(lower, upper, counts).ok_or_else(|| {
+    let grid = PointGrid::new(lower, upper, counts).ok_or_else(|| {
         let [x, y, z] = counts.map(|count| count + 1);
         anyhow!(
             "⟪grid⟫: {x} x {y} x {z} nodes are too many: give at most {MAX_NODES}, with larger steps or a smaller box"
         )
-    })
+    })?;
+    Ok((grid, plane))
 }
 
 /// Orientations at each position, in the order of a map: all combinations of the angles of the grid, or else that of the
@@ -119,10 +167,12 @@ pub(super) fn check(request: &WorkspaceRequest, robot: &Robot) -> Result<()> {
         bail!("⟪grid⟫: there is no axis `{}`: give x, y, z, roll, pitch or yaw", axis.name());
     }
     if matches!(robot.platform.motion, PlatformMotion::Planar(_)) {
-        bail!(
-            "a planar platform has no volume to move in: use `funicular map` with a ⟪grid⟫ of its plane, whose column \
-             `feasible` shows the area"
-        );
+        if request.rays.is_some() {
+            bail!("rays fill a volume, and a planar platform has an area: leave out ⟪rays⟫");
+        }
+        if !request.section.is_empty() {
+            bail!("the set of a planar platform is a section itself: leave out ⟪section⟫");
+        }
     }
     if robot.constraint().is_under() {
         bail!(
@@ -146,12 +196,12 @@ pub(super) fn sphere(count: usize) -> Result<Sphere> {
     })
 }
 
-/// Planes of the sections: number of the axis and coordinate [m].
+/// Planes of the sections, that of a planar platform among them: number of the axis and coordinate [m].
 ///
 /// # Errors
 /// An axis that is no axis of positions, or a plane beyond the box.
-pub(super) fn sections(given: &[Axis], grid: &PointGrid) -> Result<Vec<(usize, f64)>> {
-    let mut planes = Vec::new();
+pub(super) fn sections(given: &[Axis], grid: &PointGrid, plane: Option<PlaneOfMotion>) -> Result<Vec<(usize, f64)>> {
+    let mut planes: Vec<(usize, f64)> = plane.iter().map(|plane| (plane.axis, plane.at)).collect();
     for axis in given {
         let Some(k) = AXES[..3].iter().position(|name| *name == axis.name()) else {
             bail!("⟪section⟫ {}: a section is at right angles to x, y or z", axis.name());

@@ -1,12 +1,15 @@
 //! Results of a workspace.
 
 use super::conditions::ConditionRow;
+use super::places::{PlaneOfMotion, THICKNESS};
 use crate::analyses::fields::AXES;
 use crate::analyses::found;
 use crate::columns::{Columns, ResultTable, Tabled, column, parts};
 use crate::table::Column;
 use crate::text::{counted, significant};
-use funicular::level_set::{BOX_FACES, BoundaryMesh, LevelSet, PointGrid, RaySet, RaysInBox, SearchEnd, SetPart};
+use funicular::level_set::{
+    BOX_FACES, BoundaryMesh, LevelSet, PointGrid, RaySet, RaysInBox, SearchEnd, SetPart, signed_area,
+};
 use funicular::math::{Rotation, Vec3, rotation};
 use serde::Serialize;
 
@@ -23,6 +26,9 @@ pub struct Workspace {
     /// Roll, pitch and yaw of every orientation, and which of them have to be possible: `all` or `some`.
     pub roll_pitch_yaw_deg: Vec<[f64; 3]>,
     pub orientations: &'static str,
+    /// Plane of a planar platform, in which the set is an area; absent in space. Volumes are those of a slab of 1 m.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub plane: Option<AreaOfWorkspace>,
     pub grid: GridOfWorkspace,
     /// True if everything was found: otherwise the work was stopped before the steps were as small as requested, or
     /// before the vertices had their places.
@@ -59,6 +65,34 @@ pub struct Workspace {
     pub anchors: Vec<Vec3>,
     #[serde(skip)]
     pub warnings: Vec<String>,
+}
+
+/// Set of a planar platform.
+#[derive(Serialize)]
+pub struct AreaOfWorkspace {
+    /// Axis at right angles to the plane, and coordinate of the plane.
+    pub axis: &'static str,
+    pub at_m: f64,
+    pub area_m2: f64,
+    /// Numbers of parts that do not touch each other, and of holes.
+    pub parts: usize,
+    pub holes: usize,
+}
+
+impl AreaOfWorkspace {
+    /// Set in a plane, from the slab that stands for it and its section.
+    fn of(plane: PlaneOfMotion, slab: &BoundaryMesh) -> Self {
+        let section = slab.section(plane.axis, plane.at);
+        let (parts, holes): (Vec<_>, Vec<_>) =
+            section.polygons.iter().partition(|polygon| signed_area(polygon, plane.axis) > 0.0);
+        Self {
+            axis: AXES[plane.axis],
+            at_m: plane.at,
+            area_m2: slab.volume() / THICKNESS,
+            parts: parts.len(),
+            holes: holes.len(),
+        }
+    }
 }
 
 /// Grid on which a set was found.
@@ -181,6 +215,8 @@ pub(super) struct WantedSet<'a> {
     /// True if the set is wanted along rays, and if it is compared with another one.
     pub(super) with_rays: bool,
     pub(super) with_other: bool,
+    /// Plane of a planar platform.
+    pub(super) plane: Option<PlaneOfMotion>,
 }
 
 impl Workspace {
@@ -198,9 +234,14 @@ impl Workspace {
             std::iter::once(VolumeRow::of_grid(surface, step(set, strides[0]))).chain(coarser).collect();
         volumes.extend(rays.as_mut().into_iter().flat_map(|rays| std::mem::take(&mut rays.volumes)));
 
-        let touches = set.touches();
+        // The slab of a planar platform ends at its faces, which are no border of the set.
+        let beside = |face: &str| wanted.plane.is_some_and(|plane| face.ends_with(AXES[plane.axis]));
+        let touches = BOX_FACES.into_iter().zip(set.touches());
+        let touches = touches.filter(|(face, touches)| *touches && !beside(face)).map(|(face, _)| face).collect();
+        let of_faces = wanted.plane.map_or(0.0, |_| 2.0 * surface.volume() / THICKNESS);
         let grid = set.grid();
-        let bounds = surface.bounds().unwrap_or([Vec3::zeros(); 2]);
+        let in_plane = |corner: Vec3| wanted.plane.map_or(corner, |plane| plane.project(corner));
+        let bounds = surface.bounds().unwrap_or([Vec3::zeros(); 2]).map(in_plane);
         let section = |(axis, at): &(usize, f64)| SectionOfWorkspace::of(surface, *axis, *at);
         Self {
             robot: wanted.robot.to_owned(),
@@ -208,6 +249,7 @@ impl Workspace {
             conditions: wanted.conditions.to_vec(),
             roll_pitch_yaw_deg: wanted.orientations.0.iter().map(rotation::to_roll_pitch_yaw_deg).collect(),
             orientations: wanted.orientations.1,
+            plane: wanted.plane.map(|plane| AreaOfWorkspace::of(plane, surface)),
             grid: GridOfWorkspace {
                 lower_m: grid.lower().into(),
                 upper_m: grid.upper().into(),
@@ -224,10 +266,10 @@ impl Workspace {
             volumes,
             parts: surface.parts().into_iter().map(PartOfWorkspace::of).collect(),
             holes: surface.holes().into_iter().map(PartOfWorkspace::of).collect(),
-            touches: BOX_FACES.into_iter().zip(touches).filter(|(_, touches)| *touches).map(|(face, _)| face).collect(),
-            cut_area_m2: surface.cut_area(),
+            touches,
+            cut_area_m2: (surface.cut_area() - of_faces).max(0.0),
             bounds_m: bounds.map(Into::into),
-            inner_box: set.inner_box().map(InnerBox::of),
+            inner_box: set.inner_box().filter(|_| wanted.plane.is_none()).map(InnerBox::of),
             sections: wanted.sections.iter().map(section).collect(),
             rays,
             compared,

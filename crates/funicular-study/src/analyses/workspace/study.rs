@@ -1,7 +1,7 @@
 //! Search of a workspace, apart from the threads that evaluate its poses.
 
 use super::conditions::Conditions;
-use super::places;
+use super::places::{self, PlaneOfMotion};
 use super::rows::{ComparedSets, RaysOfWorkspace, WantedSet, Workspace, first_step};
 use crate::error::NoSolution;
 use crate::names::{Named, OrientationRule};
@@ -12,9 +12,10 @@ use funicular::level_set::{BoundaryMesh, Evaluate, LevelSet, PointGrid, RaySet, 
 use funicular::math::{Rotation, Vec3};
 use funicular::robot::{Pose, Robot};
 use funicular::warnings;
+use std::collections::{HashMap, HashSet};
 
 /// Set whose positions are evaluated.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum SearchedSet {
     /// That of the robot.
     Own,
@@ -39,6 +40,7 @@ pub struct WorkspaceStudy {
     own: JudgedRobot,
     other: Option<JudgedRobot>,
     grid: PointGrid,
+    plane: Option<PlaneOfMotion>,
     orientations: Vec<Rotation>,
     rule: OrientationRule,
     /// Tolerance of vertices and of ends of rays [m].
@@ -67,16 +69,23 @@ impl WorkspaceStudy {
             JudgedRobot::new(robot, request)
         });
         let other = other.transpose().map_err(|error| error.context("⟪compare⟫"))?;
-        let grid = places::grid(request, &own.robot)?;
+        let (grid, plane) = places::grid(request, &own.robot)?;
         let orientations = places::orientations(request, &own.robot)?;
-        let sections = places::sections(&request.section, &grid)?;
+        let sections = places::sections(&request.section, &grid, plane)?;
         let rays = request.rays.map(places::sphere).transpose()?;
         let rays = rays.map(|sphere| (sphere, request.center_m.map(Vec3::from)));
         // A vertex that is interpolated to this is mostly a hundred times nearer, and the chords between vertices miss a
         // curved surface by more.
-        let tolerance = request.vertex_tolerance_m.unwrap_or(0.01 * grid.step().min());
+        let step = grid.step();
+        let in_space = (0..3).filter(|k| plane.is_none_or(|plane| plane.axis != *k)).map(|k| step[k]);
+        let tolerance = request.vertex_tolerance_m.unwrap_or(0.01 * in_space.fold(f64::INFINITY, f64::min));
         let rule = request.orientations;
-        Ok(Self { own, other, grid, orientations, rule, tolerance, rays, sections })
+        Ok(Self { own, other, grid, plane, orientations, rule, tolerance, rays, sections })
+    }
+
+    /// True if the result has sections.
+    pub fn has_sections(&self) -> bool {
+        !self.sections.is_empty()
     }
 
     /// Distance of a position from the limits of a set: not negative inside, negative outside, `None` outside and
@@ -96,6 +105,8 @@ impl WorkspaceStudy {
     /// # Errors
     /// No position of the grid meets the conditions, or a centre of rays outside the box.
     pub fn find(&self, evaluate: &mut EvaluateSet<'_>) -> Result<Option<Workspace>> {
+        let mut by_plane = OncePerPlace { plane: self.plane, known: HashMap::new(), evaluate };
+        let evaluate = &mut |set: SearchedSet, positions: &[Vec3]| by_plane.values(set, positions);
         let mut of_own = |positions: &[Vec3]| evaluate(SearchedSet::Own, positions);
         let Some(set) = LevelSet::find(self.grid.clone(), self.tolerance, &mut of_own) else { return Ok(None) };
         let surface = set.boundary(1);
@@ -120,6 +131,7 @@ impl WorkspaceStudy {
             sections: &self.sections,
             with_rays: self.rays.is_some(),
             with_other: self.other.is_some(),
+            plane: self.plane,
         };
         let mut found = Workspace::of(&wanted, &set, &surface, rays, compared);
         warnings.append(&mut found.doubts());
@@ -153,6 +165,32 @@ impl WorkspaceStudy {
         let search = RaysInBox { center, bounds: [lower, upper], step, tolerance: self.tolerance };
         let found = RaySet::find(sphere.clone(), &search, evaluate);
         Ok(found.map(|set| RaysOfWorkspace::of(&set, &search)))
+    }
+}
+
+/// Values of positions; for a planar platform, positions of its slab that differ across the plane are evaluated once.
+struct OncePerPlace<'a, 'b> {
+    plane: Option<PlaneOfMotion>,
+    known: HashMap<(SearchedSet, [u64; 3]), Option<f64>>,
+    evaluate: &'a mut EvaluateSet<'b>,
+}
+
+impl OncePerPlace<'_, '_> {
+    fn values(&mut self, set: SearchedSet, positions: &[Vec3]) -> Option<Vec<Option<f64>>> {
+        let Some(plane) = self.plane else { return (self.evaluate)(set, positions) };
+        let places: Vec<Vec3> = positions.iter().map(|position| plane.project(*position)).collect();
+        let key = |place: &Vec3| (set, [place.x, place.y, place.z].map(f64::to_bits));
+
+        let mut new: Vec<Vec3> = Vec::new();
+        let mut wanted = HashSet::new();
+        for place in &places {
+            if !self.known.contains_key(&key(place)) && wanted.insert(key(place)) {
+                new.push(*place);
+            }
+        }
+        let values = (self.evaluate)(set, &new)?;
+        self.known.extend(new.iter().map(key).zip(values));
+        Some(places.iter().map(|place| self.known.get(&key(place)).copied().flatten()).collect())
     }
 }
 
