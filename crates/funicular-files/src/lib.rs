@@ -287,7 +287,7 @@ pub fn parquet_of_result(command: &str, ResultTable { columns, rows }: ResultTab
     let mut values: Vec<Values> = columns.iter().map(|column| Values::new(column.kind, 0)).collect();
     for row in rows {
         for (values, cell) in values.iter_mut().zip(row) {
-            values.push_cell(cell);
+            cell.add_to(values);
         }
     }
     let chunk = Chunk { index: 0, columns: values };

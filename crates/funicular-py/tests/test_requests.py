@@ -73,6 +73,7 @@ MORE = [
     f"--intensity 0.1,0.1,0.1 --length-scale-m 50,20,5 --below-hz 1 --output z {TENSIONS} --hold-lengths-of-pose",
     f"funicular gust {ROBOT} --set platform.drag_area_m2=0.1 --wind-m-s 8,0,0 --spectrum gusts.csv --below-hz 1 --output z",
     f"funicular modes {ROBOT} --below-hz 2 --decay-percent 10",
+    "funicular clearance windy.toml --in-gusts",
     f"funicular calibrate {MACHINE} --unknowns anchors --hold-anchors bl,br --starts 3 --position-std-m 0.01 --tension-std-n 2",
     f"funicular calibrate {MACHINE} --length-std-m 0.0005 --propose 1 --poses waypoints.csv --propose-for anchors --wanted-std-m 0.05",
     f"funicular compare {ROBOT} --below-hz 2",
@@ -207,6 +208,19 @@ def lines() -> list[str]:
     return [line for line in told if "robots/" in line or "docs/" in line or line == "funicular report"] + MORE
 
 
+def windy() -> str:
+    """Robot file with gusts."""
+    rope = "drag_coefficient = 1.2\ndrag_diameter_m = 0.005\nmaximum_tension_n"
+    text = (ROOT / "robots/stadium-camera.toml").read_text().replace("maximum_tension_n", rope, 1)
+    return f"""{text}
+[wind]
+velocity_m_s = [12.0, 0.0, 0.0]
+turbulence = "kaimal"
+intensity = [0.15, 0.12, 0.075]
+length_scale_m = [85.05, 28.35, 6.93]
+"""
+
+
 @pytest.fixture(autouse=True)
 def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """Folder with the robots of the repository, in which the examples run."""
@@ -218,6 +232,7 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     (tmp_path / "waypoints.csv").write_text("x_m,y_m,z_m,roll_deg,pitch_deg,yaw_deg\n3.7,3.5,0,0,0,0\n1,1,0,0,0,0\n")
     (tmp_path / "path.csv").write_text("t_s,x_m,y_m,z_m,yaw_deg\n0,0,0,1.5,0\n1,0.5,0.2,1.5,5\n2,1,0,1.6,10\n")
     (tmp_path / "gusts.csv").write_text("frequency_hz,along_m2_s,lateral_m2_s,up_m2_s\n0.01,40,20,10\n0.1,8,6,4\n1,0.2,0.2,0.1\n")
+    (tmp_path / "windy.toml").write_text(windy())
     (tmp_path / "response.csv").write_text("frequency_hz,a1_re,a1_im\n1,-5.16e-4,0\n2,-2.55e-3,0\n2.5,-7e-3,2e-4\n")
     (tmp_path / "test.uff").write_text(UNIVERSAL_FILE)
     (tmp_path / "states.json").write_text(json.dumps(STATES))

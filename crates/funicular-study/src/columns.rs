@@ -1,7 +1,7 @@
 //! Tables of results. The columns of each kind of rows stand once: CSV, tables for reading, pages, Python and the
 //! documentation follow from them.
 
-use crate::table::{Column, ColumnKind};
+use crate::table::{Column, ColumnKind, Values};
 use crate::text::{self, NONE};
 use serde::Serialize;
 use std::borrow::{Borrow, Cow};
@@ -27,6 +27,30 @@ pub enum Cell {
     Text(String),
     /// Value that the row does not have.
     Missing(Option<()>),
+}
+
+impl Cell {
+    /// Adds the cell to the values of its column. A number in a column of texts is written as text, and a flag in a column
+    /// of numbers is 0 or 1.
+    pub fn add_to(self, values: &mut Values) {
+        match values {
+            Values::Real(values) => values.push(match self {
+                Self::Number(value) => Some(value).filter(|value| value.is_finite()),
+                // Counts of results are far below 2^53.
+                Self::Count(value) => Some(value as f64),
+                Self::Flag(value) => Some(f64::from(u8::from(value))),
+                Self::Text(_) | Self::Missing(_) => None,
+            }),
+            Values::Flag(values) => values.push(self == Self::Flag(true)),
+            Values::Text(values) => values.push(match self {
+                Self::Text(text) => Some(text.into()),
+                Self::Number(value) => Some(value.to_string().into()),
+                Self::Count(value) => Some(value.to_string().into()),
+                Self::Flag(value) => Some(value.to_string().into()),
+                Self::Missing(_) => None,
+            }),
+        }
+    }
 }
 
 /// Value that can stand in a row.

@@ -200,7 +200,15 @@ fn requests() -> Vec<Value> {
                 }),
             ],
         ),
-        of("clearance", &[&robot, &state, &tensions, &json!({ "move_to": [0.1, 0.0, 0.5, 0.0, 0.0, 5.0] })]),
+        of(
+            "clearance",
+            &[
+                &robot,
+                &state,
+                &tensions,
+                &json!({ "move_to": [0.1, 0.0, 0.5, 0.0, 0.0, 5.0], "find_way": true, "in_gusts": true }),
+            ],
+        ),
         of(
             "gradient",
             &[
@@ -373,7 +381,7 @@ fn requests() -> Vec<Value> {
         of("report", &[&robot, &state, &tensions, &model, &points, &signals, &share, &json!({ "below_hz": 20.0 })]),
         of("live", &[&robot, &state, &tensions, &model]),
         of("paper", &[]),
-        of("import", &[&files, &ropes]),
+        of("import", &[&files, &ropes, &json!({ "trajectory": "lift" })]),
         of(
             "new",
             &[&json!({

@@ -178,3 +178,59 @@ fn distances_from_the_columns_of_a_hall_are_those_of_its_plan() {
         }
     }
 }
+
+/// Robot file with gusts of these intensities; its path.
+fn windy(folder: &Path, intensity: &str) -> String {
+    let rope = "drag_coefficient = 1.2\ndrag_diameter_m = 0.005\nmaximum_tension_n";
+    let text = fs::read_to_string(robot("stadium-camera.toml")).unwrap().replacen("maximum_tension_n", rope, 1);
+    let wind = format!(
+        "[wind]\nvelocity_m_s = [12.0, 0.0, 0.0]\nturbulence = \"kaimal\"\nintensity = {intensity}\n\
+         length_scale_m = [85.05, 28.35, 6.93]\n"
+    );
+    let path = folder.join("windy.toml");
+    fs::write(&path, format!("{text}\n{wind}")).unwrap();
+    path.display().to_string()
+}
+
+/// Motions in gusts enlarge the required distances: as the intensity of the gusts, and by at least the motion of the
+/// platform, to which every cable is attached.
+#[test]
+fn gusts_enlarge_the_required_distances() {
+    let folder = tempfile::tempdir().unwrap();
+    let vibration = |intensity: &str| {
+        let found = json(&["clearance", &windy(folder.path(), intensity), "--in-gusts"]);
+        let pair = &found["pairs"][0];
+        let [added, required, margin, distance] =
+            ["vibration_m", "required_m", "margin_m", "distance_m"].map(|key| number(&pair[key]));
+        assert!((required - added).abs() < 1e-12 && (margin - (distance - required)).abs() < 1e-12);
+        added
+    };
+    let [weak, strong] = ["[0.075, 0.06, 0.0375]", "[0.15, 0.12, 0.075]"].map(vibration);
+    assert!((strong / weak - 2.0).abs() < 1e-6, "{weak} {strong}");
+
+    let path = windy(folder.path(), "[0.15, 0.12, 0.075]");
+    let outputs = ["x", "y", "z"].map(|axis| ["--output", axis]).concat();
+    let gust = json(&[&["gust", &path], &outputs[..]].concat());
+    let peaks = gust["outputs"].as_array().unwrap().iter().map(|output| number(&output["peak"]).powi(2));
+    assert!(strong >= 2.0 * peaks.sum::<f64>().sqrt() - 1e-9, "{strong}");
+
+    let calm = run(&["clearance", &robot("cogiro.toml"), "--in-gusts"]);
+    assert_eq!(calm.status.code(), Some(2));
+    assert!(stderr(&calm).contains("turbulence"), "{}", stderr(&calm));
+}
+
+/// Where a column stands on the straight move, a way around it is printed.
+#[test]
+fn a_way_around_a_column_is_found() {
+    let folder = tempfile::tempdir().unwrap();
+    let column = "[obstacles.post]\nshape = \"box\"\nsize_m = [0.3, 0.3, 1.6]\nposition_m = [0.0, 0.0, 0.8]\n";
+    let hall = with_tables(folder.path(), column);
+    let ends = ["--pose", "-2.5,0,1.2", "--move-to", "2.5,0,1.2"];
+    let found = json(&[&["clearance", &hall, "--find-way"], &ends[..]].concat());
+    assert_eq!(found["free"].as_bool(), Some(false));
+    let through = found["way"]["through"].as_array().unwrap();
+    assert!((1..=2).contains(&through.len()), "{through:?}");
+
+    let alone = run(&["clearance", &hall, "--find-way"]);
+    assert!(alone.status.code() == Some(2) && stderr(&alone).contains("--move-to"), "{}", stderr(&alone));
+}

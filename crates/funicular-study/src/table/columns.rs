@@ -1,6 +1,5 @@
 //! Rows of results, stored as columns.
 
-use crate::columns::Cell;
 use std::borrow::Cow;
 use std::ops::Range;
 
@@ -73,28 +72,6 @@ impl Values {
             (Self::Flag(values), Self::Flag(more)) => values.extend_from_slice(&more[rows]),
             (Self::Text(values), Self::Text(more)) => values.extend_from_slice(&more[rows]),
             (values, more) => unreachable!("columns differ in kind: {values:?} and {more:?}"),
-        }
-    }
-
-    /// Adds the value of a result. A number in a column of texts is written as text, and a flag in a column of numbers is
-    /// 0 or 1.
-    pub fn push_cell(&mut self, cell: Cell) {
-        match self {
-            Self::Real(values) => values.push(match cell {
-                Cell::Number(value) => Some(value).filter(|value| value.is_finite()),
-                // Counts of results are far below 2^53.
-                Cell::Count(value) => Some(value as f64),
-                Cell::Flag(value) => Some(f64::from(u8::from(value))),
-                Cell::Text(_) | Cell::Missing(_) => None,
-            }),
-            Self::Flag(values) => values.push(cell == Cell::Flag(true)),
-            Self::Text(values) => values.push(match cell {
-                Cell::Text(text) => Some(text.into()),
-                Cell::Number(value) => Some(value.to_string().into()),
-                Cell::Count(value) => Some(value.to_string().into()),
-                Cell::Flag(value) => Some(value.to_string().into()),
-                Cell::Missing(_) => None,
-            }),
         }
     }
 

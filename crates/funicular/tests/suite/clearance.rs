@@ -485,13 +485,12 @@ fn sagging_cables_cross_near_the_straight_ones_and_nothing_is_nearer_than_found(
 #[test]
 fn a_move_is_free_as_its_least_margins_say() {
     let mut robot = cogiro();
-    robot.clearance =
-        Some(RequiredClearance { cables: 0.05, platform: 0.0, from_end: Some(0.1), ..Default::default() });
-    robot.obstacles = vec![column("post", Pose::new([1.0, 0.5, 1.0], [0.0; 3]), mesh_of_box([0.2, 0.2, 1.0]))];
+    robot.clearance = Some(RequiredClearance { cables: 0.25, platform: 0.0, obstacles: 0.2, from_end: Some(0.1) });
+    robot.obstacles = vec![column("post", Pose::new([1.0, 0.5, 1.0], [0.0; 3]), mesh_of_box([0.6, 0.6, 1.0]))];
     let around = Surroundings::of(&robot);
     let mut draw = Draw(7);
     let mut counts = [0, 0];
-    for pair in poses(&mut draw, 40).chunks(2) {
+    for pair in poses(&mut draw, 60).chunks(2) {
         let mut rest_at = |pose: &Pose| {
             let limits = funicular::robot::TensionLimits { minimum: Some(50.0), maximum: Some(5000.0) };
             let posed = Robot { state: State::Pose(*pose), ..robot.with_tension_limits(limits) };

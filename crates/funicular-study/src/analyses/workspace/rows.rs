@@ -229,9 +229,10 @@ impl Workspace {
         compared: Option<ComparedSets>,
     ) -> Self {
         let strides = set.strides();
-        let coarser = strides[1..].iter().map(|stride| VolumeRow::of_grid(&set.boundary(*stride), step(set, *stride)));
+        let step = |stride: usize| largest_step(set.grid(), wanted.plane) * stride as f64;
+        let coarser = strides[1..].iter().map(|stride| VolumeRow::of_grid(&set.boundary(*stride), step(*stride)));
         let mut volumes: Vec<VolumeRow> =
-            std::iter::once(VolumeRow::of_grid(surface, step(set, strides[0]))).chain(coarser).collect();
+            std::iter::once(VolumeRow::of_grid(surface, step(strides[0]))).chain(coarser).collect();
         volumes.extend(rays.as_mut().into_iter().flat_map(|rays| std::mem::take(&mut rays.volumes)));
 
         // The slab of a planar platform ends at its faces, which are no border of the set.
@@ -254,7 +255,7 @@ impl Workspace {
                 lower_m: grid.lower().into(),
                 upper_m: grid.upper().into(),
                 step_m: (grid.step() * strides[0] as f64).into(),
-                first_step_m: first_step(grid),
+                first_step_m: first_step(grid, wanted.plane),
                 vertex_tolerance_m: wanted.tolerance,
             },
             complete: set.end() == SearchEnd::Complete
@@ -351,14 +352,15 @@ impl Workspace {
     }
 }
 
-/// Largest step of a grid with several steps as one [m].
-fn step(set: &LevelSet, stride: usize) -> f64 {
-    set.grid().step().max() * stride as f64
+/// Largest step of a grid along the axes that the platform has [m].
+fn largest_step(grid: &PointGrid, plane: Option<PlaneOfMotion>) -> f64 {
+    let has = |k: &usize| plane.is_none_or(|plane| plane.axis != *k);
+    (0..3).filter(has).map(|k| grid.step()[k]).fold(0.0, f64::max)
 }
 
 /// Largest step with which a grid is searched at first [m].
-pub(super) fn first_step(grid: &PointGrid) -> f64 {
-    grid.step().max() * grid.largest_stride() as f64
+pub(super) fn first_step(grid: &PointGrid, plane: Option<PlaneOfMotion>) -> f64 {
+    largest_step(grid, plane) * grid.largest_stride() as f64
 }
 
 /// Numbers of parts, holes and handles for the middle of a sentence.

@@ -111,7 +111,7 @@ impl WorkspaceStudy {
         let Some(set) = LevelSet::find(self.grid.clone(), self.tolerance, &mut of_own) else { return Ok(None) };
         let surface = set.boundary(1);
         if surface.triangles().is_empty() {
-            let step = first_step(&self.grid);
+            let step = first_step(&self.grid, self.plane);
             let message = format!(
                 "no position of the grid meets the conditions: it was searched with steps of {step} m; give a ⟪grid⟫ \
                  with smaller steps or another box, or other limits"

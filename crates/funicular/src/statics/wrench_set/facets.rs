@@ -56,7 +56,7 @@ type Blade = [f64; BLADES];
 /// Term of the exterior product with a column: the coefficient of `axes` gets that of `rest`, which lacks `axis`, times
 /// the component of the column along this axis.
 #[derive(Clone, Copy)]
-struct Term {
+struct ProductTerm {
     axes: usize,
     rest: usize,
     axis: usize,
@@ -70,10 +70,10 @@ const AXES: usize = 6;
 const TERM_COUNT: usize = 186;
 
 /// Terms by the number of axes of their sets, ascending, and the place of the first term of each number.
-const TERMS: ([Term; TERM_COUNT], [usize; AXES + 1]) = terms();
+const TERMS: ([ProductTerm; TERM_COUNT], [usize; AXES + 1]) = terms();
 
-const fn terms() -> ([Term; TERM_COUNT], [usize; AXES + 1]) {
-    let mut all = [Term { axes: 0, rest: 0, axis: 0, sign: 0.0 }; TERM_COUNT];
+const fn terms() -> ([ProductTerm; TERM_COUNT], [usize; AXES + 1]) {
+    let mut all = [ProductTerm { axes: 0, rest: 0, axis: 0, sign: 0.0 }; TERM_COUNT];
     let mut first = [0; AXES + 1];
     let (mut count, mut grade) = (0, 1);
     while grade < AXES {
@@ -84,7 +84,7 @@ const fn terms() -> ([Term; TERM_COUNT], [usize; AXES + 1]) {
             while axis < AXES && axes.count_ones() as usize == grade {
                 if axes & (1 << axis) != 0 {
                     let rest = axes ^ (1 << axis);
-                    all[count] = Term { axes, rest, axis, sign: sign(rest, axis) };
+                    all[count] = ProductTerm { axes, rest, axis, sign: sign(rest, axis) };
                     count += 1;
                 }
                 axis += 1;
