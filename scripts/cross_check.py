@@ -15,6 +15,7 @@ from pathlib import Path
 
 import moordyn
 import moorpy
+import mujoco
 import numpy as np
 import pyuff
 import vtk
@@ -30,6 +31,11 @@ FLOOR_RATIO = 2e-6
 MARGIN = 1.5
 # Remaining fraction of this error after extrapolation from two meshes.
 EXTRAPOLATED = 0.5
+
+# Most times that MuJoCo simulates ten times the time in which the slowest motion decays to 1/e.
+MAX_TIMES = 20
+# Relative difference of a frequency of MuJoCo's model, whose stiffness is a difference quotient.
+STIFFNESS_RATIO = 1e-3
 
 BARS = 20
 
@@ -59,6 +65,9 @@ ALL = [
     Case("nist-robocrane", 4.0), Case("kntu-planar"), *SHORT[2:],
     Case("stadium-camera, loaded", robot="stadium-camera", options=["--force-n=50,20,10"]),
 ]  # fmt: skip
+
+# Robots whose pulleys, winches or few cables only MuJoCo's check has.
+SIMULATED = [Case(name) for name in ("cogiro-winches", "grab-2-cables", "grab-3-cables", "grab-4-cables", "yuan2014-dynamic-test")]
 
 
 class Table:
@@ -93,6 +102,7 @@ class Robot:
         self.statics = json.loads(self.run("statics", "--format", "json"))
         platform = self.file["platform"]
         motion = platform.get("motion", "rigid")
+        self.motion = motion
         self.is_point = motion == "point-mass"
         # Components of the motion in MoorPy, which knows no other planes.
         self.components = {
@@ -101,12 +111,7 @@ class Robot:
         self.mass = platform["mass_kg"]
         self.center = np.array(platform.get("center_of_mass_m", [0.0, 0.0, 0.0]))
         self.position = np.array(self.statics["pose"]["position_m"])
-        w, x, y, z = self.statics["pose"]["quaternion_wxyz"]
-        self.rotation = np.array([
-            [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
-            [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
-            [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
-        ])  # fmt: skip
+        self.rotation = rotation_of(self.statics["pose"]["quaternion_wxyz"])
         cables = self.file["cables"]
         drives = self.drives = [row.get("drive", {}) for row in self.statics["cables"]]
         self.anchors = np.array([drive.get("exit_m", cable["anchor_m"]) for drive, cable in zip(drives, cables)])
@@ -137,6 +142,16 @@ class Robot:
 
     def off(self, tensions):
         return np.abs(np.array(tensions) - self.tensions).max() / self.tensions.max()
+
+
+def rotation_of(quaternion):
+    """Matrix of a unit quaternion w, x, y, z."""
+    w, x, y, z = quaternion
+    return np.array([
+        [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+        [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+        [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
+    ])  # fmt: skip
 
 
 def driven(text, file):
@@ -311,6 +326,126 @@ def check_moordyn(robot, folder, table, seconds, segments):
     table.row(robot.name, f"MoorDyn, {seconds:g} s", "mean position of the attachments [m]", moved, POSITION_M)
 
 
+class Simulated:
+    """A robot in MuJoCo."""
+
+    def __init__(self, robot, folder):
+        path = folder / "mujoco.xml"
+        robot.export("mujoco", path)
+        self.model = mujoco.MjModel.from_xml_path(str(path))
+        self.data = mujoco.MjData(self.model)
+        mujoco.mj_resetDataKeyframe(self.model, self.data, self.model.key("rest").id)
+        mujoco.mj_forward(self.model, self.data)
+        self.cables = len(robot.lengths)
+        # Coordinates of the platform, without the swivels of pulleys.
+        body = self.model.body("platform").id
+        self.dofs = np.flatnonzero(self.model.dof_bodyid == body)
+
+    def forces(self, step):
+        """Generalised forces after a small step of the coordinates from the present state."""
+        data = mujoco.MjData(self.model)
+        data.qpos[:] = self.data.qpos
+        data.ctrl[:] = self.data.ctrl
+        mujoco.mj_integratePos(self.model, data.qpos, step, 1.0)
+        mujoco.mj_forward(self.model, data)
+        return data.qfrc_actuator + data.qfrc_passive - data.qfrc_bias
+
+    def frequencies(self):
+        """Natural frequencies at the present state [Hz], by the difference quotients of the forces."""
+        count = self.model.nv
+        mass = np.zeros((count, count))
+        mujoco.mj_fullM(self.model, self.data, mass)
+        step = 1e-6 * np.eye(count)
+        stiffness = -np.array([(self.forces(row) - self.forces(-row)) / 2e-6 for row in step]).T
+        squares, shapes = np.linalg.eig(np.linalg.solve(mass, 0.5 * (stiffness + stiffness.T)))
+        # Modes of the platform: most of their kinetic energy is in its coordinates.
+        energies = (shapes * (mass @ shapes)).real
+        of_platform = energies[self.dofs].sum(axis=0) > 0.5 * energies.sum(axis=0)
+        return np.sqrt(np.sort(squares.real[of_platform]).clip(0)) / (2 * math.pi)
+
+    def settle(self, slowest_hz):
+        """Simulates with enough damping until nothing moves any more; `slowest_hz` is the lowest frequency at rest."""
+        # Beside the rest a cable may be slack, and a motion without stiffness.
+        rate = 2 * math.pi * max(self.frequencies().min(), 0.3 * slowest_hz)
+        mass = np.zeros((self.model.nv, self.model.nv))
+        mujoco.mj_fullM(self.model, self.data, mass)
+        self.model.dof_damping[self.dofs] = 2 * rate * np.diag(mass)[self.dofs]
+        # What is left to move is about the speed over the rate of the decay.
+        for _ in range(MAX_TIMES):
+            for _ in range(int(10.0 / rate / self.model.opt.timestep)):
+                mujoco.mj_step(self.model, self.data)
+            if np.abs(self.data.qvel).max() < 0.01 * POSITION_M * rate:
+                break
+
+    def tensions(self):
+        return np.array([-self.data.sensor(f"tension:{self.model.tendon(i).name}").data[0] for i in range(self.cables)])
+
+    def command(self, changes):
+        """Commands changes of the unstrained lengths [m], with the stiffness of the new lengths."""
+        for i, change in enumerate(changes):
+            stiffness, axial = self.model.actuator_gainprm[i, 0], -self.model.actuator_forcerange[i, 0]
+            rest = self.model.actuator_biasprm[i, 0] / stiffness
+            stiffness = 1.0 / (1.0 / stiffness + change / axial)
+            self.model.actuator_gainprm[i, 0] = stiffness
+            self.model.actuator_biasprm[i, :2] = stiffness * rest, -stiffness
+            self.data.ctrl[i] = change
+
+
+def check_mujoco(robot, folder, table):
+    """Compares rest, tensions, frequencies and a commanded length with straight springs, simulated from beside the rest."""
+    told = json.loads(robot.run("statics", "--static-model", "spring", "--format", "json"))
+    try:
+        simulated = Simulated(robot, folder)
+    except ValueError as error:
+        raise SystemExit(f"{robot.name}: MuJoCo refuses the model: {error}") from error
+    pose = np.array(told["pose"]["position_m"]), rotation_of(told["pose"]["quaternion_wxyz"])
+
+    # Stiffness across a tensioned cable is in MuJoCo, and not in the cable model `spring`.
+    modes = ["modes", "--static-model", "spring", "--cable-model", "catenary-static", "--format", "json"]
+    theirs = simulated.frequencies()
+    listed = json.loads(robot.run(*modes, "--below-hz", str(2 * theirs.max())))["modes"]
+    ours = np.array([mode["frequency_hz"] for mode in listed])
+    count = len(theirs) if len(ours) == len(theirs) else 0
+    off = np.abs(theirs[:count] / ours[:count] - 1.0).max() if count else math.inf
+    table.row(robot.name, "MuJoCo", f"{len(theirs)} frequencies of the platform, relative", off, STIFFNESS_RATIO)
+
+    start = np.zeros(simulated.model.nv)
+    start[simulated.dofs] = 1e-3 * (-1.0) ** np.arange(len(simulated.dofs))
+    mujoco.mj_integratePos(simulated.model, simulated.data.qpos, start, 1.0)
+    simulated.settle(theirs.min())
+    moved = between(robot, simulated, *pose)
+    table.row(robot.name, "MuJoCo", "position of the attachments [m]", moved, POSITION_M)
+    rows = told["cables"]
+    tensions = np.array([row["tension_platform_n"] for row in rows])
+    table.row(robot.name, "MuJoCo", "tensions / maximum tension", np.abs(simulated.tensions() - tensions).max() / tensions.max(), TENSION_RATIO)
+
+    # The lengths of a pose beside the rest, as a command. Fewer cables than coordinates reach another one near it.
+    shift = 0.005 * np.linalg.norm(robot.anchors - pose[0], axis=1).mean()
+    target = pose[0] + shift * np.array(SHIFTS.get(robot.motion, (0.6, -0.48, 0.64)))
+    angles = ",".join(str(angle) for angle in told["pose"]["roll_pitch_yaw_deg"])
+    place = ",".join(str(x) for x in target) + ("" if robot.is_point else f",{angles}")
+    if robot.motion == "planar":
+        return
+    commanded = json.loads(robot.run("statics", "--static-model", "spring", f"--pose={place}", "--format", "json"))
+    pairs = zip(commanded["cables"], rows, strict=True)
+    simulated.command([new["unstrained_length_m"] - old["unstrained_length_m"] for new, old in pairs])
+    simulated.settle(theirs.min())
+    reached = np.array(commanded["pose"]["position_m"]), rotation_of(commanded["pose"]["quaternion_wxyz"])
+    moved = between(robot, simulated, *reached)
+    table.row(robot.name, "MuJoCo", f"position after a command over {shift:.3f} m [m]", moved, POSITION_M)
+
+
+# Directions in the plane of a planar robot.
+SHIFTS = {"planar-xy": (0.6, 0.8, 0.0), "planar-xz": (0.6, 0.0, 0.8), "planar-yz": (0.0, 0.6, 0.8)}
+
+
+def between(robot, simulated, position, rotation):
+    """Largest distance of an attachment in MuJoCo from that at a pose [m]."""
+    body = simulated.data.body("platform")
+    theirs = body.xpos + robot.attachments @ body.xmat.reshape(3, 3).T
+    return np.linalg.norm(theirs - position - robot.attachments @ rotation.T, axis=1).max()
+
+
 def check_vtk(robot, folder, table):
     """Compares the file read by VTK with the results of funicular."""
     path = folder / "vtk.vtp"
@@ -384,9 +519,12 @@ def main():
             check_opensees(robot, folder, table)
             if case.seconds:
                 check_moordyn(robot, folder, table, case.seconds, case.segments)
+            check_mujoco(robot, folder, table)
             check_vtk(robot, folder, table)
             if robot.components:
                 check_uff(robot, folder, table)
+        for case in SIMULATED[:3] if options else SIMULATED:
+            check_mujoco(Robot(program, case, folder), folder, table)
     print(f"{table.failed} outside their limits" if table.failed else "all within their limits")
     sys.exit(1 if table.failed else 0)
 
