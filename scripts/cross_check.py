@@ -3,6 +3,7 @@
 import contextlib
 import io
 import json
+import logging
 import math
 import os
 import re
@@ -19,7 +20,14 @@ import mujoco
 import numpy as np
 import pyuff
 import vtk
+import yourdfpy
+from pydrake.multibody.parsing import Parser
+from pydrake.multibody.plant import MultibodyPlant
+from pydrake.multibody.tree import ForceElementIndex
 from vtk.util.numpy_support import vtk_to_numpy
+
+# Elements of Gazebo that Drake passes over.
+logging.getLogger("drake").setLevel(logging.ERROR)
 
 # Maximum differences that pass.
 POSITION_M = 1e-6  # of any attachment
@@ -435,6 +443,46 @@ def check_mujoco(robot, folder, table):
     table.row(robot.name, "MuJoCo", f"position after a command over {shift:.3f} m [m]", moved, POSITION_M)
 
 
+def check_links(robot, folder, table):
+    """Compares the world of Gazebo, read and computed by Drake, and the robot for viewers with straight springs."""
+    told = json.loads(robot.run("statics", "--static-model", "spring", "--format", "json"))
+    position, rotation = np.array(told["pose"]["position_m"]), rotation_of(told["pose"]["quaternion_wxyz"])
+    attachments = position + robot.attachments @ rotation.T
+
+    path = folder / "robot.urdf"
+    robot.export("urdf", path)
+    read = yourdfpy.URDF.load(str(path), load_meshes=False)
+    places = [read.get_transform(f"attachment_{cable['name']}", "frame")[:3, 3] for cable in robot.file["cables"]]
+    table.row(robot.name, "yourdfpy, URDF", "position of the attachments [m]", np.abs(places - attachments).max(), 1e-9)
+    moved = abs(read.link_map["platform"].inertial.mass / robot.mass - 1.0) + len(set(read.link_map)) - 2 - 2 * len(places)
+    table.row(robot.name, "yourdfpy, URDF", "mass and number of links", abs(moved), 1e-12)
+
+    path = folder / "robot.sdf"
+    path.unlink(missing_ok=True)
+    if robot.motion.startswith("planar"):
+        done = subprocess.run([robot.program, "export", robot.path, "--to", "sdf", "-o", path], capture_output=True, text=True)
+        table.row(robot.name, "Drake, SDF", "planar platform: refused", abs(done.returncode - 2) + path.exists(), 0)
+        return
+    robot.export("sdf", path)
+    plant = MultibodyPlant(0.0)
+    Parser(plant).AddModels(str(path))
+    plant.mutable_gravity_field().set_gravity_vector(robot.file.get("gravity_m_s2", [0.0, 0.0, -9.81]))
+    plant.Finalize()
+    context = plant.CreateDefaultContext()
+    pose = plant.EvalBodyPoseInWorld(context, plant.GetBodyByName("platform"))
+    theirs = pose.translation() + robot.attachments @ pose.rotation().matrix().T
+    table.row(robot.name, "Drake, SDF", "position of the attachments [m]", np.abs(theirs - attachments).max(), 1e-9)
+    springs = [plant.get_force_element(index) for index in map(ForceElementIndex, range(1, plant.num_force_elements()))]
+    ends = zip(springs, attachments, told["cables"], strict=True)
+    pulls = [of.stiffness() * (np.linalg.norm(end - of.p_AP()) - of.free_length()) for of, end, _ in ends]
+    tensions = np.array([row["tension_platform_n"] for row in told["cables"]])
+    table.row(robot.name, "Drake, SDF", "tensions / maximum tension", np.abs(pulls - tensions).max() / tensions.max(), TENSION_RATIO)
+    # A load is not in the file.
+    if not robot.wrench.any():
+        acceleration = plant.get_generalized_acceleration_output_port().Eval(context)
+        table.row(robot.name, "Drake, SDF", "acceleration at rest [m/s2, rad/s2]", np.abs(acceleration).max(), 1e-6)
+
+
 # Directions in the plane of a planar robot.
 SHIFTS = {"planar-xy": (0.6, 0.8, 0.0), "planar-xz": (0.6, 0.0, 0.8), "planar-yz": (0.0, 0.6, 0.8)}
 
@@ -520,11 +568,14 @@ def main():
             if case.seconds:
                 check_moordyn(robot, folder, table, case.seconds, case.segments)
             check_mujoco(robot, folder, table)
+            check_links(robot, folder, table)
             check_vtk(robot, folder, table)
             if robot.components:
                 check_uff(robot, folder, table)
         for case in SIMULATED[:3] if options else SIMULATED:
-            check_mujoco(Robot(program, case, folder), folder, table)
+            robot = Robot(program, case, folder)
+            check_mujoco(robot, folder, table)
+            check_links(robot, folder, table)
     print(f"{table.failed} outside their limits" if table.failed else "all within their limits")
     sys.exit(1 if table.failed else 0)
 

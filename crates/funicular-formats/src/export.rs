@@ -1,6 +1,7 @@
 //! Export of a robot at equilibrium to files of other programs; docs/export.md describes the content of each file.
 
 pub(crate) mod chain;
+mod links;
 pub(crate) mod moordyn;
 mod mujoco;
 pub(crate) mod opensees;
@@ -55,6 +56,8 @@ pub fn run(at_rest: &AtRest, request: &request::ExportRequest) -> Result<Exporte
         ExportFormat::Opensees => opensees::script(at_rest, segments, modes_below_hz, &mut warnings)?,
         ExportFormat::Moordyn => moordyn::input(at_rest, segments, &mut warnings)?,
         ExportFormat::Mujoco => mujoco::model(at_rest, &mut warnings)?,
+        ExportFormat::Sdf => links::sdf(at_rest, &mut warnings)?,
+        ExportFormat::Urdf => links::urdf(at_rest, &mut warnings)?,
         ExportFormat::Vtk => vtk::poly_data(at_rest, segments, modes_below_hz, &mut warnings)?,
     };
     warnings.extend(at_rest.warnings(None));

@@ -1,8 +1,10 @@
 """Python code of the documents runs as it stands, in the order of a page; printed values are those in its comments."""
 
 import concurrent.futures
+import json
 import os
 import re
+import runpy
 import subprocess
 import sys
 import types
@@ -12,6 +14,7 @@ from typing import Any
 
 import funicular
 import pytest
+import ros_stub
 from conftest import ROOT
 
 PAGES = ["quick-start", "workspace", "measuring", "matlab", "python", "tutorials/controller"]
@@ -83,3 +86,36 @@ def test_ray_computes_by_the_executor_of_the_document() -> None:
     grid: dict[str, Any] = {"x": (-4, 4, 9), "y": (-1, 1, 3), "z": [0.5]}
     with names["RayExecutor"](2) as executor:
         assert robot.map(grid, quantities=["tension-max"], executor=executor) == robot.map(grid, quantities=["tension-max"])
+
+
+def test_the_node_of_ros_serves_equilibrium_lengths_and_tensions_on_a_stub_of_ros(monkeypatch: pytest.MonkeyPatch) -> None:
+    ros_stub.install(monkeypatch.setitem)
+    monkeypatch.setitem(ros_stub.Node.parameters, "robot_file", str(ROOT / "robots/cogiro.toml"))
+    names = runpy.run_path(str(ROOT / "docs/export/cable_robot_node.py"))
+    node = names["CableRobot"]()
+    robot = funicular.Robot.from_file(ROOT / "robots/cogiro.toml")
+
+    answer = node.called["~/equilibrium"](None, types.SimpleNamespace())
+    assert answer.success and json.loads(answer.message)["pose"] == robot.equilibrium().to_dict()["pose"]
+
+    # A pose gives lengths and tensions, and these lengths lead back to the pose.
+    asked = names["PoseStamped"]()
+    at, turn = asked.pose.position, asked.pose.orientation
+    (at.x, at.y, at.z), (turn.w, turn.x, turn.y, turn.z) = (0.5, 0.25, 1.5), (1.0, 0.0, 0.0, 0.0)
+    node.called["~/pose"](asked)
+    [found] = node.published["~/cables"].sent
+    rest = robot.equilibrium(pose=[0.5, 0.25, 1.5])
+    assert found.name == list(robot.cable_names) and found.header is asked.header
+    assert found.position == rest.unstrained_length_m.tolist() and found.effort == rest.tension_platform_n.tolist()
+
+    node.called["~/lengths"](found)
+    [back] = node.published["~/platform"].sent
+    assert abs(back.pose.position.x - 0.5) < 1e-6 and abs(back.pose.position.z - 1.5) < 1e-6
+
+    # No equilibrium: a warning, and no message.
+    at.z = 500.0
+    node.called["~/pose"](asked)
+    found.name = found.name[1:]
+    node.called["~/lengths"](found)
+    assert len(node.published["~/cables"].sent) == len(node.published["~/platform"].sent) == 1
+    assert "no equilibrium at this pose" in node.warned[0] and node.warned[1] == "the lengths of the cables 1 are missing"

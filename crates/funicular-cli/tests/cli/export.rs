@@ -139,6 +139,43 @@ fn a_model_of_mujoco_rests_at_the_equilibrium_of_springs() {
 }
 
 #[test]
+fn links_of_gazebo_and_of_viewers_are_where_the_robot_rests() {
+    for name in ["cogiro.toml", "stadium-camera.toml", "grab-3-cables.toml"] {
+        let found: serde_json::Value =
+            serde_json::from_str(&succeed(&["statics", &robot(name), "--static-model", "spring", "--format", "json"]))
+                .unwrap();
+        let cables = found["cables"].as_array().unwrap();
+        let expected: Vec<f64> = serde_json::from_value(found["pose"]["position_m"].clone()).unwrap();
+
+        let sdf = succeed(&["export", &robot(name), "--to", "sdf"]);
+        let document = roxmltree::Document::parse(&sdf).unwrap();
+        let named = |name: &str| document.descendants().find(|node| node.attribute("name") == Some(name)).unwrap();
+        let child = |node: roxmltree::Node, tag: &str| {
+            let inner = node.descendants().find(|node| node.tag_name().name() == tag).unwrap();
+            inner.text().unwrap().split(' ').map(|x| x.parse().unwrap()).collect::<Vec<f64>>()
+        };
+        let link =
+            document.descendants().find(|node| node.has_tag_name("link") && node.attribute("name") == Some("platform"));
+        assert!((child(link.unwrap(), "pose")[2] - expected[2]).abs() < 1e-9, "{name}");
+        for cable in cables {
+            let spring =
+                named(&format!("attachment_{}", cable["name"].as_str().unwrap())).next_sibling_element().unwrap();
+            let [stiffness, free] =
+                ["stiffness", "free_length"].map(|key| child(spring, &format!("linear_spring_damper_{key}"))[0]);
+            let tension = stiffness * (cable["chord_m"].as_f64().unwrap() - free);
+            assert!((tension / cable["tension_platform_n"].as_f64().unwrap() - 1.0).abs() < 1e-6, "{name}: {tension}");
+        }
+
+        let urdf = succeed(&["export", &robot(name), "--to", "urdf"]);
+        let document = roxmltree::Document::parse(&urdf).unwrap();
+        let joints = document.descendants().filter(|node| node.has_tag_name("joint")).count();
+        assert_eq!(joints, 1 + 2 * cables.len(), "{name}");
+    }
+    let planar = succeed(&["export", &robot("kntu-planar.toml"), "--to", "urdf"]);
+    assert!(planar.contains("type=\"planar\"") && planar.contains("<axis xyz=\"0 0 1\"/>"), "{planar}");
+}
+
+#[test]
 fn a_model_of_mujoco_says_what_it_leaves_out_and_holds_any_name() {
     let awkward = yuan()
         .replace("name = \"1\"", "name = \"<&\\uFFFE --\\\"\"")
@@ -202,12 +239,13 @@ fn robots_that_cannot_be_exported_are_refused_with_the_reason() {
         (yuan(), "--to moordyn --static-model spring", "leave out --static-model"),
         (yuan(), "--to moordyn --modes-below-hz 3", "MoorDyn has no modes"),
         (yuan(), "--to moordyn --segments 0", "--segments"),
-        (yuan(), "--to abaqus", "possible values: opensees, moordyn, mujoco, vtk"),
+        (yuan(), "--to abaqus", "possible values: opensees, moordyn, mujoco, sdf, urdf, vtk"),
         (yuan(), "--to mujoco --static-model ideal", "ideal cables have no stiffness, which MuJoCo needs"),
         (yuan(), "--to mujoco --modes-below-hz 3", "MuJoCo has no modes"),
         (yuan(), "--to vtk --modes-below-hz 1e4", "lower the frequency limit"),
         (sideways, "--to moordyn", "MoorDyn has it along -z only"),
         (massless, "--to moordyn", "cable \"1\" has no mass"),
+        (planar.clone(), "--to sdf", "SDF has no joint that guides a body in a plane"),
         (planar, "--to moordyn", "nothing guides them in a plane"),
         (yuan(), "--to moordyn --force-n 0,0,-1", "MoorDyn's input has no forces but weight and water"),
         (yuan(), "--to moordyn --moment-n-m 0,0,1", "MoorDyn's input has no forces but weight and water"),

@@ -114,8 +114,9 @@ class Analyses:
         ----------
         to
             Program that the file is for: `opensees` (python script for OpenSeesPy); `moordyn` (input file of version
-            2); `mujoco` (model in MJCF, with winches as actuators); `vtk` (vTK XML of polylines and polygons (.vtp), for
-            ParaView).
+            2); `mujoco` (model in MJCF, with winches as actuators); `sdf` (world of Gazebo, whose cables Drake reads
+            as springs); `urdf` (frame and platform for viewers); `vtk` (vTK XML of polylines and polygons (.vtp),
+            for ParaView).
         path
             Path of the file, which is complete or absent.
         segments

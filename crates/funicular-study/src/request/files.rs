@@ -96,11 +96,12 @@ declared! {
 }
 
 declared! {
-    /// Export the robot at its equilibrium for OpenSees, MoorDyn, MuJoCo or ParaView.
+    /// Export the robot at its equilibrium for OpenSees, MoorDyn, MuJoCo, Gazebo or ParaView.
     ///
     /// opensees: a Python script for OpenSeesPy that prints its statics and modes beside those of funicular. moordyn: an input
-    /// file of version 2. mujoco: a model with straight cables whose lengths and tensions are commanded. vtk: a .vtp file of
-    /// cables and platform, with modes on request. docs/export.md describes the files and the differences between the programs.
+    /// file of version 2. mujoco: a model with straight cables whose lengths and tensions are commanded. sdf: a world of Gazebo.
+    /// urdf: frame and platform for viewers. vtk: a .vtp file of cables and platform, with modes on request. docs/export.md
+    /// describes the files and the differences between the programs.
     pub struct ExportRequest {
         /// Robot file.
         robot: RobotText = RobotText::default() => (Data(shape::robot)).required();
