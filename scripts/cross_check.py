@@ -14,6 +14,8 @@ import tempfile
 import tomllib
 from pathlib import Path
 
+import control
+import fmpy
 import moordyn
 import moorpy
 import mujoco
@@ -21,6 +23,7 @@ import numpy as np
 import pyuff
 import vtk
 import yourdfpy
+from fmpy import fmi2
 from pydrake.multibody.parsing import Parser
 from pydrake.multibody.plant import MultibodyPlant
 from pydrake.multibody.tree import ForceElementIndex
@@ -494,6 +497,92 @@ def between(robot, simulated, position, rotation):
     return np.linalg.norm(theirs - position - robot.attachments @ rotation.T, axis=1).max()
 
 
+# Models for units: options of `reduce`, and whether the inputs are lengths.
+UNITS = {
+    "yuan2014-4mm": ["--below-hz", "5", "--input", "fz", "--input", "mx", "--output", "z", "--output", "az", "--tolerance", "0.02"],
+    "cogiro-winches": ["--below-hz", "4", "--input", "length:1", "--output", "z", "--output", "tension:1", "--tolerance", "0.02"],
+    "kntu-planar": ["--below-hz", "30", "--input", "motion", "--output", "x", "--output", "vx", "--tolerance", "0.02"],
+}
+
+
+def check_fmu(robot, folder, table):
+    """Compares a Functional Mock-up Unit, which FMPy runs, with the matrices, with python-control and with `frf`."""
+    signals = [option.replace("motion", "base-x") for option in UNITS[robot.name]]
+    path = folder / "model.fmu"
+    robot.run("reduce", *signals, "--to", "fmu", "-o", str(path))
+    told = json.loads(robot.run("reduce", *signals, "--format", "json"))
+    given = [np.array(told[key]) for key in "abcd"]
+    inputs, outputs, states = len(told["inputs"]), len(told["outputs"]), told["order"]
+
+    description = fmpy.read_model_description(str(path), validate=True)
+    names = [of["name"] for of in told["inputs"] + told["outputs"]]
+    listed = [of.name for of in description.modelVariables[: inputs + outputs]]
+    table.row(robot.name, "FMPy", "names of signals that differ", sum(a != b for a, b in zip(names, listed, strict=True)), 0)
+    unpacked = fmpy.extract(str(path))
+    robot_file = tomllib.loads((Path(unpacked) / "resources/robot.toml").read_text())
+    table.row(robot.name, "FMPy", "robot file in the unit differs", int(robot_file != robot.file), 0)
+
+    unit = fmi2.FMU2Slave(guid=description.guid, unzipDirectory=unpacked, modelIdentifier=description.coSimulation.modelIdentifier)
+    unit.instantiate()
+    unit.setupExperiment(startTime=0.0)
+    unit.enterInitializationMode()
+    unit.exitInitializationMode()
+    known = [*range(inputs + outputs, inputs + outputs + states), *range(inputs)]
+    unknown = [*range(inputs + outputs + states, inputs + outputs + 2 * states), *range(inputs, inputs + outputs)]
+    columns = [unit.getDirectionalDerivative(unknown, [of], [1.0]) for of in known]
+    jacobian, expected = np.array(columns).T, np.block([[given[0], given[1]], [given[2], given[3]]])
+    table.row(robot.name, "FMPy", "matrices by directional derivatives", np.abs(jacobian - expected).max(), 0.0)
+
+    a, b = jacobian[:states, :states], jacobian[:states, states:]
+    c, d = jacobian[states:, :states], jacobian[states:, states:]
+    top = float(told["below_hz"])
+    options = [x for x in signals if x not in ("--below-hz", signals[1], "--tolerance", signals[-1])]
+    response = ["frf", *options, "--from-hz", str(0.02 * top), "--to-hz", str(top), "--points", "300", "--format", "json"]
+    found = json.loads(robot.run(*response))
+    worst = 0.0
+    peaks = {(of["input"], of["output"]): of["peak"] for of in told["responses"] if of["coupled"]}
+    for pair in found.get("responses", [found]):
+        place = [of["name"] for of in told["outputs"]].index(pair["output"]), [of["name"] for of in told["inputs"]].index(pair["input"])
+        if (pair["input"], pair["output"]) in peaks:
+            omega = 2j * np.pi * np.array(found["frequency_hz"])
+            ours = np.array([(c @ np.linalg.solve(w * np.eye(states) - a, b) + d)[place] for w in omega])
+            off = np.abs(ours - np.array(pair["real"]) - 1j * np.array(pair["imag"])).max()
+            worst = max(worst, off / peaks[pair["input"], pair["output"]])
+    table.row(robot.name, "FMPy", "responses against frf / peak", worst, told["error"] * 1.001)
+
+    # Steps with a changing input, which is constant within a step.
+    step = 1.0 / (20.0 * top)
+    values = np.sin(np.outer(np.arange(1, inputs + 1), np.arange(200)) * 0.1)
+    digital = control.sample_system(control.ss(*given), step, method="zoh")
+    theirs = control.forced_response(digital, np.arange(200) * step, values, squeeze=False).outputs
+    ours = []
+    for k in range(200):
+        unit.setReal(list(range(inputs)), values[:, k].tolist())
+        ours.append(unit.getReal(list(range(inputs, inputs + outputs))))
+        unit.doStep(currentCommunicationPoint=k * step, communicationStepSize=step)
+    unit.terminate()
+    unit.freeInstance()
+    scale = np.abs(theirs).max(axis=1, keepdims=True)
+    off = (np.abs(np.array(ours).T - theirs) / scale).max()
+    table.row(robot.name, "FMPy, co-simulation", "outputs against python-control / maximum", off, 1e-9)
+
+    # All inputs one from the start, because FMPy holds inputs over its steps; integrated by CVode.
+    times = np.linspace(0.0, 4.0 / top, 400)
+    signal = np.ones(2, dtype=[("time", float), *((of["name"], float) for of in told["inputs"])])
+    signal["time"] = [0.0, times[-1]]
+    written = [of.name for of in description.modelVariables[inputs : inputs + outputs]]
+    result = fmpy.simulate_fmu(
+        str(path), fmi_type="ModelExchange", solver="CVode", relative_tolerance=1e-11, input=signal, stop_time=times[-1],
+        output_interval=times[1], output=written,
+    )  # fmt: skip
+    exact = control.sample_system(control.ss(*given), times[1], method="zoh")
+    theirs = control.forced_response(exact, times, np.ones((inputs, len(times))), squeeze=False).outputs
+    assert np.allclose(result["time"], times, rtol=1e-9)
+    ours = np.array([result[name] for name in written])
+    off = (np.abs(ours - theirs) / np.abs(theirs).max(axis=1, keepdims=True)).max()
+    table.row(robot.name, "FMPy, model exchange", "outputs against python-control / maximum", off, 1e-6)
+
+
 def check_vtk(robot, folder, table):
     """Compares the file read by VTK with the results of funicular."""
     path = folder / "vtk.vtp"
@@ -569,6 +658,8 @@ def main():
                 check_moordyn(robot, folder, table, case.seconds, case.segments)
             check_mujoco(robot, folder, table)
             check_links(robot, folder, table)
+            if robot.name in UNITS:
+                check_fmu(robot, folder, table)
             check_vtk(robot, folder, table)
             if robot.components:
                 check_uff(robot, folder, table)
@@ -576,6 +667,8 @@ def main():
             robot = Robot(program, case, folder)
             check_mujoco(robot, folder, table)
             check_links(robot, folder, table)
+            if robot.name in UNITS:
+                check_fmu(robot, folder, table)
     print(f"{table.failed} outside their limits" if table.failed else "all within their limits")
     sys.exit(1 if table.failed else 0)
 

@@ -13,6 +13,7 @@ pub mod arrow;
 pub mod atomic_file;
 mod csv;
 pub mod endings;
+pub mod fmu;
 mod guard;
 mod journal;
 pub mod mat;

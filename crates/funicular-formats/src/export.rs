@@ -8,7 +8,7 @@ pub(crate) mod opensees;
 mod straight;
 pub(crate) mod support;
 pub(crate) mod vtk;
-mod xml_text;
+pub(crate) mod xml_text;
 
 use anyhow::{Result, bail};
 use funicular::cable::CableModel;

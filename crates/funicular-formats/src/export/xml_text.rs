@@ -13,7 +13,7 @@ fn is_kept(c: char) -> bool {
 
 /// Names of `what` as a file can hold them: characters that XML or the program does not allow become `_`, and names that
 /// are equal then get their number. A warning says which names changed.
-pub(super) fn names<'a>(
+pub(crate) fn names<'a>(
     what: &str,
     given: impl Iterator<Item = &'a str>,
     forbidden: &[char],
@@ -41,7 +41,7 @@ pub(super) fn names<'a>(
 }
 
 /// Text in a comment of XML, which may hold neither two hyphens in a row nor characters that XML does not allow.
-pub(super) fn in_comment(text: &str) -> String {
+pub(crate) fn in_comment(text: &str) -> String {
     let mut text: String = one_line(text).chars().map(|c| if is_kept(c) { c } else { '_' }).collect();
     while text.contains("--") {
         text = text.replace("--", "- -");
