@@ -9,8 +9,8 @@ use anyhow::{Context, Result};
 use clap::{Arg, ArgAction, ArgMatches, Args, Command, FromArgMatches};
 pub(crate) use files::{
     CalibrateArgs, ChangeArgs, DesignArgs, DrawArgs, DrawModesArgs, FigureArgs, FileArgs, Format, GustArgs,
-    IdentifyArgs, ImportArgs, MapArgs, MergeArgs, NewArgs, OutputArgs, PageArgs, PlotArgs, ReduceArgs, RequestArgs,
-    RunArgs, SettleArgs, TrajectoryArgs, UncertaintyArgs, WorkspaceArgs,
+    IdentifyArgs, ImportArgs, MapArgs, MergeArgs, NewArgs, OutputArgs, PageArgs, PlotArgs, ReduceArgs, ReducedTo,
+    RequestArgs, RunArgs, SettleArgs, TrajectoryArgs, UncertaintyArgs, WorkspaceArgs,
 };
 use files::{OptionalRobotArgs, RobotArgs};
 use funicular_study::request::{self, CommandInfo, Declared, Experiment, Key, Request, RequestRobot, ResponsePoints};

@@ -10,17 +10,29 @@ use std::time::Duration;
 /// Time that an analysis has for its next step. One eigenvalue problem of a large model takes longer.
 const PATIENCE: Duration = Duration::from_secs(1);
 
+/// Time after which a run whose rows are stored ends in any case. A row may take longer, and the rows before it are safe
+/// at any moment.
+const END_WITHIN: Duration = Duration::from_millis(1700);
+
 /// Flag that Ctrl-C or the end of a job sets.
 pub(crate) static STOPPED: AtomicBool = AtomicBool::new(false);
 
 /// Flag that is set while an analysis computes and nothing is written.
 static COMPUTES: AtomicBool = AtomicBool::new(false);
 
-/// Handles Ctrl-C for rows that are stored: the first one stops at the next row, the second one at once.
-pub(crate) fn stop_at_next_row() -> Result<()> {
-    ctrlc::set_handler(|| {
+/// Handles Ctrl-C for rows: the first one stops at the next row, the second one at once. With `otherwise` the program
+/// ends with this message if that row and all that follows it take too long.
+pub(crate) fn stop_at_next_row(otherwise: Option<String>) -> Result<()> {
+    ctrlc::set_handler(move || {
         if STOPPED.swap(true, Ordering::Relaxed) {
             process::exit(errors::STOPPED.into());
+        }
+        if let Some(message) = otherwise.clone() {
+            thread::spawn(|| {
+                thread::sleep(END_WITHIN);
+                errors::report(&Interrupted(message).into());
+                process::exit(errors::STOPPED.into());
+            });
         }
     })
     .context("cannot listen for Ctrl-C")

@@ -46,7 +46,7 @@ pub(crate) fn run(request: &Request, guard: &mut Guard, run: &RunArgs) -> Result
 
 /// Computes the rows for the summary alone.
 fn to_summary(job: &Job, plan: &Plan, threads: NonZeroUsize) -> Result<()> {
-    stop_at_next_row()?;
+    stop_at_next_row(Some(NOT_STORED.to_owned()))?;
     let mut summary = Summary::new(job, plan.columns());
     let mut progress = Progress::with_rate(plan.rows(), "rows");
     let outcome = threads::run(plan, 0..plan.chunks(), threads, &STOPPED, |chunk| {
@@ -58,6 +58,9 @@ fn to_summary(job: &Job, plan: &Plan, threads: NonZeroUsize) -> Result<()> {
     refuse_stopped(plan, outcome)?;
     summary.print(job.run.format)
 }
+
+/// Message of a run that ends within a row, if its rows are not stored.
+const NOT_STORED: &str = "stopped, and the rows are not stored: give -o to be able to continue later";
 
 /// Error of an interrupted run whose rows are not stored.
 fn refuse_stopped(plan: &Plan, outcome: Outcome) -> Result<()> {
@@ -75,7 +78,7 @@ fn refuse_stopped(plan: &Plan, outcome: Outcome) -> Result<()> {
 
 /// Writes the rows as CSV as they are computed.
 fn to_stdout(plan: &Plan, threads: NonZeroUsize) -> Result<()> {
-    stop_at_next_row()?;
+    stop_at_next_row(Some(NOT_STORED.to_owned()))?;
     let write = || {
         let mut out = CsvRows::new(BufWriter::new(io::stdout().lock()), plan.columns())?;
         let outcome = threads::run(plan, 0..plan.chunks(), threads, &STOPPED, |chunk| out.add(&chunk))?;
@@ -112,7 +115,9 @@ fn to_file(job: &Job, plan: &Plan, record: Record, path: &Path, threads: NonZero
         }
         Opened::Work(work) => work,
     };
-    stop_at_next_row()?;
+    let journal = work.journal().display();
+    let safe = format!("the finished rows are safe in {journal}");
+    stop_at_next_row(Some(format!("stopped: {safe}; continue with the same command and --resume")))?;
     let mut summary = Summary::new(job, plan.columns());
 
     if work.done() > 0 {
@@ -130,7 +135,7 @@ fn to_file(job: &Job, plan: &Plan, record: Record, path: &Path, threads: NonZero
     drop(progress);
 
     if outcome != Outcome::Complete {
-        let safe = work.interrupt()?;
+        let safe = work.interrupt(funicular_files::WRITE_WITHIN)?;
         return Err(Interrupted(format!("stopped: {safe}; continue with the same command and --resume")).into());
     }
 

@@ -40,12 +40,20 @@ pub enum Kind {
     Mat,
     /// Universal File of measurements.
     Uff,
+    /// Model of MuJoCo.
+    Xml,
+    /// World or model of Gazebo.
+    Sdf,
+    /// Links and joints for viewers of robots.
+    Urdf,
+    /// Unit of a simulation after the Functional Mock-up Interface.
+    Fmu,
     /// Kind that is never written, in words.
     Other(&'static str),
 }
 
 /// All endings with a meaning. A file with any other ending may hold any text.
-const ENDINGS: [(&[&str], Kind); 36] = [
+const ENDINGS: [(&[&str], Kind); 40] = [
     (&["txt", "out", "log", "dat"], Kind::Text),
     (&["md"], Kind::Markdown),
     (&["json"], Kind::Json),
@@ -63,6 +71,10 @@ const ENDINGS: [(&[&str], Kind); 36] = [
     (&["npz"], Kind::Npz),
     (&["mat"], Kind::Mat),
     (&["uff", "unv"], Kind::Uff),
+    (&["xml", "mjcf"], Kind::Xml),
+    (&["sdf"], Kind::Sdf),
+    (&["urdf"], Kind::Urdf),
+    (&["fmu"], Kind::Fmu),
     (&["partial", "writing"], Kind::Other("rows of an unfinished sweep")),
     (&["jsonl", "ndjson"], Kind::Other("lines of JSON")),
     (&["tsv", "tab"], Kind::Other("a table of tab-separated values")),
@@ -78,7 +90,7 @@ const ENDINGS: [(&[&str], Kind); 36] = [
     (&["png", "jpg", "jpeg", "gif", "webp", "tif", "tiff", "bmp"], Kind::Other("a picture")),
     (&["doc", "docx", "odt", "rtf", "ppt", "pptx", "tex"], Kind::Other("a document")),
     (&["yaml", "yml", "ini"], Kind::Other("another format of settings")),
-    (&["xml", "wcrfx"], Kind::Other("another format of XML")),
+    (&["wcrfx"], Kind::Other("another format of XML")),
     (&["tcl", "js", "c", "h", "cpp", "rs", "jl", "sh", "bat"], Kind::Other("a program in another language")),
     (&["db", "sqlite", "duckdb"], Kind::Other("a database")),
     (&["zip", "gz", "tgz", "bz2", "xz", "zst", "7z", "tar"], Kind::Other("an archive")),
@@ -111,6 +123,10 @@ impl Kind {
             Self::Npz => "arrays of NumPy",
             Self::Mat => "variables of MATLAB",
             Self::Uff => "a Universal File",
+            Self::Xml => "a model in XML",
+            Self::Sdf => "a model of Gazebo",
+            Self::Urdf => "a robot in URDF",
+            Self::Fmu => "a Functional Mock-up Unit",
             Self::Other(words) => words,
         }
     }

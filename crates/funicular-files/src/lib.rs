@@ -13,6 +13,7 @@ pub mod arrow;
 pub mod atomic_file;
 mod csv;
 pub mod endings;
+pub mod fmu;
 mod guard;
 mod journal;
 pub mod mat;
@@ -50,6 +51,7 @@ use funicular_study::columns::ResultTable;
 use funicular_study::table::{Chunk, Record, RecordDifference, Values};
 use std::io;
 use std::path::{Path, PathBuf};
+use std::time::Duration;
 use thiserror::Error;
 
 /// Reason why a file of a sweep cannot be read or written. Messages name options by their keys between ⟪ and ⟫, for
@@ -248,6 +250,10 @@ trait Rows {
 /// Rows per row group of a Parquet file and per batch of a table in memory.
 #[cfg(any(feature = "arrow", feature = "parquet"))]
 const GROUP_ROWS: usize = 1 << 16;
+
+/// Time that a run which was stopped has for the file of its finished rows: clusters kill a job soon after they ask it to
+/// end.
+pub const WRITE_WITHIN: Duration = Duration::from_millis(800);
 
 /// Ending added to the name of a file of rows for the journal of an unfinished run.
 const JOURNAL: &str = ".partial";

@@ -6,7 +6,9 @@ use crate::parquet::ParquetFile;
 use crate::{FilesError, Format, Rows, behind_link, vti, with_ending, write_complete};
 use funicular_study::table::{Chunk, Record, RecordDifference};
 use std::fs;
+use std::io;
 use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
 
 /// Treatment of the work of an earlier run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -116,14 +118,16 @@ impl Job {
         Ok(())
     }
 
-    /// Writes the rows computed so far, keeps the journal, and returns a sentence on where the rows are.
+    /// Writes the rows computed so far if that takes no longer than `within`, keeps the journal, and returns a sentence
+    /// on where the rows are. A continued run writes the file in any case.
     ///
     /// A complete Parquet file is not replaced. An existing .csv file is not replaced either, because it cannot show
     /// whether it is complete. An image is not written, because it needs all of its values.
     ///
     /// # Errors
     /// [`FilesError::Write`]; the journal stays.
-    pub fn interrupt(mut self) -> Result<String, FilesError> {
+    pub fn interrupt(mut self, within: Duration) -> Result<String, FilesError> {
+        let begin = Instant::now();
         self.journal.sync().map_err(|source| self.failed(&self.journal.path, source))?;
         let replaces_nothing = match self.format {
             Format::Parquet => !self.path.exists() || ParquetFile::open(&self.path).is_ok_and(|file| !file.complete),
@@ -133,8 +137,11 @@ impl Job {
         if !replaces_nothing || self.done() == 0 {
             return Ok(self.safe());
         }
-        write_complete(&self.path, self.format, self.journal.record(), &self.journal, false)
-            .map_err(|source| self.failed(&self.path, source))?;
+        let rows = InTime { rows: &self.journal, begin, within };
+        match write_complete(&self.path, self.format, self.journal.record(), &rows, false) {
+            Err(error) if error.kind() == io::ErrorKind::TimedOut => return Ok(self.safe()),
+            written => written.map_err(|source| self.failed(&self.path, source))?,
+        }
         let mark = match self.format {
             Format::Csv => "which cannot show that it is incomplete",
             Format::Parquet | Format::Vti => "marked as incomplete",
@@ -148,9 +155,27 @@ impl Job {
         format!("{} of {rows} rows are safe in {}", self.done(), self.journal.path.display())
     }
 
-    fn failed(&self, path: &Path, cause: std::io::Error) -> FilesError {
+    fn failed(&self, path: &Path, cause: io::Error) -> FilesError {
         let saved = format!("{}: {}, then continue with ⟪resume⟫", self.safe(), crate::to_do(&cause));
         FilesError::Write { path: path.to_owned(), saved, cause }
+    }
+}
+
+/// Rows of which reading ends with an error when its time is over.
+struct InTime<'a> {
+    rows: &'a dyn Rows,
+    begin: Instant,
+    within: Duration,
+}
+
+impl Rows for InTime<'_> {
+    fn each(&self, take: &mut dyn FnMut(Chunk) -> io::Result<()>) -> io::Result<()> {
+        self.rows.each(&mut |chunk| {
+            if self.begin.elapsed() >= self.within {
+                return Err(io::ErrorKind::TimedOut.into());
+            }
+            take(chunk)
+        })
     }
 }
 

@@ -2,7 +2,7 @@
 
 use crate::parquet::ParquetFile;
 use crate::threads::{Outcome, in_order};
-use crate::{Begin, FilesError, Job, Opened, SweepFile};
+use crate::{Begin, FilesError, Job, Opened, SweepFile, WRITE_WITHIN};
 use funicular_study::analyses::uncertainty::{SamplePlan, Samples, Uncertainties, UncertaintyStudy};
 use funicular_study::table::Record;
 use std::convert::Infallible;
@@ -76,7 +76,7 @@ impl UncertaintyRun<'_> {
                 Ok(UncertaintyOutcome::Complete(Box::new(plan.finish(&table))))
             }
             (Outcome::Cancelled { .. }, Some(job)) => {
-                let safe = job.interrupt()?;
+                let safe = job.interrupt(WRITE_WITHIN)?;
                 Ok(UncertaintyOutcome::Stopped(format!("stopped: {safe}; continue with the same command and ⟪resume⟫")))
             }
             (Outcome::Cancelled { next }, None) => {

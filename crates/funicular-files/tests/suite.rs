@@ -15,8 +15,12 @@ use std::fs::{self, File};
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Duration;
 
 const ROBOT: &str = funicular_robots::COGIRO;
+
+/// Time that is never too short for the file of an interrupted run.
+const LONG: Duration = Duration::from_secs(3600);
 
 /// Sweep of 70×3 poses, some of them infeasible, with its rows.
 fn sweep() -> (Record, Vec<Chunk>) {
@@ -163,7 +167,7 @@ fn an_interrupted_run_keeps_its_rows_and_replaces_no_complete_file() {
         for chunk in &chunks[job.next()..][..more] {
             job.add(chunk).unwrap();
         }
-        assert!(job.interrupt().unwrap().ends_with("a.parquet, marked as incomplete"));
+        assert!(job.interrupt(LONG).unwrap().ends_with("a.parquet, marked as incomplete"));
     }
     let reader = SerializedFileReader::new(File::open(&path).unwrap()).unwrap();
     assert_eq!(reader.metadata().file_metadata().num_rows(), 16 * 3);
@@ -172,8 +176,25 @@ fn an_interrupted_run_keeps_its_rows_and_replaces_no_complete_file() {
     assert!(fs::read(&path).unwrap() == expected);
     let mut job = open(&path, &record, Begin::Discard).unwrap();
     job.add(&chunks[0]).unwrap();
-    assert!(job.interrupt().unwrap().ends_with("a.parquet.partial"));
+    assert!(job.interrupt(LONG).unwrap().ends_with("a.parquet.partial"));
     assert!(fs::read(&path).unwrap() == expected, "a complete file stays");
+}
+
+#[test]
+fn an_interrupted_run_without_time_keeps_its_journal_and_leaves_nothing_else() {
+    let (record, chunks) = sweep();
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.parquet");
+    let mut job = open(&path, &record, Begin::Anew).unwrap();
+    for chunk in &chunks[..5] {
+        job.add(chunk).unwrap();
+    }
+    assert!(job.interrupt(Duration::ZERO).unwrap().ends_with("a.parquet.partial"));
+    let left: Vec<_> = fs::read_dir(folder.path()).unwrap().map(|entry| entry.unwrap().file_name()).collect();
+    assert_eq!(left, ["a.parquet.partial"]);
+    let expected = complete_file(&folder.path().join("whole.parquet"), &record, &chunks);
+    complete(open(&path, &record, Begin::Resume).unwrap(), &chunks, chunks.len());
+    assert!(fs::read(&path).unwrap() == expected, "the continued run is that of an undisturbed one");
 }
 
 #[test]
@@ -208,7 +229,7 @@ fn parts_become_the_file_of_one_run_and_nothing_else_does() {
     let unfinished = Record { part: Some(Part { number: 2, of: 3 }), ..record.clone() };
     let mut job = open(&at("unfinished.parquet"), &unfinished, Begin::Anew).unwrap();
     job.add(&chunks[job.next()]).unwrap();
-    job.interrupt().unwrap();
+    job.interrupt(LONG).unwrap();
     assert!(refused(&["1-3", "unfinished", "3-3"]).contains("(part 2/3) is incomplete"));
     fs::write(at("text.parquet"), "no").unwrap();
     assert!(refused(&["text"]).contains("was not written by a sweep"));
@@ -301,7 +322,7 @@ fn a_file_with_bytes_lost_added_or_blank_is_refused_by_every_reader() {
     fs::write(&path, &bytes).unwrap();
     let mut job = open(&path, &record, Begin::Anew).unwrap();
     job.add(&chunks[0]).unwrap();
-    assert!(job.interrupt().unwrap().ends_with("a.parquet.partial"));
+    assert!(job.interrupt(LONG).unwrap().ends_with("a.parquet.partial"));
     assert!(fs::read(&path).unwrap() == bytes);
 }
 

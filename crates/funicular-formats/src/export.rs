@@ -1,10 +1,14 @@
 //! Export of a robot at equilibrium to files of other programs; docs/export.md describes the content of each file.
 
 pub(crate) mod chain;
+mod links;
 pub(crate) mod moordyn;
+mod mujoco;
 pub(crate) mod opensees;
+mod straight;
 pub(crate) mod support;
 pub(crate) mod vtk;
+pub(crate) mod xml_text;
 
 use anyhow::{Result, bail};
 use funicular::cable::CableModel;
@@ -12,7 +16,6 @@ use funicular::dynamics::{Dynamics, Linearisation};
 use funicular::modes::{self, LowestError, Modes};
 use funicular::statics::StaticModel;
 use funicular_study::at_rest::AtRest;
-use funicular_study::names::Named;
 use funicular_study::request;
 use funicular_study::values::positive;
 
@@ -45,13 +48,16 @@ pub fn run(at_rest: &AtRest, request: &request::ExportRequest) -> Result<Exporte
     if rigid.is_some() {
         warnings.push(format!(
             "files of {} have no flexible supports: anchors are fixed where they are at rest",
-            to.name()
+            to.program()
         ));
     }
     let at_rest = rigid.as_ref().unwrap_or(at_rest);
     let text = match to {
         ExportFormat::Opensees => opensees::script(at_rest, segments, modes_below_hz, &mut warnings)?,
         ExportFormat::Moordyn => moordyn::input(at_rest, segments, &mut warnings)?,
+        ExportFormat::Mujoco => mujoco::model(at_rest, &mut warnings)?,
+        ExportFormat::Sdf => links::sdf(at_rest, &mut warnings)?,
+        ExportFormat::Urdf => links::urdf(at_rest, &mut warnings)?,
         ExportFormat::Vtk => vtk::poly_data(at_rest, segments, modes_below_hz, &mut warnings)?,
     };
     warnings.extend(at_rest.warnings(None));
@@ -63,11 +69,19 @@ pub fn run(at_rest: &AtRest, request: &request::ExportRequest) -> Result<Exporte
 /// # Errors
 /// The option to leave out or to change.
 pub fn refuse(request: &request::ExportRequest) -> Result<()> {
-    if request.state.static_model != StaticModel::Catenary {
-        bail!("export writes cables with the catenary model only: leave out ⟪static_model⟫");
+    let model = request.state.static_model;
+    if request.to.has_straight_cables() {
+        if model == StaticModel::Ideal {
+            bail!("ideal cables have no stiffness, which {} needs: leave out ⟪static_model⟫", request.to.program());
+        }
+    } else if model != StaticModel::Catenary {
+        bail!(
+            "export writes cables for {} with the catenary model only: leave out ⟪static_model⟫",
+            request.to.program()
+        );
     }
-    if request.to == ExportFormat::Moordyn && request.modes_below_hz.is_some() {
-        bail!("MoorDyn has no modes: leave out ⟪modes_below_hz⟫");
+    if !request.to.has_modes() && request.modes_below_hz.is_some() {
+        bail!("{} has no modes: leave out ⟪modes_below_hz⟫", request.to.program());
     }
     if !(1..=MAX_SEGMENTS).contains(&request.segments) {
         bail!("⟪segments⟫: {} is not a number of elements from 1 to {MAX_SEGMENTS}", request.segments);

@@ -440,7 +440,7 @@ def test_files_and_pages_are_those_of_the_program(executable: str, folder: Path)
 
     robot = funicular.Robot.from_file(ROBOT)
     rest = robot.equilibrium(pose=[0, 0, 0.5])
-    for to, ending, keywords in [("opensees", "py", {}), ("moordyn", "txt", {}), ("vtk", "vtp", {"modes_below_hz": 2})]:
+    for to, ending, keywords in [("opensees", "py", {}), ("moordyn", "txt", {}), ("mujoco", "xml", {}), ("sdf", "sdf", {}), ("urdf", "urdf", {}), ("vtk", "vtp", {"modes_below_hz": 2})]:
         more = "".join(f" --{key.replace('_', '-')} {value}" for key, value in keywords.items())
         run(f"export {ROBOT} --to {to} --pose 0,0,0.5 --segments 5{more} -o theirs.{ending}")
         rest.export(to, f"ours.{ending}", segments=5, **keywords)

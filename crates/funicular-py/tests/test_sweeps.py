@@ -304,3 +304,71 @@ def test_a_full_disk_is_explained_and_what_was_written_goes_on(robot: funicular.
 def test_the_plan_says_what_was_asked(rows: funicular.Sweep) -> None:
     assert rows.plan["quantities"] == ["tension-max", "first-kind"] and rows.plan["command"] == "map"
     assert json.dumps(rows.plan)
+
+
+def test_a_dataset_has_the_dimensions_of_the_grid_and_survives_netcdf(rows: funicular.Sweep, tmp_path: Path) -> None:
+    xarray = pytest.importorskip("xarray")
+    of = rows.to_xarray()
+    assert of["tension_max_n"].dims == ("y", "x") and of["tension_max_n"].shape == (3, 9)
+    # One point by its coordinates, against the row itself.
+    at = (rows["x_m"] == 1.0) & (rows["y_m"] == -1.0)
+    assert at.sum() == 1
+    assert of["tension_max_n"].sel(x=1.0, y=-1.0).item() == rows["tension_max_n"][at][0]
+    assert float(of["z"]) == 0.5 and of["z"].dims == () and of["z"].attrs["units"] == "m"
+    assert of["tension_max_n"].attrs["units"] == "N" and of["tension_max_n"].attrs["long_name"] == rows.about["tension_max_n"]
+    assert funicular.Robot.from_toml(of.attrs["robot"]) == rows.robot
+
+    of.to_netcdf(tmp_path / "rows.nc")
+    with xarray.open_dataset(tmp_path / "rows.nc") as read:
+        assert read.load().equals(of) and read.attrs == of.attrs
+        assert read["tension_max_n"].attrs == of["tension_max_n"].attrs
+
+
+def test_datasets_of_varied_values_of_poses_and_of_parts(robot: funicular.Robot, tmp_path: Path) -> None:
+    pytest.importorskip("xarray")
+    varied = robot.sweep({"platform.mass_kg": (10, 20, 3), "platform.center_of_mass_m.z": (0.0, 0.1, 2)}, quantities=["tension-min"])
+    of = varied.to_xarray()
+    assert of["tension_min_n"].dims == ("platform.center_of_mass_m.z", "platform.mass_kg")
+    assert np.array_equal(of["tension_min_n"].values.ravel(), varied["tension_min_n"])
+    assert of["platform.mass_kg"].values.tolist() == [10, 15, 20] and of["platform.mass_kg"].attrs["units"] == "kg"
+
+    listed = robot.map(poses=[[0, 0, 0.5], [0, 0.1, 0.5], [0, 0.2, 0.5]], quantities=["tension-min"])
+    of = listed.to_xarray()
+    assert of["tension_min_n"].dims == ("row",) and np.array_equal(of["y_m"], listed["y_m"])
+
+
+def test_datasets_of_modes_and_responses(robot: funicular.Robot, tmp_path: Path) -> None:
+    xarray = pytest.importorskip("xarray")
+    rest = robot.equilibrium()
+    modes = rest.modes(below_hz=2, stations=3)
+    of = modes.to_xarray()
+    assert np.array_equal(of["frequency_hz"], modes.frequency_hz) and of["frequency_hz"].attrs == {"units": "Hz"}
+    assert modes.eigenvalue_per_s is not None and modes.cable_shapes is not None
+    assert np.array_equal(of["eigenvalue_imag_per_s"], modes.eigenvalue_per_s.imag)
+    assert of["shape"].sel(motion="rz", mode=2).item() == modes.shape[1, 5]
+    assert of["cable_shapes"].dims == ("mode", "cable", "station", "direction")
+    assert of["cable_energy_fractions"].sel(cable="3").values.tolist() == modes.cable_energy_fractions[:, 2].tolist()
+    of.to_netcdf(tmp_path / "modes.nc")
+    with xarray.open_dataset(tmp_path / "modes.nc") as read:
+        assert read.load().equals(of)
+
+    request = robot.request("frf", from_hz=1, to_hz=2, points=5, input=["fz", "fx"], output=["az", "z"])
+    of = funicular.run(request).to_xarray()
+    direct = rest.frf(of["frequency_hz"].values, ["fz", "fx"], ["az", "z"])
+    rows = of.sel(response=(of["input"] == "fx") & (of["output"] == "z"))
+    assert np.allclose((rows["real"] + 1j * rows["imag"]).values[0], direct[1, 1], rtol=1e-12)
+    assert rows["unit"].item() == "m/N"
+    of.to_netcdf(tmp_path / "frf.nc")
+    one = funicular.run(robot.request("frf", from_hz=1, to_hz=2, points=5)).to_xarray()
+    assert one["real"].dims == ("frequency_hz",) and one["real"].attrs == {"units": "(m/s²)/N"}
+
+    settle = rest.settle([0, 0, 10])
+    of = settle.to_xarray()
+    assert of["history_x_m"].values.tolist() == [row["x_m"] for row in settle["history"]]
+    assert of["history_x_m"].attrs == {"units": "m"} and of.attrs["peak_m"] == settle["peak_m"]
+
+
+def test_a_dataset_without_xarray_names_the_package(rows: funicular.Sweep, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "xarray", None)
+    with pytest.raises(ImportError, match="a dataset needs the package xarray: pip install xarray"):
+        rows.to_xarray()

@@ -490,18 +490,27 @@ pub enum ExportFormat {
     Opensees,
     /// MoorDyn input file of version 2.
     Moordyn,
+    /// MuJoCo model (MJCF).
+    Mujoco,
+    /// World of Gazebo (SDF).
+    Sdf,
+    /// Robot for viewers (URDF).
+    Urdf,
     /// VTK XML of polylines and polygons (.vtp), for ParaView.
     Vtk,
 }
 
 impl Named for ExportFormat {
     const WHAT: &'static str = "format of export";
-    const ALL: &'static [Self] = &[Self::Opensees, Self::Moordyn, Self::Vtk];
+    const ALL: &'static [Self] = &[Self::Opensees, Self::Moordyn, Self::Mujoco, Self::Sdf, Self::Urdf, Self::Vtk];
 
     fn name(self) -> &'static str {
         match self {
             Self::Opensees => "opensees",
             Self::Moordyn => "moordyn",
+            Self::Mujoco => "mujoco",
+            Self::Sdf => "sdf",
+            Self::Urdf => "urdf",
             Self::Vtk => "vtk",
         }
     }
@@ -510,8 +519,35 @@ impl Named for ExportFormat {
         match self {
             Self::Opensees => "Python script for OpenSeesPy",
             Self::Moordyn => "Input file of version 2",
+            Self::Mujoco => "Model in MJCF, with winches as actuators",
+            Self::Sdf => "World of Gazebo, whose cables Drake reads as springs",
+            Self::Urdf => "Frame and platform for viewers",
             Self::Vtk => "VTK XML of polylines and polygons (.vtp), for ParaView",
         }
+    }
+}
+
+impl ExportFormat {
+    /// Name of the program as its authors write it.
+    pub fn program(self) -> &'static str {
+        match self {
+            Self::Opensees => "OpenSees",
+            Self::Moordyn => "MoorDyn",
+            Self::Mujoco => "MuJoCo",
+            Self::Sdf => "Gazebo",
+            Self::Urdf => "URDF",
+            Self::Vtk => "VTK",
+        }
+    }
+
+    /// True if cables of the program are straight springs without mass, with the static model `spring`.
+    pub fn has_straight_cables(self) -> bool {
+        matches!(self, Self::Mujoco | Self::Sdf | Self::Urdf)
+    }
+
+    /// True if the file can hold or compare modes.
+    pub fn has_modes(self) -> bool {
+        matches!(self, Self::Opensees | Self::Vtk)
     }
 }
 

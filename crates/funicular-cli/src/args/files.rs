@@ -151,12 +151,23 @@ pub(crate) struct GustArgs {
     pub(crate) drawn: DrawArgs,
 }
 
+/// Form of a reduced model for other programs.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+pub(crate) enum ReducedTo {
+    /// Functional Mock-up Unit 2.0.
+    Fmu,
+}
+
 /// Model whose matrices are written to files.
 #[derive(Debug, Args)]
 pub(crate) struct ReduceArgs {
-    /// Write the matrices to an .npz or .mat file, or as CSV files to a new folder
+    /// Write the matrices to an .npz or .mat file, or as CSV files to a new folder; FILE.fmu is a unit for Simulink and
+    /// Modelica
     #[arg(long, value_name = "FILE|FOLDER")]
     pub(crate) matrices: Option<PathBuf>,
+    /// Write the model for other programs to the FILE of -o: fmu, a Functional Mock-up Unit 2.0, as --matrices FILE.fmu
+    #[arg(long, value_name = "PROGRAM", value_enum, requires = "output_file", conflicts_with_all = ["matrices", "format"])]
+    pub(crate) to: Option<ReducedTo>,
     #[command(flatten)]
     pub(crate) sink: OutputArgs,
 }

@@ -22,6 +22,9 @@ pub(super) fn write(of: &ExportRequest, robot: Robot, guard: &mut Guard, path: &
     let (in_words, fitting): (_, &[Kind]) = match of.to {
         ExportFormat::Opensees => ("a Python script for OpenSees", &[Kind::Python]),
         ExportFormat::Moordyn => ("an input file of MoorDyn", &[Kind::Text]),
+        ExportFormat::Mujoco => ("a model of MuJoCo", &[Kind::Xml]),
+        ExportFormat::Sdf => ("a world of Gazebo", &[Kind::Sdf]),
+        ExportFormat::Urdf => ("a robot in URDF", &[Kind::Urdf]),
         ExportFormat::Vtk => ("curves and polygons of VTK", &[Kind::Vtp]),
     };
     let content = Content { name: "the exported robot", in_words, fitting };

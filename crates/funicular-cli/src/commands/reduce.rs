@@ -1,6 +1,7 @@
 //! `reduce`: text, CSV and the files of the matrices.
 
-use crate::args::{OutputArgs, ReduceArgs};
+use crate::args::{OutputArgs, ReduceArgs, ReducedTo};
+use crate::errors;
 use crate::output::{Content, Printed, Sink, Target};
 use crate::progress::TerminalProgress;
 use crate::table::{Table, counted, decimals};
@@ -10,32 +11,45 @@ use funicular::reduced_model::{SecondOrder, StateSpace};
 use funicular_files::endings::Kind;
 use funicular_files::mat::{self, Value, Variable};
 use funicular_files::{Guard, atomic_file};
+use funicular_formats::fmu::{self, UnitModel};
 use funicular_study::analyses::Found;
 use funicular_study::analyses::control_model::{ControlStateSpace, StatesRow, percent};
 use funicular_study::analyses::reduce::{self, ChannelRow, Reduced, ReducedForm};
 use funicular_study::json;
+use funicular_study::names::ModelForm;
 use funicular_study::request::ReduceRequest;
+use funicular_study::robot_file::RobotFile;
 use std::io::{Cursor, Write};
 use std::path::{Path, PathBuf};
 use zip::write::SimpleFileOptions;
 
 /// Runs `reduce`: prints the model and writes its matrices to files.
 pub(super) fn run(of: &ReduceRequest, args: &ReduceArgs, guard: Guard) -> Result<()> {
-    print(of, &args.sink, args.matrices.as_deref(), guard)
+    match args.to {
+        None => print(of, &args.sink, args.matrices.as_deref(), guard),
+        Some(ReducedTo::Fmu) => {
+            let path = args.sink.output_file.as_deref().filter(|path| Kind::of(path) == Some(Kind::Fmu));
+            let Some(path) = path else { bail!("--to fmu writes a Functional Mock-up Unit: give -o FILE.fmu") };
+            print(of, &OutputArgs { format: None, output_file: None }, Some(path), guard)
+        }
+    }
 }
 
 /// Prints the model of a request and writes its matrices to files.
 pub(super) fn print(of: &ReduceRequest, output: &OutputArgs, matrices: Option<&Path>, mut guard: Guard) -> Result<()> {
-    let robot = of.robot.read()?.robot;
+    let RobotFile { robot, text, .. } = of.robot.read()?;
     let sink = Sink::open(output, &[], &mut guard)?;
     let file = matrices.map(|path| ModelFile::open(path, &mut guard)).transpose()?;
+    if matches!(file, Some(ModelFile::Fmu(_))) && of.form == ModelForm::SecondOrder {
+        bail!("a Functional Mock-up Unit holds a state space: leave out --form second-order");
+    }
 
     let mut watch = TerminalProgress::new();
     let mut found = reduce::run(robot, of, &mut watch)?;
     drop(watch);
     found.set_matrices_file(matrices.map(|path| path.display().to_string()));
     if let Some(file) = file {
-        file.write(&found)?;
+        file.write(&found, &text)?;
     }
     sink.write(&found)
 }
@@ -100,6 +114,11 @@ fn state_space_text(found: &ControlStateSpace) -> String {
     );
     let written = match &found.matrices_file {
         None => NOT_WRITTEN.to_owned(),
+        Some(path) if Kind::of(Path::new(path)) == Some(Kind::Fmu) => {
+            format!(
+                "{path}: x' = A x + B u, y = C x + D u as a Functional Mock-up Unit 2.0, with robot file and description"
+            )
+        }
         Some(path) => format!("{path}: A, B, C, D of x' = A x + B f, y = C x + D f; description"),
     };
 
@@ -164,12 +183,17 @@ const ARRAYS: Content = Content { name: "the matrices", in_words: "arrays of Num
 /// Matrices in a file of MATLAB.
 const VARIABLES: Content = Content { name: "the matrices", in_words: "variables of MATLAB", fitting: &[Kind::Mat] };
 
+/// Unit of a simulation.
+const UNIT: Content = Content { name: "the model", in_words: "a Functional Mock-up Unit", fitting: &[Kind::Fmu] };
+
 /// Destination of the matrices.
 pub(crate) enum ModelFile {
     /// NumPy archive.
     Npz(Target),
     /// File of MATLAB.
     Mat(Target),
+    /// Functional Mock-up Unit.
+    Fmu(Target),
     /// Folder of CSV files, new or empty.
     Folder(PathBuf),
 }
@@ -180,6 +204,7 @@ impl ModelFile {
         match Kind::of(path) {
             Some(Kind::Npz) => return Ok(Self::Npz(Target::open(Some(path), ARRAYS, guard)?)),
             Some(Kind::Mat) => return Ok(Self::Mat(Target::open(Some(path), VARIABLES, guard)?)),
+            Some(Kind::Fmu) => return Ok(Self::Fmu(Target::open(Some(path), UNIT, guard)?)),
             _ => {}
         }
 
@@ -188,8 +213,8 @@ impl ModelFile {
 
         if path.extension().is_some() && !path.is_dir() {
             bail!(
-                "--matrices {shown} is neither an .npz or .mat file nor a folder: write model.npz, model.mat, or a \
-                 folder without an ending"
+                "--matrices {shown} is neither an .npz, .mat or .fmu file nor a folder: write model.npz, model.mat, \
+                 model.fmu, or a folder without an ending"
             );
         }
         match path.read_dir().map(|mut entries| entries.next().is_some()) {
@@ -207,7 +232,8 @@ impl ModelFile {
         }
     }
 
-    pub(crate) fn write(&self, reduced: &ReducedForm) -> Result<()> {
+    /// Writes the model; `robot_file` is the text of the robot.
+    pub(crate) fn write(&self, reduced: &ReducedForm, robot_file: &str) -> Result<()> {
         let mut description = Vec::new();
         json::write(&mut description, ReducedForm::COMMAND, reduced.robot(), reduced, reduced.warnings())?;
         let space;
@@ -222,6 +248,10 @@ impl ModelFile {
         match self {
             Self::Npz(target) => target.write(&npz(matrices, reduced, &description)?),
             Self::Mat(target) => target.write(&mat(matrices, reduced, &description)?),
+            Self::Fmu(target) => {
+                let ReducedForm::StateSpace(found) = reduced else { return Ok(()) };
+                target.write(&unit(found, robot_file, &description)?)
+            }
             Self::Folder(path) => {
                 folder(path, matrices, &description).with_context(|| format!("cannot write to {}", path.display()))
             }
@@ -285,6 +315,24 @@ fn mat(matrices: &[(&str, &DMat)], reduced: &ReducedForm, description: &[u8]) ->
     let texts = texts(reduced, &description).into_iter();
     variables.extend(texts.map(|(name, column)| Variable { name, value: Value::Texts(column) }));
     mat::bytes(&variables).ok_or_else(|| anyhow!("the matrices are too large for a file of MATLAB: write an .npz file"))
+}
+
+/// Makes a Functional Mock-up Unit, with the robot file and the description as resources.
+fn unit(found: &ControlStateSpace, robot_file: &str, description: &[u8]) -> Result<Vec<u8>> {
+    let channels = |of: &[ChannelRow]| of.iter().map(|row| (row.name.clone(), row.unit.to_owned())).collect();
+    let texts = fmu::texts(&UnitModel {
+        robot: &found.robot,
+        below_hz: found.below_hz,
+        error: found.error,
+        inputs: channels(&found.inputs),
+        outputs: channels(&found.outputs),
+        space: &found.model.space,
+    })?;
+    let resources = [("robot.toml", robot_file.as_bytes()), ("description.json", description)];
+    let (bytes, not_compiled) =
+        funicular_files::fmu::pack(fmu::IDENTIFIER, &texts.description, &texts.source, &resources)?;
+    texts.warnings.iter().chain(&not_compiled).for_each(|warning| errors::warn(warning));
+    Ok(bytes)
 }
 
 /// Writes a NumPy archive, with the names of inputs and outputs and the description beside the matrices. Every member is

@@ -80,7 +80,14 @@ fn compute(
     samples: Option<(&Path, Begin)>,
 ) -> Result<Uncertainties> {
     let study = UncertaintyStudy::new(of)?;
-    stop_at_next_row()?;
+    let otherwise = match samples {
+        Some((path, _)) => format!(
+            "stopped: the finished robots are safe beside {}; continue with the same command and --resume",
+            path.display()
+        ),
+        None => "stopped, and the robots are not stored: give --samples-file to be able to continue later".to_owned(),
+    };
+    stop_at_next_row(Some(otherwise))?;
     let mut bar: Option<(Progress, &'static str, usize)> = None;
     let mut progress = |done: usize, total: usize, what: &'static str| {
         if bar.as_ref().is_none_or(|(_, shown, _)| *shown != what) {

@@ -100,6 +100,99 @@ fn a_vtk_file_has_as_many_numbers_as_it_says() {
     assert_eq!(names, [&["position_m", "tension_n", "arc_length_m"], &modes[..]].concat());
 }
 
+/// Numbers of an attribute.
+fn numbers(node: roxmltree::Node, attribute: &str) -> Vec<f64> {
+    node.attribute(attribute).unwrap().split(' ').map(|x| x.parse().unwrap()).collect()
+}
+
+#[test]
+fn a_model_of_mujoco_rests_at_the_equilibrium_of_springs() {
+    let names = ["cogiro.toml", "cogiro-winches.toml", "kntu-planar.toml", "stadium-camera.toml", "grab-3-cables.toml"];
+    for name in names {
+        let file = succeed(&["export", &robot(name), "--to", "mujoco"]);
+        let document = roxmltree::Document::parse(&file).unwrap();
+        let found: serde_json::Value =
+            serde_json::from_str(&succeed(&["statics", &robot(name), "--static-model", "spring", "--format", "json"]))
+                .unwrap();
+        let named = |name: &str| document.descendants().find(|node| node.attribute("name") == Some(name)).unwrap();
+
+        let position = numbers(named("platform"), "pos");
+        let expected: Vec<f64> = serde_json::from_value(found["pose"]["position_m"].clone()).unwrap();
+        let off = position.iter().zip(&expected).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        assert!(off < 1e-9, "{name}: {position:?} {expected:?}");
+
+        let cables = found["cables"].as_array().unwrap();
+        let forces = document.descendants().find(|node| node.attribute("name") == Some("forces")).unwrap();
+        let tensions = &numbers(forces, "ctrl")[cables.len()..];
+        for (cable, tension) in cables.iter().zip(tensions) {
+            let expected = cable["tension_platform_n"].as_f64().unwrap();
+            assert!((tension / expected - 1.0).abs() < 1e-6, "{name}: {tension} {expected}");
+            // The cable only pulls, and has no force at the length of its spring.
+            let winch = named(&format!("length:{}", cable["name"].as_str().unwrap()));
+            let [bias, stiffness] = numbers(winch, "biasprm")[..2] else { panic!("three numbers") };
+            assert!(numbers(winch, "forcerange")[1] == 0.0 && stiffness < 0.0 && bias > 0.0);
+        }
+        let pulleys = file.matches("<body name=\"pulley:").count();
+        let expected = cables.iter().filter(|cable| cable["drive"]["wrap_deg"].is_f64()).count();
+        assert_eq!(pulleys, expected, "{name}");
+    }
+}
+
+#[test]
+fn links_of_gazebo_and_of_viewers_are_where_the_robot_rests() {
+    for name in ["cogiro.toml", "stadium-camera.toml", "grab-3-cables.toml"] {
+        let found: serde_json::Value =
+            serde_json::from_str(&succeed(&["statics", &robot(name), "--static-model", "spring", "--format", "json"]))
+                .unwrap();
+        let cables = found["cables"].as_array().unwrap();
+        let expected: Vec<f64> = serde_json::from_value(found["pose"]["position_m"].clone()).unwrap();
+
+        let sdf = succeed(&["export", &robot(name), "--to", "sdf"]);
+        let document = roxmltree::Document::parse(&sdf).unwrap();
+        let named = |name: &str| document.descendants().find(|node| node.attribute("name") == Some(name)).unwrap();
+        let child = |node: roxmltree::Node, tag: &str| {
+            let inner = node.descendants().find(|node| node.tag_name().name() == tag).unwrap();
+            inner.text().unwrap().split(' ').map(|x| x.parse().unwrap()).collect::<Vec<f64>>()
+        };
+        let link =
+            document.descendants().find(|node| node.has_tag_name("link") && node.attribute("name") == Some("platform"));
+        assert!((child(link.unwrap(), "pose")[2] - expected[2]).abs() < 1e-9, "{name}");
+        for cable in cables {
+            let spring =
+                named(&format!("attachment_{}", cable["name"].as_str().unwrap())).next_sibling_element().unwrap();
+            let [stiffness, free] =
+                ["stiffness", "free_length"].map(|key| child(spring, &format!("linear_spring_damper_{key}"))[0]);
+            let tension = stiffness * (cable["chord_m"].as_f64().unwrap() - free);
+            assert!((tension / cable["tension_platform_n"].as_f64().unwrap() - 1.0).abs() < 1e-6, "{name}: {tension}");
+        }
+
+        let urdf = succeed(&["export", &robot(name), "--to", "urdf"]);
+        let document = roxmltree::Document::parse(&urdf).unwrap();
+        let joints = document.descendants().filter(|node| node.has_tag_name("joint")).count();
+        assert_eq!(joints, 1 + 2 * cables.len(), "{name}");
+    }
+    let planar = succeed(&["export", &robot("kntu-planar.toml"), "--to", "urdf"]);
+    assert!(planar.contains("type=\"planar\"") && planar.contains("<axis xyz=\"0 0 1\"/>"), "{planar}");
+}
+
+#[test]
+fn a_model_of_mujoco_says_what_it_leaves_out_and_holds_any_name() {
+    let awkward = yuan()
+        .replace("name = \"1\"", "name = \"<&\\uFFFE --\\\"\"")
+        .replace("[platform]", "[platform]\ntranslational_damping_n_s_m = [5.0, 5.0, 5.0]");
+    let output = run_with(&["export", "-", "--to", "mujoco"], &awkward);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let (file, told) = (stdout(&output), stderr(&output));
+    let document = roxmltree::Document::parse(file).unwrap();
+    assert!(document.descendants().any(|node| node.attribute("name") == Some("length:<&_ --\"")), "{file}");
+    for lost in
+        ["of rope beside 10.55 kg of the platform", "the viscous damping of the platform is left out", "is \"<&_"]
+    {
+        assert!(told.contains(lost), "{lost}: {told}");
+    }
+    assert!(file.contains("- the viscous damping of the platform is left out"), "{file}");
+}
+
 #[test]
 fn a_pose_of_a_redundant_robot_is_exported_with_the_tensions_of_the_rule() {
     let script = |rule: &str| {
@@ -146,10 +239,13 @@ fn robots_that_cannot_be_exported_are_refused_with_the_reason() {
         (yuan(), "--to moordyn --static-model spring", "leave out --static-model"),
         (yuan(), "--to moordyn --modes-below-hz 3", "MoorDyn has no modes"),
         (yuan(), "--to moordyn --segments 0", "--segments"),
-        (yuan(), "--to abaqus", "possible values: opensees, moordyn, vtk"),
+        (yuan(), "--to abaqus", "possible values: opensees, moordyn, mujoco, sdf, urdf, vtk"),
+        (yuan(), "--to mujoco --static-model ideal", "ideal cables have no stiffness, which MuJoCo needs"),
+        (yuan(), "--to mujoco --modes-below-hz 3", "MuJoCo has no modes"),
         (yuan(), "--to vtk --modes-below-hz 1e4", "lower the frequency limit"),
         (sideways, "--to moordyn", "MoorDyn has it along -z only"),
         (massless, "--to moordyn", "cable \"1\" has no mass"),
+        (planar.clone(), "--to sdf", "SDF has no joint that guides a body in a plane"),
         (planar, "--to moordyn", "nothing guides them in a plane"),
         (yuan(), "--to moordyn --force-n 0,0,-1", "MoorDyn's input has no forces but weight and water"),
         (yuan(), "--to moordyn --moment-n-m 0,0,1", "MoorDyn's input has no forces but weight and water"),

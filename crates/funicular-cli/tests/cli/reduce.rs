@@ -164,10 +164,71 @@ fn a_reduced_model_is_read_by_others_as_it_was_made() {
     assert_eq!(refused.status.code(), Some(2));
     assert!(stderr(&refused).contains("is not empty"), "{}", stderr(&refused));
     let refused = run(&with(&arguments, &place("model.h5")));
-    assert!(stderr(&refused).contains("neither an .npz or .mat file nor a folder"), "{}", stderr(&refused));
+    assert!(stderr(&refused).contains("neither an .npz, .mat or .fmu file nor a folder"), "{}", stderr(&refused));
     let refused = run(&[&SMALL[..], &["--form", "second-order", "--cable-model", "shallow-dynamic"]].concat());
     assert_eq!(refused.status.code(), Some(2));
     assert!(stderr(&refused).contains("choose the cable model `catenary-dynamic`"), "{}", stderr(&refused));
+}
+
+/// The program with an environment for its C compiler.
+fn with_compiler(arguments: &[&str], variables: &[(&str, &str)]) -> std::process::Output {
+    let path = robot("yuan2014-4mm.toml");
+    let arguments = arguments.iter().map(|argument| if *argument == "ROBOT" { path.as_str() } else { argument });
+    let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_funicular"));
+    command.args(arguments).envs(variables.iter().copied()).output().unwrap()
+}
+
+#[test]
+fn a_unit_of_a_simulation_holds_model_source_robot_and_error() {
+    let folder = tempfile::tempdir().unwrap();
+    let place = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
+    let made = |name: &str, variables: &[(&str, &str)]| {
+        let path = place(name);
+        let output = with_compiler(&[&SMALL[..], &["--order", "6", "--to", "fmu", "-o", &path]].concat(), variables);
+        assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+        (zip::ZipArchive::new(std::fs::File::open(&path).unwrap()).unwrap(), stderr(&output).to_owned())
+    };
+    let text = |archive: &mut zip::ZipArchive<std::fs::File>, name: &str| {
+        std::io::read_to_string(archive.by_name(name).unwrap()).unwrap()
+    };
+
+    let (mut archive, _) = made("model.fmu", &[]);
+    let description = text(&mut archive, "modelDescription.xml");
+    for name in ["\"fz\" valueReference=\"0\" causality=\"input\"", "\"cable:3@0.5:z\" valueReference=\"2\"", "der(x6)"]
+    {
+        assert!(description.contains(name), "{name}: {description}");
+    }
+    let file = std::fs::read_to_string(robot("yuan2014-4mm.toml")).unwrap();
+    assert_eq!(text(&mut archive, "resources/robot.toml"), file);
+    let told: Value = serde_json::from_str(&text(&mut archive, "resources/description.json")).unwrap();
+    let error = format!("at most {:.3e} of their peaks", number(&told["error"]));
+    assert!(description.contains(&error), "{error}: {description}");
+
+    // Without a compiler, and with one that fails, the unit has its source, and a sentence says so.
+    for (variables, reason) in [
+        ([("PATH", ""), ("CC", "")], "no C compiler was found"),
+        ([("PATH", "/usr/bin:/bin"), ("CC", "false")], "the C compiler `false` fails"),
+    ] {
+        let (mut archive, said) = made("source.fmu", &variables);
+        assert!(said.contains(reason) && said.contains("the unit holds its C source alone"), "{said}");
+        assert!(!archive.file_names().any(|name| name.starts_with("binaries/")));
+        assert_eq!(text(&mut archive, "modelDescription.xml"), description);
+    }
+
+    // By its ending the unit is a file of matrices, too.
+    let path = place("again.fmu");
+    let output = with_compiler(&[&SMALL[..], &["--order", "6", "--matrices", &path]].concat(), &[("PATH", "")]);
+    assert!(output.status.success() && std::path::Path::new(&path).is_file(), "{}", stderr(&output));
+
+    for (more, says) in [
+        (vec!["--to", "fmu", "-o", "model.txt"], "give -o FILE.fmu"),
+        (vec!["--to", "fmu"], "--output-file"),
+        (vec!["--form", "second-order", "--matrices", &path], "leave out --form second-order"),
+    ] {
+        let refused = run(&[&SMALL[..], &more].concat());
+        assert_eq!(refused.status.code(), Some(2));
+        assert!(stderr(&refused).contains(says), "{}", stderr(&refused));
+    }
 }
 
 /// Winches with a position control: their commanded lengths are inputs, tensions outputs.

@@ -1,6 +1,6 @@
 //! `map`, `sweep` and `merge`: rows, and what becomes of them when the program is stopped.
 
-use super::{command, json, robot, run, stderr, stdout, succeed};
+use super::{command, json, robot, run, stderr, stdout, succeed, yuan};
 use std::fs;
 use std::path::Path;
 use std::process::{Command, Stdio};
@@ -226,6 +226,42 @@ fn interrupted_a_map_keeps_its_rows_and_says_how_to_go_on() {
     assert!(started(&discarded).wait().unwrap().success());
     assert!(!journal.exists());
     assert!(stderr(&again).contains("continue with --resume, or start again with --discard"), "{}", stderr(&again));
+}
+
+#[cfg(unix)]
+#[test]
+fn a_cluster_that_ends_a_job_in_the_middle_of_a_long_row_waits_two_seconds_at_most() {
+    let folder = tempfile::tempdir().unwrap();
+    let (path, file) = (folder.path().join("a.parquet"), folder.path().join("gusts.toml"));
+    // A soft rope has hundreds of modes in the range of gusts, so that a row takes seconds.
+    let soft = yuan()
+        .replace("youngs_modulus_pa = 100e9", "youngs_modulus_pa = 1e9")
+        .replace("mass_kg_per_m = 0.067", "mass_kg_per_m = 0.6")
+        .replace("[platform]", "[platform]\ndrag_area_m2 = 1.0");
+    let wind = "\n[wind]\nvelocity_m_s = [8.0, 0.0, 0.0]\nturbulence = \"kaimal\"\nintensity = [0.2, 0.15, 0.1]\n\
+                length_scale_m = [100.0, 40.0, 10.0]\n";
+    fs::write(&file, soft + wind).unwrap();
+    let line = format!(
+        "sweep {} --vary platform.mass_kg=10:11:9 --quantity gust-rms --threads 1 -o {}",
+        file.display(),
+        path.display()
+    );
+    let child = started(&line.split(' ').map(str::to_owned).collect::<Vec<_>>());
+    let journal = folder.path().join("a.parquet.partial");
+    while !journal.exists() {
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    std::thread::sleep(Duration::from_millis(500));
+
+    let asked = Instant::now();
+    assert!(Command::new("kill").args(["-TERM", &child.id().to_string()]).status().unwrap().success());
+    let output = child.wait_with_output().unwrap();
+    // Two seconds, and what a busy machine adds.
+    assert!(asked.elapsed() < Duration::from_secs(3), "{:?}", asked.elapsed());
+    assert_eq!(output.status.code(), Some(130));
+    assert!(stderr(&output).contains("stopped: the finished rows are safe in"), "{}", stderr(&output));
+    let left: Vec<_> = fs::read_dir(folder.path()).unwrap().map(|entry| entry.unwrap().file_name()).collect();
+    assert!(journal.exists() && !left.iter().any(|name| name.to_string_lossy().ends_with(".writing")), "{left:?}");
 }
 
 #[test]

@@ -14,6 +14,7 @@
 //! with funicular.
 
 use super::chain::Chain;
+use super::straight::in_plane;
 use super::support::Support;
 use super::{first_frequencies, modes_below, one_line};
 use anyhow::Result;
@@ -192,12 +193,6 @@ fn axes(motion: PlatformMotion) -> ([Vec3; 3], Option<usize>) {
     }
     let [first, second] = in_plane(&normal);
     ([first, second, normal], Some(2))
-}
-
-/// Two unit vectors that form right-handed axes together with a normal.
-fn in_plane(normal: &Vec3) -> [Vec3; 2] {
-    let first = normal.cross(&Vec3::ith(normal.iamin(), 1.0)).normalize();
-    [first, normal.cross(&first)]
 }
 
 /// Model of the platform: points with masses.

@@ -1,7 +1,8 @@
 //! Export of the equilibrium shape and the modes as VTK XML (`.vtp`), for ParaView: polylines for the cables, triangles
 //! for the platform.
 
-use super::{modes_below, one_line};
+use super::modes_below;
+use super::xml_text::in_comment;
 use anyhow::Result;
 use funicular::cable_motion::CableStations;
 use funicular::dynamics::Dynamics;
@@ -47,7 +48,7 @@ pub(crate) fn poly_data(
         }
     }
     let mut out = Writer::new_with_indent(Vec::new(), b' ', 1);
-    shape.write(&mut out, &one_line(&at_rest.robot.name))?;
+    shape.write(&mut out, &at_rest.robot.name)?;
     Ok(String::from_utf8(out.into_inner())? + "\n")
 }
 
@@ -114,8 +115,7 @@ impl VtkCells {
     /// Writes the file.
     fn write(&self, out: &mut Writer<Vec<u8>>, name: &str) -> Result<()> {
         out.write_event(Event::Decl(BytesDecl::new("1.0", Some("UTF-8"), None)))?;
-        // A comment must not hold two hyphens.
-        let title = format!(" {}; written by funicular export ", name.replace("--", "- -").replace("--", "- -"));
+        let title = format!(" {}; written by funicular export ", in_comment(name));
         out.write_event(Event::Comment(BytesText::from_escaped(title)))?;
 
         let root = [("type", "PolyData"), ("version", "1.0"), ("byte_order", "LittleEndian")];

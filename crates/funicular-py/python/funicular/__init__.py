@@ -13,6 +13,7 @@ array([17.685, 36.926, 39.89 , 15.636, 50.443, 52.549])
 array([1.0207, 1.1876, 1.2231, 1.2662, 1.3571, 1.8184, 1.8413, 1.8794])
 """
 
+from funicular import _datasets as _datasets
 from funicular import _earlier_names as _earlier_names
 from funicular import _equilibrium_methods as _equilibrium_methods
 from funicular import _hints as _hints

@@ -114,12 +114,14 @@ class Analyses:
         ----------
         to
             Program that the file is for: `opensees` (python script for OpenSeesPy); `moordyn` (input file of version
-            2); `vtk` (vTK XML of polylines and polygons (.vtp), for ParaView).
+            2); `mujoco` (model in MJCF, with winches as actuators); `sdf` (world of Gazebo, whose cables Drake reads
+            as springs); `urdf` (frame and platform for viewers); `vtk` (vTK XML of polylines and polygons (.vtp),
+            for ParaView).
         path
             Path of the file, which is complete or absent.
         segments
-            Elements per cable, 1 to 1000: bars in OpenSees, segments in MoorDyn, pieces of a curve in VTK; 20 if not
-            given.
+            Elements per cable, 1 to 1000: bars in OpenSees, segments in MoorDyn, pieces of a curve in VTK; a cable of
+            MuJoCo is one; 20 if not given.
         modes_below_hz
             Upper limit of the frequencies of modes in the file [Hz]: in VTK one field per mode, in OpenSees the modes
             to compare with; if not given: no modes in VTK, the first ten in OpenSees.

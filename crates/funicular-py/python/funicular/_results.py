@@ -47,6 +47,20 @@ class Results(dict[str, Any]):
         """Returns a plain dictionary."""
         return dict(self)
 
+    def to_xarray(self) -> Any:
+        """Makes a dataset of xarray of the rows, with units as attributes; xarray has to be installed.
+
+        Responses have the dimension `frequency_hz`, several of them `response` too, and are the variables `real` and
+        `imag`, because NetCDF has no complex numbers. Other lists of rows, such as `history` of `settle`, have a dimension
+        of their own name. Single values are attributes.
+
+        Raises
+        ------
+        InputError
+            The results hold no rows.
+        """
+        return _show.dataset(self)
+
 
 def results(found: dict[str, Any]) -> Results:
     """Results with arrays in place of lists of numbers."""
@@ -314,6 +328,14 @@ class Modes(ArrayFields):
     def to_pandas(self) -> Any:
         """Makes a table of pandas with one row per mode; pandas has to be installed."""
         return _show.table(self)
+
+    def to_xarray(self) -> Any:
+        """Makes a dataset of xarray with the dimensions `mode`, `cable`, `motion` and, with `stations`, `station`.
+
+        Units are attributes. NetCDF has no complex numbers, so `eigenvalue_per_s` becomes two variables. xarray has to
+        be installed.
+        """
+        return _show.dataset(self)
 
 
 def _drive_energies(rows: list[dict[str, Any]], cables: int) -> NDArray[np.float64]:

@@ -1,6 +1,6 @@
-"""Hooks for presentation: results call them, and `_html` and `_tables` register what each type looks like.
+"""Hooks for presentation: results call them, and `_html`, `_tables` and `_datasets` register what each type looks like.
 
-Results import this module alone, so that they know nothing of HTML or pandas.
+Results import this module alone, so that they know nothing of HTML, pandas or xarray.
 """
 
 from functools import singledispatch
@@ -17,3 +17,9 @@ def html(result: object) -> str:
 def table(result: object) -> Any:
     """Table of pandas for a result."""
     raise TypeError(f"no table is registered for {type(result).__name__}")
+
+
+@singledispatch
+def dataset(result: object) -> Any:
+    """Dataset of xarray for a result."""
+    raise TypeError(f"no dataset is registered for {type(result).__name__}")

@@ -27,6 +27,7 @@ from funicular._live import live
 from funicular._hints import hinted
 from funicular._pages import Page, page
 from funicular._reading import File, keywords, read
+from funicular._results import Results
 from funicular._sweeps import Sweep
 
 
@@ -117,7 +118,7 @@ def run(request: Mapping[str, Any] | str) -> Any:
 
     Returns
     -------
-    The dictionary of the program's JSON; a `Sweep` for `map` and `sweep`, a `Page` for `report`, `paper` and `plot`, a `Live`
+    The `Results` with the keys of the program's JSON, a dictionary; a `Sweep` for `map` and `sweep`, a `Page` for `report`, `paper` and `plot`, a `Live`
     for `live`, an `Imported` for `import`, a `NewRobot` for `new`, an `Exported` for `export`.
 
     Raises
@@ -156,7 +157,7 @@ def run(request: Mapping[str, Any] | str) -> Any:
         case "merge":
             raise InputError("`merge` writes a file: call `funicular.merge(parts, path)`")
         case _:
-            return json.loads(answer(text))
+            return Results(json.loads(answer(text)))
 
 
 @hinted

@@ -134,19 +134,36 @@ class Sweep:
         axes = self.axes
         if not axes:
             raise InputError("these rows are no grid: they have one dimension; use `columns`")
+        shape = [len(values) for values in reversed(axes.values())]
+        self._check_grid(math.prod(shape))
+        return self.columns[name].reshape(shape)
+
+    def _check_grid(self, points: int) -> None:
+        """Refuses rows that are not all of the points of their grid."""
         if not self.complete:
             raise InputError(f"the grid is not complete: {len(self)} rows are there")
-        shape = [len(values) for values in reversed(axes.values())]
-        if len(self) != math.prod(shape):
+        if len(self) != points:
             raise InputError(
-                f"this is a part of a grid: {len(self)} of {math.prod(shape)} rows are there; merge the parts "
-                "(`funicular.merge`)"
+                f"this is a part of a grid: {len(self)} of {points} rows are there; merge the parts (`funicular.merge`)"
             )
-        return self.columns[name].reshape(shape)
 
     def to_pandas(self) -> Any:
         """Makes a table of pandas of the rows, with the units in its `attrs`; pandas has to be installed."""
         return _show.table(self)
+
+    def to_xarray(self) -> Any:
+        """Makes a dataset of xarray with one dimension per axis of the grid or varied value; xarray has to be installed.
+
+        The last axis comes first, as in `on_grid`; an axis with one value is a coordinate without dimension. A list of
+        poses has the dimension `row`. Units and meanings are attributes of the variables, the robot file and the plan
+        of the dataset. A missing number is NaN, a missing text is empty, so that `to_netcdf` writes them.
+
+        Raises
+        ------
+        InputError
+            The grid is not complete, or this is a part of it.
+        """
+        return _show.dataset(self)
 
     def to_arrow(self) -> Any:
         """Makes a table of pyarrow without copies; pyarrow has to be installed.

@@ -178,7 +178,7 @@ impl PyWork {
     /// Ends the collection early. Returns a sentence about the rows that are safe, or None for rows in memory.
     fn interrupt(&mut self, py: Python<'_>) -> PyResult<Option<String>> {
         let Some(RowStore::File(job, _)) = self.store.take() else { return Ok(None) };
-        let safe = py.detach(|| job.interrupt()).map_err(|error| errors::files(&error))?;
+        let safe = py.detach(|| job.interrupt(funicular_files::WRITE_WITHIN)).map_err(|error| errors::files(&error))?;
         Ok(Some(format!("{safe}; the same call with `resume=True` continues")))
     }
 }

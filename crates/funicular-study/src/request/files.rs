@@ -100,18 +100,19 @@ declared! {
 }
 
 declared! {
-    /// Export the robot at its equilibrium for OpenSees, MoorDyn or ParaView.
+    /// Export the robot at its equilibrium for OpenSees, MoorDyn, MuJoCo, Gazebo or ParaView.
     ///
     /// opensees: a Python script for OpenSeesPy that prints its statics and modes beside those of funicular. moordyn: an input
-    /// file of version 2. vtk: a .vtp file of cables and platform, with modes on request. docs/export.md describes the files
-    /// and the differences between the programs.
+    /// file of version 2. mujoco: a model with straight cables whose lengths and tensions are commanded. sdf: a world of Gazebo.
+    /// urdf: frame and platform for viewers. vtk: a .vtp file of cables and platform, with modes on request. docs/export.md
+    /// describes the files and the differences between the programs.
     pub struct ExportRequest {
         /// Robot file.
         robot: RobotText = RobotText::default() => (Data(shape::robot)).required();
         /// Program that the file is for.
         #[serde(with = "crate::names")]
         to: ExportFormat = ExportFormat::Opensees => (name::<ExportFormat>()).form("PROGRAM").required();
-        /// Elements per cable, 1 to 1000: bars in OpenSees, segments in MoorDyn, pieces of a curve in VTK.
+        /// Elements per cable, 1 to 1000: bars in OpenSees, segments in MoorDyn, pieces of a curve in VTK; a cable of MuJoCo is one.
         segments: usize = 20 => (Count(1..=1000));
         /// Upper limit of the frequencies of modes in the file [Hz]: in VTK one field per mode, in OpenSees the modes to
         /// compare with.
@@ -127,6 +128,7 @@ declared! {
     examples {
         "funicular export robots/yuan2014-4mm.toml --to opensees -o yuan.py && python3 yuan.py",
         "funicular export robots/cogiro.toml --to moordyn --segments 20 -o cogiro.txt",
+        "funicular export robots/cogiro.toml --to mujoco -o cogiro.xml",
         "funicular export robots/cogiro.toml --to vtk --pose 1,2,1.5 --modes-below-hz 10 -o cogiro.vtp",
     }
 }
