@@ -21,6 +21,7 @@ pub mod modes;
 pub mod parameters;
 pub mod payload;
 pub mod pose_error;
+mod profile;
 pub mod reduce;
 mod result_groups;
 pub mod settle;

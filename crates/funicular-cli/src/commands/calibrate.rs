@@ -1,5 +1,6 @@
 //! `calibrate`: readings, text and CSV, and the robot file.
 
+use super::profile_table::{Profiled, profiles};
 use super::result_files::{OtherFile, ResultFiles};
 use crate::args::{CalibrateArgs, Cli};
 use crate::number_table;
@@ -68,6 +69,11 @@ impl Printed for Calibrated {
             );
         }
 
+        text += &profiles(self.values.iter().filter_map(|row| {
+            let profile = row.profile.as_ref()?;
+            let (path, unit, value, digits) = (&row.path, row.unit, row.value, row.digits());
+            Some(Profiled { path, unit, value, digits, profile, parabola: row.interval_95 })
+        }));
         if !self.distances.is_empty() {
             let _ = write!(
                 text,

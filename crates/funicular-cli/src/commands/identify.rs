@@ -1,17 +1,18 @@
 //! `identify`: files of measurements, text and CSV.
 
+use super::profile_table::{Profiled, profiles};
 use super::result_files::{OtherFile, ResultFiles};
 use crate::args::{Cli, IdentifyArgs};
 use crate::errors;
 use crate::output::Printed;
 use crate::progress::TerminalProgress;
-use crate::table::{NONE, Table, counted, significant};
+use crate::table::{Table, counted, significant};
 use anyhow::{Context, Result, bail};
 use std::fmt::Write as _;
 
 use funicular_files::Guard;
 use funicular_formats::measurements::{self, FileOptions};
-use funicular_study::analyses::identify::{self, FittedValue, Identified, OpenEnd, StaticRow};
+use funicular_study::analyses::identify::{self, FittedValue, Identified, StaticRow};
 use funicular_study::request::{Experiment, FitValue, IdentifyRequest, Request, ResponsePoints};
 use funicular_study::wording::{Words, worded};
 use serde_json::{Map, Value};
@@ -146,7 +147,17 @@ impl Printed for Identified {
             counted(self.starts.len(), "start"),
         );
         text += &assignment(self);
-        text += &profiles(self);
+        text += &profiles(self.values.iter().filter_map(|row| {
+            let profile = row.profile.as_ref()?;
+            Some(Profiled {
+                path: &row.path,
+                unit: row.unit,
+                value: row.value,
+                digits: row.digits(),
+                profile,
+                parabola: row.parabola_95,
+            })
+        }));
         for strong in &self.strong_correlations {
             let _ = writeln!(text, "{strong}.");
         }
@@ -209,47 +220,4 @@ fn responses(found: &Identified) -> Table {
         table.row(vec![name, response.frequency_hz.len().to_string(), significant(response.residual_rms, 3)]);
     }
     table
-}
-
-/// Table of the profiles; empty if there are none.
-fn profiles(found: &Identified) -> String {
-    let profiled: Vec<_> = found.values.iter().filter_map(|row| Some((row, row.profile.as_ref()?))).collect();
-    if profiled.is_empty() {
-        return String::new();
-    }
-    let mut table =
-        Table::new(&["value", "unit", "identified", "profile 95 % from", "to", "below", "above", "deviations", ""])
-            .text_columns(&[0, 1, 8]);
-
-    for (row, profile) in profiled {
-        let digits = row.digits();
-        let ends = [profile.from, profile.to];
-        let end = |k: usize| ends[k].map_or_else(|| NONE.to_owned(), |end| significant(end, digits));
-        let away = |k: usize| ends[k].map_or_else(|| NONE.to_owned(), |end| significant((end - row.value).abs(), 3));
-        let by_deviations = row.parabola_95.map_or_else(
-            || NONE.to_owned(),
-            |[low, high]| format!("{}, {}", significant(row.value - low, 3), significant(high - row.value, 3)),
-        );
-        let remark =
-            [(profile.open_below, "below"), (profile.open_above, "above")].into_iter().filter_map(|(open, side)| {
-                Some(match open? {
-                    OpenEnd::Bound => format!("not limited {side} within its bound"),
-                    OpenEnd::Flat => format!("not limited {side}"),
-                    OpenEnd::NoEquilibrium => format!("no equilibrium {side}"),
-                })
-            });
-        table.row(vec![
-            row.path.clone(),
-            row.unit.to_owned(),
-            significant(row.value, digits),
-            end(0),
-            end(1),
-            away(0),
-            away(1),
-            by_deviations,
-            remark.collect::<Vec<_>>().join(", "),
-        ]);
-    }
-
-    format!("\n{table}\n")
 }

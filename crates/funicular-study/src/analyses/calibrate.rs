@@ -5,9 +5,10 @@
 
 mod candidates;
 mod caveats;
+mod choice;
+mod profiles;
 mod report;
 mod rows;
-mod statistics;
 mod table;
 mod words;
 
@@ -131,6 +132,9 @@ pub fn run(request: &CalibrateRequest, watch: &mut dyn Watch) -> Result<Calibrat
 
     // Unknowns and frame.
     let unknowns = unknowns(request, &robot)?;
+    for (key, names) in [("profile", &request.profile), ("propose_for", &request.propose_for)] {
+        choice::all_chosen(key, names, &unknowns, &robot)?;
+    }
     let deviations = ReadingDeviations {
         reading: request.length_std_m.unwrap_or(ASSUMED_DEVIATION),
         position: request.position_std_m.unwrap_or(1.0),
@@ -157,7 +161,7 @@ pub fn run(request: &CalibrateRequest, watch: &mut dyn Watch) -> Result<Calibrat
     let found = found.ok_or_else(|| NoSolution(CalibrationError::NoMinimum { starts: request.starts }.to_string()))?;
 
     let report = CalibrationReport::new(request, &of, &frame, &found, &candidates)?;
-    let mut results = report.results()?;
+    let mut results = report.results(watch)?;
     results.warnings = caveats::warnings(&report, &results);
     Ok(results)
 }

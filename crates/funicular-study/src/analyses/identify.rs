@@ -21,9 +21,10 @@ mod starts;
 mod tables;
 mod unknowns;
 
-pub use profile::{OpenEnd, Profile};
+pub use super::profile::{OpenEnd, Profile};
 pub use tables::{FittedResponse, FrequencyRow, StaticRow};
 
+use super::profile::LIMIT as NORMAL_95;
 use super::{fields, found};
 use crate::Watch;
 use crate::chosen_numbers::at_bound;
@@ -39,7 +40,6 @@ use funicular::robot::parameters::Parameters;
 use model::IdentifiedModel;
 use observations::{Observation, Subject};
 use precision::judge;
-use profile::LIMIT as NORMAL_95;
 use resolution::unresolved_peaks;
 use ridge::{Profiled, profiles};
 use search::search;

@@ -8,15 +8,15 @@ declared! {
     /// Anchors, attachments, offsets and scale from readings of cable lengths at poses that are not known.
     ///
     /// Every row of ⟪readings⟫ belongs to one pose, which is found with the robot's numbers. Cables are straight and rigid
-    /// unless ⟪static_model⟫ says otherwise; elastic ones need measured tensions or coordinates. The result says how well the readings fit and, apart from that, what they determine. docs/calibration.md explains
-    /// tables, frames and the result.
+    /// unless ⟪static_model⟫ says otherwise; elastic ones need measured tensions or coordinates. The result says how well
+    /// the readings fit and, apart from that, what they determine. docs/calibration.md explains tables, frames and the
+    /// result.
     pub struct CalibrateRequest {
         /// Robot file, whose values are the start.
         robot: RobotText = RobotText::default() => (Data(shape::robot)).required();
         /// Readings, one row per pose: columns length_NAME_m [m] or length_NAME_mm [mm] of every cable, empty where a cable was
-        /// slack or not read; x_m, y_m, z_m and,
-        /// where the platform turns, roll_deg, pitch_deg, yaw_deg are poses at which the search begins; tension_NAME_n are
-        /// tensions at the anchors [N], which elastic cables need.
+        /// slack or not read; x_m, y_m, z_m and, where the platform turns, roll_deg, pitch_deg, yaw_deg are poses at which
+        /// the search begins; tension_NAME_n are tensions at the anchors [N], which elastic cables need.
         readings: GappedColumns = GappedColumns::new() => (GappedColumns).required();
         /// Numbers to find, separated by commas: anchors, attachments, offsets (length of each cable at the reading zero),
         /// scale (metres of length per metre of all readings); of elastic cables also axial-stiffness and mass, as factors of
@@ -38,6 +38,9 @@ declared! {
         static_model: StaticModel = StaticModel::Ideal => (name::<StaticModel>()).form("MODEL");
         /// Maximum number of starts of the search.
         starts: usize = 10 => (Count(1..=1000));
+        /// Values with a profile, separated by commas: kinds as in ⟪unknowns⟫, or paths of values. Each is held at steps and
+        /// everything else is fitted again, until χ² has risen to the limit of 95 %.
+        profile: Vec<String> = Vec::new() => (Texts).form("NAMES");
         /// Number of poses to propose that reduce the deviations most, one after the other.
         propose: usize = 0 => (Count(0..=100)).under("Proposal");
         /// Axis of the candidates of a proposal: x, y, z [m], roll, pitch, yaw [degrees], with N values from A to B, or with
@@ -45,7 +48,7 @@ declared! {
         grid: Vec<Axis> = Vec::new() => (List(ProgramForm::GridAxis)).form("AXIS=A:B:N|V,V,…").under("Proposal");
         /// Candidates of a proposal instead of a grid: position [m] and roll, pitch, yaw [degrees].
         poses: Option<Vec<[f64; 6]>> = None => (Poses).under("Proposal");
-        /// Numbers whose deviations the proposal reduces, as in ⟪unknowns⟫.
+        /// Numbers whose deviations the proposal reduces: kinds as in ⟪unknowns⟫, or paths of values.
         propose_for: Vec<String> = Vec::new() => (Texts).form("NAMES").under("Proposal").otherwise("all unknowns");
         /// Largest deviation that is wanted [m]: the least number of proposed poses that reaches it.
         wanted_std_m: Option<f64> = None => (Number(Positive)).under("Proposal");

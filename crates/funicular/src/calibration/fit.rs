@@ -237,14 +237,19 @@ impl Scales {
             first += row.net.nrows();
         }
         // A column that no datum sees is damped as well, so that its unknown stays.
-        let largest = self.values.max().max(f64::MIN_POSITIVE);
+        let largest = self.values.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
         for k in 0..count {
             all[(height + k, k)] = root * self.values[k].max(1e-12 * largest);
         }
-        let factors = all.qr();
-        factors.q_tr_mul(&mut right);
-        let right = right.rows(0, count).column(0).into_owned();
-        let values = factors.r().solve_upper_triangular(&right).unwrap_or_else(|| DVec::zeros(count));
+        // Poses alone leave nothing to factorise.
+        let values = if count == 0 {
+            DVec::zeros(0)
+        } else {
+            let factors = all.qr();
+            factors.q_tr_mul(&mut right);
+            let right = right.rows(0, count).column(0).into_owned();
+            factors.r().solve_upper_triangular(&right).unwrap_or_else(|| DVec::zeros(count))
+        };
 
         // The poses follow.
         let poses: Vec<DVec> = eliminated.iter().map(|row| row.pose_step(&values)).collect();

@@ -1,10 +1,15 @@
 //! Results of a calibration from its minima.
 
 use super::candidates::Candidates;
+use super::choice::all_chosen;
+use super::profiles::profiles;
 use super::rows::{CableResidual, CalibratedValue, DistanceRow, MinimumRow, ProposalRow, ReadingRow, Walk, WeakRow};
-use super::statistics::{chi2_above, student_95};
+
 use super::{Calibrated, in_mm, words};
+use crate::Watch;
+use crate::analyses::profile::Profile;
 use crate::normal::NOISE_DEVIATIONS;
+use crate::quantiles::{chi2_above, student_95};
 use crate::request::{CalibrateRequest, RobotText};
 use crate::set_values;
 use crate::text::{counted, significant};
@@ -47,6 +52,10 @@ pub(super) struct CalibrationReport<'a> {
     quantile: f64,
     paths: Vec<(String, &'static str)>,
     candidates: Vec<Pose>,
+    /// True for an unknown whose profile is wanted.
+    profiled: Vec<bool>,
+    /// True for an unknown whose deviation a proposal reduces.
+    proposed_for: Vec<bool>,
     source: &'a RobotText,
 }
 
@@ -70,6 +79,8 @@ impl<'a> CalibrationReport<'a> {
             None => ((degrees > 0).then_some(ratio), student_95(degrees)),
         };
         let middle = middle(&fit.poses);
+        let marks = |key, names: &[String]| all_chosen(key, names, &of.unknowns, &of.robot);
+        let proposed_for = marks("propose_for", &request.propose_for)?;
         Ok(Self {
             request,
             of,
@@ -78,6 +89,8 @@ impl<'a> CalibrationReport<'a> {
             quantile: quantile.unwrap_or(f64::NAN),
             paths: of.unknowns.iter().map(|unknown| words::path(&of.robot, unknown)).collect(),
             candidates: candidates.poses(&of.robot, &middle)?,
+            profiled: marks("profile", &request.profile)?,
+            proposed_for: if request.propose_for.is_empty() { vec![true; of.unknowns.len()] } else { proposed_for },
             source: &request.robot,
             frame,
             precision,
@@ -93,13 +106,17 @@ impl<'a> CalibrationReport<'a> {
     }
 
     /// All results.
-    pub(super) fn results(&self) -> Result<Calibrated> {
+    ///
+    /// # Errors
+    /// Work that was stopped, or a robot file that cannot be written.
+    pub(super) fn results(&self, watch: &mut dyn Watch) -> Result<Calibrated> {
         let walk = self.walk();
         let is_parabola = walk.as_ref().is_none_or(WeakWalk::is_parabola);
         let is_one = !self.fits_otherwise();
         let is_determined =
             is_parabola && is_one && !self.is_misfit() && self.precision.lost.is_empty() && self.factor.is_some();
-        let values = self.values(is_parabola && is_one && !self.is_misfit());
+        let profiles = if self.is_misfit() { Vec::new() } else { profiles(self, &self.profiled, watch)? };
+        let values = self.values(is_parabola && is_one && !self.is_misfit(), profiles);
         let rows = self.rows();
         let weak = self.weak();
         let inner = self.frame.inner(&self.precision.covariance);
@@ -150,6 +167,13 @@ impl<'a> CalibrationReport<'a> {
         self.factor.unwrap_or(1.0).max(MIN_FACTOR).powi(2)
     }
 
+    /// Variance of the residuals over that of the data, and the factor of a deviation whose interval holds 95 %; `None` if
+    /// nothing tells them.
+    pub(super) fn noise(&self) -> Option<(f64, f64)> {
+        self.factor.filter(|factor| *factor > MIN_FACTOR && self.quantile.is_finite())?;
+        Some((self.variance(), self.quantile))
+    }
+
     /// Rise of χ² of another minimum, in the variance of the residuals.
     fn rise(&self, other: &CalibrationFit) -> f64 {
         (other.chi2 - self.fit().chi2) / self.variance()
@@ -168,14 +192,15 @@ impl<'a> CalibrationReport<'a> {
         self.of.weak_walk(self.fit(), &self.frame, &self.precision, factor)
     }
 
-    fn values(&self, has_intervals: bool) -> Vec<CalibratedValue> {
+    fn values(&self, has_intervals: bool, mut profiles: Vec<Option<Profile>>) -> Vec<CalibratedValue> {
         let start = self.of.start();
         let deviations = self.precision.deviations();
         let inner = self.frame.inner(&self.precision.covariance);
         let lost: Vec<bool> = (0..start.len())
             .map(|k| self.precision.lost.iter().any(|direction| direction[k].abs() > LOST_PART))
             .collect();
-        let value = |k: usize| {
+        profiles.resize(start.len(), None);
+        let value = |(k, profile): (usize, Option<Profile>)| {
             let [value, unit] = self.of.meaning(k, self.fit().values[k]);
             let held = self.frame.holds(k);
             let known = |deviation: f64| self.factor.filter(|_| !lost[k]).map(|factor| factor * deviation * unit);
@@ -190,9 +215,10 @@ impl<'a> CalibrationReport<'a> {
                 deviation,
                 interval_95: reach.filter(|reach| reach.is_finite()).map(|reach| [value - reach, value + reach]),
                 inner_deviation: known(inner[(k, k)].max(0.0).sqrt()),
+                profile,
             }
         };
-        (0..start.len()).map(value).collect()
+        profiles.into_iter().enumerate().map(value).collect()
     }
 
     fn distances(&self) -> Vec<DistanceRow> {
@@ -283,7 +309,7 @@ impl<'a> CalibrationReport<'a> {
         if self.candidates.is_empty() {
             return (Vec::new(), None);
         }
-        let weights: Vec<f64> = self.of.unknowns.iter().map(|unknown| self.weight(unknown)).collect();
+        let weights: Vec<f64> = self.proposed_for.iter().map(|chosen| if *chosen { 1.0 } else { 0.0 }).collect();
         let count = if self.request.wanted_std_m.is_some() { MAX_PROPOSALS } else { self.request.propose };
         let found = proposals(self.of, self.fit(), &self.frame, &self.precision, &self.candidates, count, &weights);
         let row = |(n, of): (usize, &funicular::calibration::ProposedPose)| {
@@ -313,20 +339,6 @@ impl<'a> CalibrationReport<'a> {
             .and_then(|wanted| rows.iter().find(|row| row.largest_m <= wanted).map(|row| row.number));
         rows.truncate(needed.unwrap_or(0).max(self.request.propose));
         (rows, needed)
-    }
-
-    /// Factor of the variance of an unknown in a proposal.
-    fn weight(&self, unknown: &CalibrationUnknown) -> f64 {
-        let name = match unknown {
-            CalibrationUnknown::Anchor { .. } => "anchors",
-            CalibrationUnknown::Attachment { .. } => "attachments",
-            CalibrationUnknown::Offset { .. } => "offsets",
-            CalibrationUnknown::Scale => "scale",
-            CalibrationUnknown::AxialStiffness => "axial-stiffness",
-            CalibrationUnknown::Mass => "mass",
-        };
-        let chosen = &self.request.propose_for;
-        if chosen.is_empty() || chosen.iter().any(|of| of == name) { 1.0 } else { 0.0 }
     }
 
     /// Sentence on the fit.

@@ -1,6 +1,7 @@
 //! Rows of the results of a calibration, with their columns.
 
 use crate::analyses::fields;
+use crate::analyses::profile::Profile;
 use crate::columns::{Columns, column, parts};
 use crate::text::digits_for;
 use serde::Serialize;
@@ -24,10 +25,14 @@ pub struct CalibratedValue {
     /// Standard deviation with inner conditions, which no choice of the frame enlarges.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub inner_deviation: Option<f64>,
+    /// Profile of χ², if it was asked for: ends of the interval that holds the value with 95 %, and points.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub profile: Option<Profile>,
 }
 
 impl CalibratedValue {
-    fn digits(&self) -> usize {
+    /// Number of digits of the value, by its deviation.
+    pub fn digits(&self) -> usize {
         digits_for(self.value, self.deviation)
     }
 
@@ -38,6 +43,7 @@ impl CalibratedValue {
             (false, None) => "not determined",
             (false, Some(_)) => "",
         };
+        let profile = |row: &Self| row.profile.as_ref().map_or([None; 2], |profile| [profile.from, profile.to]);
         let [low, high] = fields::interval_95(|row: &Self| row.interval_95, Self::digits, "the value with 95 %");
         Columns::new([
             column("path", "", "path of the number in the robot file, or its name", |row: &Self| row.path.clone())
@@ -53,6 +59,7 @@ impl CalibratedValue {
             column("inner_deviation", "", "standard deviation with inner conditions", |row: &Self| row.inner_deviation)
                 .significant("inner ±", "", 3),
             column("remark", "", "what holds the value, or that nothing determines it", remark).plain(""),
+            parts("profile_95_{}", ["from", "to"], "", "end of the interval of the profile: {}", profile),
         ])
     }
 }
