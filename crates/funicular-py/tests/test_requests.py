@@ -74,6 +74,8 @@ MORE = [
     f"funicular gust {ROBOT} --set platform.drag_area_m2=0.1 --wind-m-s 8,0,0 --spectrum gusts.csv --below-hz 1 --output z",
     f"funicular modes {ROBOT} --below-hz 2 --decay-percent 10",
     f"funicular calibrate {MACHINE} --unknowns anchors --hold-anchors bl,br --starts 3 --position-std-m 0.01 --tension-std-n 2",
+    f"funicular calibrate {MACHINE} --prior cables.tl.anchor_m=±0.05 --prior cables.tr.anchor_m.y=3.8±0.1 --profile anchors",
+    f"funicular calibrate {MACHINE} --static-model spring --position-std-m 0.001 --tension-range-n 20:120",
     f"funicular calibrate {MACHINE} --length-std-m 0.0005 --propose 1 --poses waypoints.csv --propose-for anchors --wanted-std-m 0.05",
     f"funicular compare {ROBOT} --below-hz 2",
     f"funicular compare robots/cogiro.toml --below-hz 6 {TENSIONS} --platform --platform-share 0.6 --tolerance 0.05",

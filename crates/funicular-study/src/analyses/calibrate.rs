@@ -20,7 +20,7 @@ use crate::Watch;
 use crate::columns::{ResultTable, Tabled};
 use crate::error::{Cancelled, NoSolution};
 use crate::names::suggestion;
-use crate::request::{self, CalibrateRequest};
+use crate::request::{self, CalibrateRequest, PriorValue};
 use crate::table::Column;
 use crate::text::significant;
 use anyhow::{Result, anyhow, bail};
@@ -29,6 +29,7 @@ use funicular::calibration::{
 };
 use funicular::robot::Robot;
 use funicular::robot::parameters::Parameters;
+use funicular::statics::StaticModel;
 use report::CalibrationReport;
 use serde::Serialize;
 
@@ -39,7 +40,8 @@ const KEY: &str = "readings";
 const ASSUMED_DEVIATION: f64 = 1e-3;
 
 /// Names of the unknowns.
-const UNKNOWNS: [&str; 6] = ["anchors", "attachments", "offsets", "scale", "axial-stiffness", "mass"];
+const UNKNOWNS: [&str; 8] =
+    ["anchors", "attachments", "offsets", "scale", "pulley-radii", "axial-stiffness", "mass", "support-stiffness"];
 
 /// Name of the inner frame.
 const INNER: &str = "inner";
@@ -124,6 +126,7 @@ pub fn run(request: &CalibrateRequest, watch: &mut dyn Watch) -> Result<Calibrat
     request::check("position_std_m", request.position_std_m, crate::values::positive)?;
     request::check_positive("tension_std_n", request.tension_std_n)?;
     request::check("wanted_std_m", request.wanted_std_m, crate::values::positive)?;
+    check_tension_range(request)?;
     let file = request.robot.read()?;
     let parameters = Parameters::from_toml(&file.text)?;
     let robot = parameters.robot().clone();
@@ -139,9 +142,11 @@ pub fn run(request: &CalibrateRequest, watch: &mut dyn Watch) -> Result<Calibrat
         reading: request.length_std_m.unwrap_or(ASSUMED_DEVIATION),
         position: request.position_std_m.unwrap_or(1.0),
         tension: request.tension_std_n,
+        tension_prior: request.tension_range_n.map(prior_of_range),
     };
     let named = |error: CalibrationError| in_words(&robot, error);
     let of = Calibration::new(robot.clone(), unknowns, rows, deviations, request.static_model).map_err(named)?;
+    let of = with_priors(request, of)?;
     check_signs(request, &of)?;
     if of.is_elastic() && !matches!(candidates, candidates::Candidates::None) {
         bail!("poses are proposed for straight rigid cables only: leave out ⟪propose⟫, or take ⟪static_model⟫ ideal");
@@ -230,16 +235,73 @@ fn unknowns(request: &CalibrateRequest, robot: &Robot) -> Result<Vec<Calibration
     if wants("offsets") {
         unknowns.extend((0..count).map(|cable| CalibrationUnknown::Offset { cable }));
     }
+    if wants("pulley-radii") {
+        let names: Vec<Option<&str>> =
+            robot.cables.iter().map(|cable| cable.anchor.pulley.as_ref().map(|pulley| pulley.name.as_str())).collect();
+        let is_first = |cable: &usize| names[*cable].is_some() && !names[..*cable].contains(&names[*cable]);
+        let first: Vec<usize> = (0..count).filter(is_first).collect();
+        if first.is_empty() {
+            bail!("⟪unknowns⟫: no cable of the robot file runs over a pulley: leave out pulley-radii");
+        }
+        unknowns.extend(first.into_iter().map(|cable| CalibrationUnknown::PulleyRadius { cable }));
+    }
     let common = [
         ("scale", CalibrationUnknown::Scale),
         ("axial-stiffness", CalibrationUnknown::AxialStiffness),
         ("mass", CalibrationUnknown::Mass),
+        ("support-stiffness", CalibrationUnknown::SupportStiffness),
     ];
     unknowns.extend(common.into_iter().filter(|(name, _)| wants(name)).map(|(_, unknown)| unknown));
     if unknowns.is_empty() {
         bail!("⟪hold_anchors⟫ holds every unknown: leave a cable out of it, or name further ⟪unknowns⟫");
     }
     Ok(unknowns)
+}
+
+fn check_tension_range(request: &CalibrateRequest) -> Result<()> {
+    let Some([low, high]) = request.tension_range_n else { return Ok(()) };
+    if !(low.is_finite() && high.is_finite() && 0.0 <= low && low < high) {
+        bail!("⟪tension_range_n⟫ {low}:{high} is no range: give the smallest and the largest tension, as in 20:120");
+    }
+    if request.static_model == StaticModel::Ideal {
+        bail!("⟪tension_range_n⟫ is of elastic cables: choose a ⟪static_model⟫, or leave it out");
+    }
+    Ok(())
+}
+
+/// Mean and standard deviation of equal chances in a range.
+fn prior_of_range([low, high]: [f64; 2]) -> (f64, f64) {
+    (0.5 * (low + high), (high - low) / 12.0_f64.sqrt())
+}
+
+/// The calibration with the priors of a request.
+fn with_priors(request: &CalibrateRequest, of: Calibration) -> Result<Calibration> {
+    let start = of.start();
+    let mut priors: Vec<Option<(f64, f64)>> = vec![None; start.len()];
+    for prior in &request.prior {
+        let PriorValue { path, prior: value, prior_std } = prior;
+        let wrong = |reason: String| anyhow!("⟪prior⟫ {path}: {reason}");
+        crate::values::positive(*prior_std).map_err(wrong)?;
+        for k in choice::chosen("prior", path, &of.unknowns, &of.robot)? {
+            let [in_file, _] = of.meaning(k, start[k]);
+            let value = crate::values::finite(value.unwrap_or(in_file)).map_err(wrong)?;
+            let is_positive = !matches!(
+                of.unknowns[k],
+                CalibrationUnknown::Anchor { .. }
+                    | CalibrationUnknown::Attachment { .. }
+                    | CalibrationUnknown::Offset { .. }
+            );
+            if is_positive && value <= 0.0 {
+                bail!("⟪prior⟫ {path}: {value} is not positive");
+            }
+            if priors[k].replace((value, *prior_std)).is_some() {
+                bail!("⟪prior⟫ {path}: {} has a prior already", words::path(&of.robot, &of.unknowns[k]).0);
+            }
+        }
+    }
+    let priors: Vec<(usize, f64, f64)> =
+        priors.iter().enumerate().filter_map(|(k, prior)| prior.map(|(value, std)| (k, value, std))).collect();
+    Ok(of.with_priors(&priors))
 }
 
 /// Refuses a name that no unknown has.

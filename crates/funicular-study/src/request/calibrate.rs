@@ -3,6 +3,7 @@
 use super::key::declared;
 use super::parts::{Axis, GappedColumns, RobotText};
 use funicular::statics::StaticModel;
+use serde::{Deserialize, Serialize};
 
 declared! {
     /// Anchors, attachments, offsets and scale from readings of cable lengths at poses that are not known.
@@ -19,8 +20,8 @@ declared! {
         /// the search begins; tension_NAME_n are tensions at the anchors [N], which elastic cables need.
         readings: GappedColumns = GappedColumns::new() => (GappedColumns).required();
         /// Numbers to find, separated by commas: anchors, attachments, offsets (length of each cable at the reading zero),
-        /// scale (metres of length per metre of all readings); of elastic cables also axial-stiffness and mass, as factors of
-        /// those of the file.
+        /// scale (metres of length per metre of all readings), pulley-radii; of elastic cables also axial-stiffness, mass and
+        /// support-stiffness, as factors of those of the file.
         unknowns: Vec<String> = vec!["anchors".to_owned()] => (Texts).form("NAMES");
         /// Cables whose anchors are known, by their names, separated by commas.
         hold_anchors: Vec<String> = Vec::new() => (Texts).form("CABLES");
@@ -33,6 +34,14 @@ declared! {
         position_std_m: Option<f64> = None => (Number(Positive)).otherwise("they only start the search");
         /// Standard deviation of the measured tensions [N].
         tension_std_n: f64 = 1.0 => (Number(Positive));
+        /// Values known beforehand with their standard deviations: kinds as in ⟪unknowns⟫, or paths of values; without a value
+        /// that of the file, as in offsets=0±0.02 or cables.*.anchor_m=±0.05 (repeatable). Anchors with a prior have a place
+        /// in the world, which holds the frame.
+        prior: Vec<PriorValue> = Vec::new() => (List(ProgramForm::Prior)).form("NAME=[VALUE]±DEVIATION")
+            .under("Prior knowledge");
+        /// Range within which the tensions at the anchors lie that were not measured [N]: a prior of its middle, with the
+        /// deviation of equal chances, for elastic cables.
+        tension_range_n: Option<[f64; 2]> = None => (Written(ProgramForm::Band)).form("FROM:TO").under("Prior knowledge");
         /// Static model of the cables: ideal ones are straight and rigid.
         #[serde(with = "crate::names")]
         static_model: StaticModel = StaticModel::Ideal => (name::<StaticModel>()).form("MODEL");
@@ -57,5 +66,19 @@ declared! {
         "funicular calibrate docs/calibration/machine.toml --readings docs/calibration/belts.csv",
         "funicular calibrate docs/calibration/machine.toml --readings docs/calibration/belts.csv --frame inner \\\n    --propose 3 --grid x=0.4:4.2:9 --grid y=0.4:3.5:8",
         "funicular calibrate robot.toml --readings lengths.csv --unknowns anchors,offsets --length-std-m 0.0005 \\\n    --calibrated calibrated.toml",
+        "funicular calibrate robot.toml --readings lengths.csv --static-model catenary --tension-range-n 20:120 \\\n    --unknowns anchors,offsets --prior offsets=0±0.02",
     }
+}
+
+/// Value known beforehand.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct PriorValue {
+    /// Kind of unknowns, or path of a value.
+    pub path: String,
+    /// Value; default that of the robot file.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub prior: Option<f64>,
+    /// Its standard deviation.
+    pub prior_std: f64,
 }

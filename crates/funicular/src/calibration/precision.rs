@@ -83,13 +83,15 @@ impl Calibration {
             }
         }
         let count = frame.free.ncols();
-        let height: usize = net.iter().map(|row| row.by_free.nrows()).sum();
+        let priors = self.prior_rows(&frame.free);
+        let height = net.iter().map(|row| row.by_free.nrows()).sum::<usize>() + priors.nrows();
         let mut all = DMat::zeros(height.max(count), count);
         let mut first = 0;
         for row in &net {
             all.view_mut((first, 0), row.by_free.shape()).copy_from(&row.by_free);
             first += row.by_free.nrows();
         }
+        all.view_mut((first, 0), priors.shape()).copy_from(&priors);
         let scales: Vec<f64> = all.column_iter().map(|column| column.norm()).collect();
         let largest = scales.iter().copied().fold(0.0, f64::max).max(f64::MIN_POSITIVE);
         let scales: Vec<f64> = scales.iter().map(|scale| 1.0 / scale.max(1e-12 * largest)).collect();

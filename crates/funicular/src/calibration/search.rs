@@ -17,7 +17,7 @@ const OF_NOISE: f64 = 3.0;
 /// Starts after which a search ends whose best χ² is this many times that of noise: then the readings are wrong, not the
 /// starts.
 const STARTS_OF_MISFIT: usize = 5;
-const MISFIT: f64 = 100.0;
+const FAR_FROM_NOISE: f64 = 100.0;
 
 /// Iterations of one start. Sound starts arrive within about 50; the best one goes on to its end.
 const ITERATIONS_OF_START: usize = 80;
@@ -94,7 +94,8 @@ pub fn search(
         let enough = |(best, arrivals): &(CalibrationFit, usize)| {
             *arrivals >= if best.chi2 <= noise { ENOUGH_OF_NOISE } else { ENOUGH_ARRIVALS }
         };
-        let is_misfit = minima.first().is_some_and(|(best, _)| best.chi2 > MISFIT * noise) && done >= STARTS_OF_MISFIT;
+        let is_misfit =
+            minima.first().is_some_and(|(best, _)| best.chi2 > FAR_FROM_NOISE * noise) && done >= STARTS_OF_MISFIT;
         if number > 0 && (minima.first().is_some_and(enough) || is_misfit) {
             break;
         }
@@ -123,7 +124,7 @@ impl Calibration {
 
     /// Number of data less that of the unknowns and the coordinates of all poses.
     fn degrees(&self, frame: &CalibrationFrame) -> usize {
-        let data: usize = self.rows.iter().map(MeasuredRow::data_count).sum();
+        let data = self.rows.iter().map(|row| self.data_count(row)).sum::<usize>() + self.prior_count();
         data.saturating_sub(frame.free_count() + self.rows.len() * self.row_unknown_count())
     }
 

@@ -1,6 +1,7 @@
 //! Calibration from lengths alone: published belts of a machine, synthetic sets of a separate program, derivatives against
 //! differences, coverage of intervals, starts from nothing, and data that are wrong.
 
+mod more_unknowns;
 mod published;
 
 use funicular::calibration::{
@@ -49,7 +50,7 @@ fn rows<const N: usize>(readings: &[[f64; N]]) -> Vec<MeasuredRow> {
 }
 
 fn deviations(reading: f64) -> ReadingDeviations {
-    ReadingDeviations { reading, position: 1.0, tension: 1.0 }
+    ReadingDeviations { reading, position: 1.0, tension: 1.0, tension_prior: None }
 }
 
 /// Best fit with its frame and precision.
@@ -551,7 +552,7 @@ fn sagging(tensions: bool) -> Result<Calibration, CalibrationError> {
     let rows = SAG_READINGS.iter().zip(&SAG_TENSIONS).map(row).collect();
     let mut all = unknowns(4, &[0, 1, 2], true);
     all.push(CalibrationUnknown::AxialStiffness);
-    let deviations = ReadingDeviations { reading: 1e-3, position: 1.0, tension: 3.0 };
+    let deviations = ReadingDeviations { reading: 1e-3, position: 1.0, tension: 3.0, tension_prior: None };
     Calibration::new(robot, all, rows, deviations, StaticModel::Catenary)
 }
 
@@ -626,7 +627,7 @@ fn a_rigid_platform_on_elastic_cables_is_calibrated_with_tensions() {
     }
 
     let start = with_errors(&truth, 0.05, &mut draws);
-    let deviations = ReadingDeviations { reading: 1e-3, position: 1.0, tension: 3.0 };
+    let deviations = ReadingDeviations { reading: 1e-3, position: 1.0, tension: 3.0, tension_prior: None };
     let of = Calibration::new(start, unknowns(8, &[0, 1, 2], true), rows, deviations, StaticModel::Catenary).unwrap();
     let begun = std::time::Instant::now();
     let (fit, frame, precision) = fitted(&of);

@@ -16,6 +16,8 @@ fn kind(unknown: &CalibrationUnknown) -> &'static str {
         CalibrationUnknown::Scale => "scale",
         CalibrationUnknown::AxialStiffness => "axial-stiffness",
         CalibrationUnknown::Mass => "mass",
+        CalibrationUnknown::PulleyRadius { .. } => "pulley-radii",
+        CalibrationUnknown::SupportStiffness => "support-stiffness",
     }
 }
 

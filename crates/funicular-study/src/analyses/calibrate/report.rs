@@ -135,7 +135,7 @@ impl<'a> CalibrationReport<'a> {
             weak_combinations: weak,
             minima: self.minima(),
             chi2: self.fit().chi2,
-            data: self.of.rows.iter().map(funicular::calibration::MeasuredRow::data_count).sum(),
+            data: self.of.rows.iter().map(|row| self.of.data_count(row)).sum(),
             degrees_of_freedom: self.precision.degrees,
             residual_rms_m: (squares / residuals.len().max(1) as f64).sqrt(),
             length_std_m: self.factor.map(|factor| factor * self.of.deviations.reading),
@@ -215,6 +215,8 @@ impl<'a> CalibrationReport<'a> {
                 deviation,
                 interval_95: reach.filter(|reach| reach.is_finite()).map(|reach| [value - reach, value + reach]),
                 inner_deviation: known(inner[(k, k)].max(0.0).sqrt()),
+                prior: self.of.prior_of(k).map(|(value, _)| value),
+                prior_deviation: self.of.prior_of(k).map(|(_, deviation)| deviation),
                 profile,
             }
         };
@@ -400,11 +402,17 @@ impl<'a> CalibrationReport<'a> {
         format!("The values are known to {known}{weakest}")
     }
 
-    /// Robot file with anchors and attachments.
+    /// Robot file with anchors, attachments and radii.
     fn robot_file(&self) -> Result<String> {
         let mut assignments = Vec::new();
         for (k, unknown) in self.of.unknowns.iter().enumerate() {
-            if matches!(unknown, CalibrationUnknown::Anchor { .. } | CalibrationUnknown::Attachment { .. }) {
+            let is_in_file = matches!(
+                unknown,
+                CalibrationUnknown::Anchor { .. }
+                    | CalibrationUnknown::Attachment { .. }
+                    | CalibrationUnknown::PulleyRadius { .. }
+            );
+            if is_in_file {
                 let path = set_values::path(&self.paths[k].0).map_err(|error| anyhow!("{error}"))?;
                 assignments.push(path.with("⟪unknowns⟫", self.fit().values[k]));
             }

@@ -3,7 +3,7 @@
 use crate::analyses::fields;
 use crate::analyses::profile::Profile;
 use crate::columns::{Columns, column, parts};
-use crate::text::digits_for;
+use crate::text::{digits_for, significant};
 use serde::Serialize;
 
 /// Calibrated value.
@@ -25,6 +25,11 @@ pub struct CalibratedValue {
     /// Standard deviation with inner conditions, which no choice of the frame enlarges.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub inner_deviation: Option<f64>,
+    /// Value known beforehand.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub prior: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub prior_deviation: Option<f64>,
     /// Profile of χ², if it was asked for: ends of the interval that holds the value with 95 %, and points.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub profile: Option<Profile>,
@@ -38,10 +43,13 @@ impl CalibratedValue {
 
     /// Columns of the values.
     pub fn columns() -> Columns<Self> {
-        let remark = |row: &Self| match (row.held, row.deviation) {
-            (true, _) => "held by the frame",
-            (false, None) => "not determined",
-            (false, Some(_)) => "",
+        let remark = |row: &Self| match (row.held, row.deviation, row.prior.zip(row.prior_deviation)) {
+            (true, ..) => "held by the frame".to_owned(),
+            (false, None, _) => "not determined".to_owned(),
+            (false, Some(_), Some((value, deviation))) => {
+                format!("prior {} ± {}", significant(value, 4), significant(deviation, 2))
+            }
+            (false, Some(_), None) => String::new(),
         };
         let profile = |row: &Self| row.profile.as_ref().map_or([None; 2], |profile| [profile.from, profile.to]);
         let [low, high] = fields::interval_95(|row: &Self| row.interval_95, Self::digits, "the value with 95 %");
@@ -58,7 +66,9 @@ impl CalibratedValue {
             high,
             column("inner_deviation", "", "standard deviation with inner conditions", |row: &Self| row.inner_deviation)
                 .significant("inner ±", "", 3),
-            column("remark", "", "what holds the value, or that nothing determines it", remark).plain(""),
+            column("remark", "", "what holds the value, or that nothing determines it; its prior", remark).plain(""),
+            column("prior", "", "value that was known beforehand", |row: &Self| row.prior),
+            column("prior_deviation", "", "its standard deviation", |row: &Self| row.prior_deviation),
             parts("profile_95_{}", ["from", "to"], "", "end of the interval of the profile: {}", profile),
         ])
     }
