@@ -28,7 +28,7 @@ pub use fit::CalibrationFit;
 pub use frame::{CalibrationFrame, FrameChoice};
 pub use from_nothing::anchors_from_lengths;
 pub use precision::{AnchorDistance, CalibrationPrecision, LeftOutRow};
-pub use proposal::{ProposedPose, proposals};
+pub use proposal::{CandidatePose, ProposedPose, proposals};
 pub use row::{MeasuredRow, ReadingDeviations};
 pub use search::{CalibrationSearch, search};
 pub use unknowns::{CalibratedRobot, CalibrationUnknown};

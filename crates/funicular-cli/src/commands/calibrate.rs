@@ -11,7 +11,7 @@ use crate::table::{Table, counted, significant};
 use anyhow::{Result, bail};
 use funicular_files::Guard;
 use funicular_study::analyses::calibrate::{
-    self, Calibrated, CalibratedValue, DistanceRow, ProposalRow, ReadingRow, check_readings,
+    self, Calibrated, CalibratedValue, DistanceRow, LeftOut, ProposalRow, ReadingRow, check_readings,
 };
 use funicular_study::request::{CalibrateRequest, GappedColumns, Request};
 use serde_json::{Map, Value};
@@ -95,10 +95,18 @@ impl Printed for Calibrated {
             );
         }
         if !self.proposals.is_empty() {
+            let has_rules = self.proposals.iter().any(|row| row.tension_rule.is_some());
             let _ = write!(
                 text,
                 "\nPoses to measure next, one after the other\n{}",
-                Table::of(&ProposalRow::columns(self.turns), &self.proposals)
+                Table::of(&ProposalRow::columns(self.turns, has_rules), &self.proposals)
+            );
+        }
+        if let Some(LeftOut { candidates, by_tensions, by_clearance }) = self.left_out {
+            let _ = writeln!(
+                text,
+                "Of {} {by_tensions} have no tensions within the limits, and {by_clearance} are too near to a body or cable.",
+                counted(candidates, "candidate")
             );
         }
         if let Some(count) = self.poses_needed {

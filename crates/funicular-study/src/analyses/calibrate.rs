@@ -7,11 +7,13 @@ mod candidates;
 mod caveats;
 mod choice;
 mod profiles;
+mod reachable;
 mod report;
 mod rows;
 mod table;
 mod words;
 
+pub use reachable::LeftOut;
 pub use rows::{CableResidual, CalibratedValue, DistanceRow, MinimumRow, ProposalRow, ReadingRow, Walk, WeakRow};
 pub use table::check as check_readings;
 
@@ -70,6 +72,9 @@ pub struct Calibrated {
     pub minima: Vec<MinimumRow>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub proposals: Vec<ProposalRow>,
+    /// Number of candidates that were left out: no tensions within the limits, too near to a body, or out of reach.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub left_out: Option<LeftOut>,
     /// Least number of proposed poses that reaches the wanted deviation; absent if none was wanted or no number does.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub poses_needed: Option<usize>,
@@ -127,6 +132,7 @@ pub fn run(request: &CalibrateRequest, watch: &mut dyn Watch) -> Result<Calibrat
     request::check_positive("tension_std_n", request.tension_std_n)?;
     request::check("wanted_std_m", request.wanted_std_m, crate::values::positive)?;
     check_tension_range(request)?;
+    request.tensions.check()?;
     let file = request.robot.read()?;
     let parameters = Parameters::from_toml(&file.text)?;
     let robot = parameters.robot().clone();
@@ -148,9 +154,6 @@ pub fn run(request: &CalibrateRequest, watch: &mut dyn Watch) -> Result<Calibrat
     let of = Calibration::new(robot.clone(), unknowns, rows, deviations, request.static_model).map_err(named)?;
     let of = with_priors(request, of)?;
     check_signs(request, &of)?;
-    if of.is_elastic() && !matches!(candidates, candidates::Candidates::None) {
-        bail!("poses are proposed for straight rigid cables only: leave out ⟪propose⟫, or take ⟪static_model⟫ ideal");
-    }
     let frame = of.frame(&frame_choice(request, &robot)?).map_err(named)?;
     of.check_count(&frame).map_err(named)?;
 

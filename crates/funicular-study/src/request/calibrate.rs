@@ -1,7 +1,8 @@
 //! Request of `calibrate`: readings of lengths at unknown poses, and the numbers that they shall give.
 
 use super::key::declared;
-use super::parts::{Axis, GappedColumns, RobotText};
+use super::parts::{Axis, GappedColumns, RobotText, Tensions};
+use funicular::math::chosen_rows::RowCriterion;
 use funicular::statics::StaticModel;
 use serde::{Deserialize, Serialize};
 
@@ -59,8 +60,15 @@ declared! {
         poses: Option<Vec<[f64; 6]>> = None => (Poses).under("Proposal");
         /// Numbers whose deviations the proposal reduces: kinds as in ⟪unknowns⟫, or paths of values.
         propose_for: Vec<String> = Vec::new() => (Texts).form("NAMES").under("Proposal").otherwise("all unknowns");
+        /// Criterion of the proposal.
+        #[serde(with = "crate::names")]
+        propose_by: RowCriterion = RowCriterion::default() => (name::<RowCriterion>()).form("CRITERION").under("Proposal");
         /// Largest deviation that is wanted [m]: the least number of proposed poses that reaches it.
         wanted_std_m: Option<f64> = None => (Number(Positive)).under("Proposal");
+        /// Tensions at the candidates of a proposal. Candidates without tensions within the limits are left out; elastic
+        /// cables without a rule try the lowest and the middle tensions.
+        #[serde(flatten)]
+        tensions: Tensions = Tensions::default() => group;
     }
     examples {
         "funicular calibrate docs/calibration/machine.toml --readings docs/calibration/belts.csv",

@@ -6,10 +6,11 @@ mod published;
 
 use funicular::calibration::{
     Calibration, CalibrationError, CalibrationFit, CalibrationFrame, CalibrationPrecision, CalibrationUnknown,
-    CombinationPart, FrameChoice, MeasuredRow, ReadingDeviations, cable_exchange, encoder_of_other_sign, proposals,
-    row_exchange, search,
+    CandidatePose, CombinationPart, FrameChoice, MeasuredRow, ReadingDeviations, cable_exchange, encoder_of_other_sign,
+    proposals, row_exchange, search,
 };
 use funicular::math::Vec3;
+use funicular::math::chosen_rows::RowCriterion;
 use funicular::robot::{Pose, Robot};
 use funicular::statics::{self, StaticModel};
 use published::*;
@@ -51,6 +52,10 @@ fn rows<const N: usize>(readings: &[[f64; N]]) -> Vec<MeasuredRow> {
 
 fn deviations(reading: f64) -> ReadingDeviations {
     ReadingDeviations { reading, position: 1.0, tension: 1.0, tension_prior: None }
+}
+
+fn as_candidates(poses: &[Pose]) -> Vec<CandidatePose> {
+    poses.iter().copied().map(CandidatePose::from).collect()
 }
 
 /// Best fit with its frame and precision.
@@ -116,7 +121,14 @@ fn the_best_seventh_waypoint_of_the_machine_is_that_of_the_separate_program() {
             (0..8).map(move |j| Pose::new([step(400.0, 4200.0, 9, i), step(400.0, 3500.0, 8, j), 0.0], [0.0; 3]))
         })
         .collect();
-    let found = proposals(&of, &fit, &frame, &precision, &candidates, 4, &[1.0; 8]);
+    let found = proposals(
+        &of,
+        &fit,
+        (&frame, &precision),
+        &as_candidates(&candidates),
+        (4, RowCriterion::Variances),
+        &[1.0; 8],
+    );
     let expected = [10.789284728505201, 2.8840135312273465, 2.101212252099524, 1.6298456577935716];
     for (pose, expected) in found.iter().zip(expected) {
         // The separate program agrees with its own dense refit to 5e-5; both solve the same linear problem.
@@ -168,7 +180,8 @@ fn a_planar_set_with_offsets_agrees_with_the_separate_program() {
     }
     for (candidate, expected) in PLANE_CANDIDATES.iter().zip(PLANE_AFTER_CANDIDATE) {
         let pose = Pose::new([candidate[0], candidate[1], 0.0], [0.0; 3]);
-        let found = proposals(&of, &fit, &frame, &precision, &[pose], 1, &[1.0; 12]);
+        let found =
+            proposals(&of, &fit, (&frame, &precision), &[pose.into()], (1, RowCriterion::Variances), &[1.0; 12]);
         assert!((found[0].total / expected - 1.0).abs() < 1e-3, "{} {expected}", found[0].total);
     }
 }
@@ -198,7 +211,8 @@ fn a_rigid_platform_with_eight_cables_agrees_with_the_separate_program() {
     for (k, expected) in RIGID_AFTER_CANDIDATE.iter().enumerate() {
         let [x, y, z] = RIGID_TURNS_DEG[k].map(f64::to_radians);
         let pose = Pose::new(RIGID_CANDIDATES[k], [0.0; 3]).moved(&Vec3::zeros(), &Vec3::new(x, y, z));
-        let found = proposals(&of, &fit, &frame, &precision, &[pose], 1, &[1.0; 32]);
+        let found =
+            proposals(&of, &fit, (&frame, &precision), &[pose.into()], (1, RowCriterion::Variances), &[1.0; 32]);
         assert!((found[0].total / expected - 1.0).abs() < 1e-3, "{} {expected}", found[0].total);
     }
     let walk = of.weak_walk(&fit, &frame, &precision, 1.0).unwrap();
@@ -435,9 +449,23 @@ fn a_ceiling_and_a_floor_do_not_determine_the_anchors() {
     let candidates: Vec<Pose> = (0..12)
         .map(|k| Pose::new([1.0 + 0.5 * f64::from(k), 0.7 + f64::from(k % 4), if k < 6 { 1.0 } else { 2.5 }], [0.0; 3]))
         .collect();
-    let found = proposals(&of, &fit, &frame, &precision, &candidates, 1, &[1.0; 18]);
+    let found = proposals(
+        &of,
+        &fit,
+        (&frame, &precision),
+        &as_candidates(&candidates),
+        (1, RowCriterion::Variances),
+        &[1.0; 18],
+    );
     assert!(found[0].candidate >= 6 && found[0].total < 0.2, "{found:?}");
-    let in_plane = proposals(&of, &fit, &frame, &precision, &candidates[..6], 3, &[1.0; 18]);
+    let in_plane = proposals(
+        &of,
+        &fit,
+        (&frame, &precision),
+        &as_candidates(&candidates[..6]),
+        (3, RowCriterion::Variances),
+        &[1.0; 18],
+    );
     assert!(in_plane[2].total > 1.0, "{in_plane:?}");
 
     // Noise hides them from the linearisation, but not from the walk.

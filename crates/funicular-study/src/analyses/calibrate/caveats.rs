@@ -1,5 +1,6 @@
 //! Warnings about a calibration: place, number, and what to do.
 
+use super::reachable::none_left;
 use super::report::CalibrationReport;
 use super::rows::{ReadingRow, Walk};
 use super::{Calibrated, in_mm};
@@ -27,6 +28,7 @@ pub(super) fn warnings(of: &CalibrationReport, results: &Calibrated) -> Vec<Stri
     warnings.extend(stretch(of));
     warnings.extend(open_rows(of));
     warnings.extend(other_sign(of));
+    warnings.extend(none_left(results));
     warnings
 }
 

@@ -3,6 +3,7 @@
 use super::candidates::Candidates;
 use super::choice::all_chosen;
 use super::profiles::profiles;
+use super::reachable::{LeftOut, Reachable, reachable};
 use super::rows::{CableResidual, CalibratedValue, DistanceRow, MinimumRow, ProposalRow, ReadingRow, Walk, WeakRow};
 
 use super::{Calibrated, in_mm, words};
@@ -51,7 +52,8 @@ pub(super) struct CalibrationReport<'a> {
     /// Factor of a deviation whose interval holds 95 %.
     quantile: f64,
     paths: Vec<(String, &'static str)>,
-    candidates: Vec<Pose>,
+    /// Candidates of a proposal.
+    poses: Vec<Pose>,
     /// True for an unknown whose profile is wanted.
     profiled: Vec<bool>,
     /// True for an unknown whose deviation a proposal reduces.
@@ -88,7 +90,7 @@ impl<'a> CalibrationReport<'a> {
             factor,
             quantile: quantile.unwrap_or(f64::NAN),
             paths: of.unknowns.iter().map(|unknown| words::path(&of.robot, unknown)).collect(),
-            candidates: candidates.poses(&of.robot, &middle)?,
+            poses: candidates.poses(&of.robot, &middle)?,
             profiled: marks("profile", &request.profile)?,
             proposed_for: if request.propose_for.is_empty() { vec![true; of.unknowns.len()] } else { proposed_for },
             source: &request.robot,
@@ -122,7 +124,7 @@ impl<'a> CalibrationReport<'a> {
         let inner = self.frame.inner(&self.precision.covariance);
         let root = |covariance: &DMat| Some(self.factor? * covariance.trace().max(0.0).sqrt());
         let is_known = self.precision.lost.is_empty();
-        let (proposals, poses_needed) = self.proposals();
+        let (proposals, poses_needed, left_out) = self.proposals(watch)?;
         let residuals: Vec<f64> = rows.iter().flat_map(|row| row.residuals.iter().map(|of| of.residual_m)).collect();
         let squares: f64 = residuals.iter().map(|residual| residual * residual).sum();
         Ok(Calibrated {
@@ -152,6 +154,7 @@ impl<'a> CalibrationReport<'a> {
             rows,
             walk: walk.map(|walk| walk_row(&walk)),
             proposals,
+            left_out,
             poses_needed,
         })
     }
@@ -305,17 +308,16 @@ impl<'a> CalibrationReport<'a> {
         self.found.others.iter().map(row).collect()
     }
 
-    /// Proposed poses, and the number of them that the wanted deviation needs.
-    fn proposals(&self) -> (Vec<ProposalRow>, Option<usize>) {
-        let Some(factor) = self.factor else { return (Vec::new(), None) };
-        if self.candidates.is_empty() {
-            return (Vec::new(), None);
-        }
+    /// Proposed poses, the number of them that the wanted deviation needs, and the candidates that were left out.
+    fn proposals(&self, watch: &mut dyn Watch) -> Result<(Vec<ProposalRow>, Option<usize>, Option<LeftOut>)> {
+        let Some(factor) = self.factor.filter(|_| !self.poses.is_empty()) else { return Ok((Vec::new(), None, None)) };
+        let Reachable { candidates, rules, left_out } = reachable(self, &self.poses, watch)?;
         let weights: Vec<f64> = self.proposed_for.iter().map(|chosen| if *chosen { 1.0 } else { 0.0 }).collect();
         let count = if self.request.wanted_std_m.is_some() { MAX_PROPOSALS } else { self.request.propose };
-        let found = proposals(self.of, self.fit(), &self.frame, &self.precision, &self.candidates, count, &weights);
+        let by = (count, self.request.propose_by);
+        let found = proposals(self.of, self.fit(), (&self.frame, &self.precision), &candidates, by, &weights);
         let row = |(n, of): (usize, &funicular::calibration::ProposedPose)| {
-            let pose = &self.candidates[of.candidate];
+            let pose = &candidates[of.candidate].pose;
             let chosen = (0..weights.len()).filter(|&k| weights[k] > 0.0);
             let largest = chosen.max_by(|a, b| of.deviations[*a].total_cmp(&of.deviations[*b])).unwrap_or(0);
             ProposalRow {
@@ -323,6 +325,7 @@ impl<'a> CalibrationReport<'a> {
                 position_m: pose.position_w.into(),
                 roll_pitch_yaw_deg: rotation::to_roll_pitch_yaw_deg(&pose.rot_wp),
                 readings_m: of.readings.clone(),
+                tension_rule: rules[of.candidate],
                 total_m: factor * of.total,
                 largest_m: factor * of.deviations[largest],
                 largest_of: self.paths[largest].0.clone(),
@@ -340,7 +343,7 @@ impl<'a> CalibrationReport<'a> {
             .wanted_std_m
             .and_then(|wanted| rows.iter().find(|row| row.largest_m <= wanted).map(|row| row.number));
         rows.truncate(needed.unwrap_or(0).max(self.request.propose));
-        (rows, needed)
+        Ok((rows, needed, left_out))
     }
 
     /// Sentence on the fit.

@@ -208,6 +208,9 @@ pub struct ProposalRow {
     pub roll_pitch_yaw_deg: [f64; 3],
     /// Readings at the pose with the calibrated values, one per cable.
     pub readings_m: Vec<f64>,
+    /// Rule of the tensions at the pose, if they are a matter of choice.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub tension_rule: Option<&'static str>,
     /// Root of the sum of the variances of the chosen values after this pose and those before it.
     pub total_m: f64,
     /// Largest deviation of a value then.
@@ -219,8 +222,8 @@ pub struct ProposalRow {
 }
 
 impl ProposalRow {
-    /// Columns of the proposed poses.
-    pub fn columns(turns: bool) -> Columns<Self> {
+    /// Columns of the proposed poses; with the rules of tensions if any has one.
+    pub fn columns(turns: bool, has_rules: bool) -> Columns<Self> {
         Columns::new([
             column("number", "1", "number of proposed poses up to this one", |row: &Self| row.number).plain("next"),
             parts("{}_m", fields::AXES, "m", "position of the platform origin, {}", |row: &Self| row.position_m)
@@ -239,6 +242,9 @@ impl ProposalRow {
             ),
             column("largest_of", "", "value with the largest deviation", |row: &Self| row.largest_of.clone())
                 .plain("of"),
+            column("tension_rule", "", "rule of the tensions", |row: &Self| row.tension_rule)
+                .plain("tensions")
+                .read_if(has_rules),
         ])
     }
 }

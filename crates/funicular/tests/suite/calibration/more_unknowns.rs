@@ -1,7 +1,7 @@
 //! Priors, pulley radii, winches and flexible supports in calibrations whose truth is known.
 
 use super::*;
-use funicular::math::{DMat, DVec};
+use funicular::math::DMat;
 use funicular::robot::{Pulley, State, Support};
 
 /// Rigid platform with eight cables over swivelling pulleys, each with its drum below.
@@ -93,9 +93,11 @@ fn priors_move_values_as_their_covariance_says() {
 
     let with = of.with_priors(&[(offset, known, deviation)]);
     let (with_fit, _, with_precision) = fitted(&with);
-    let column: DVec = precision.covariance.column(offset).into_owned();
+    let column = precision.covariance.column(offset).into_owned();
     let sum = variance + deviation * deviation;
-    let expected = DVec::from_column_slice(&fit.values) - &column * ((fit.values[offset] - known) / sum);
+    let expected: Vec<f64> = (fit.values.iter().zip(column.iter()))
+        .map(|(value, seen)| value - seen * (fit.values[offset] - known) / sum)
+        .collect();
     let covariance: DMat = &precision.covariance - &column * column.transpose() / sum;
     for k in 0..fit.values.len() {
         let own = covariance[(k, k)].sqrt();
@@ -218,4 +220,36 @@ fn the_stiffness_of_supports_is_found_with_tensions_and_positions() {
     assert!((factor - 1.0 / 1.5).abs() < 4.0 * deviation && deviation < 0.05, "{factor} ± {deviation}");
     // 220 data less 80 lengths and 13 unknowns: 127 ± 16, four deviations.
     assert!((fit.chi2 - 127.0).abs() < 64.0 && precision.degrees == 127, "{} {}", fit.chi2, precision.degrees);
+}
+
+#[test]
+fn a_proposed_pose_of_elastic_cables_leaves_what_a_row_there_leaves() {
+    let of = sagging(true).unwrap();
+    let (fit, frame, precision) = fitted(&of);
+    let robot = of.robot_at(&fit.values);
+    let pose = Pose::new([2.0, 4.5, -2.0], [0.0; 3]);
+    let lengths: Vec<f64> = robot
+        .robot
+        .cables
+        .iter()
+        .zip([0.999, 1.001, 1.0, 1.0])
+        .map(|(cable, factor)| cable.straight_length(&pose) * factor)
+        .collect();
+    let rest = statics::forward(&robot.robot, &lengths, StaticModel::Catenary, Some(&pose)).unwrap();
+    let candidate = CandidatePose { pose: rest.pose, lengths };
+    let weights = vec![1.0; fit.values.len()];
+    let proposed =
+        proposals(&of, &fit, (&frame, &precision), &[candidate], (1, RowCriterion::Variances), &weights).remove(0);
+
+    // The same readings and tensions as a row: the minimum stays, and its covariance is that of the proposal.
+    let mut with = of.clone();
+    with.rows.push(MeasuredRow {
+        tensions: rest.cables.iter().map(|cable| Some(cable.tension_anchor)).collect(),
+        start: Some(rest.pose),
+        ..MeasuredRow::of_readings(&proposed.readings)
+    });
+    let (with_fit, _, with_precision) = fitted(&with);
+    assert!((with_fit.chi2 - fit.chi2).abs() < 1e-6, "{} {}", with_fit.chi2, fit.chi2);
+    assert!((proposed.total / with_precision.total() - 1.0).abs() < 1e-6, "{}", proposed.total);
+    assert!(proposed.total < 0.999 * precision.total());
 }
