@@ -7,6 +7,7 @@
 
 pub mod cable;
 pub mod calibrate;
+mod candidate_poses;
 pub mod check;
 pub mod clearance;
 pub mod compare;

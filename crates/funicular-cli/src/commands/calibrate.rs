@@ -2,18 +2,20 @@
 
 use super::profile_table::{Profiled, profiles};
 use super::result_files::{OtherFile, ResultFiles};
-use crate::args::{CalibrateArgs, Cli};
+use crate::args::{CalibrateArgs, Cli, DrawArgs, OutputArgs};
 use crate::number_table;
-use crate::output::Printed;
+use crate::output::{FigureSink, Printed};
 use crate::pose_csv;
 use crate::progress::TerminalProgress;
 use crate::table::{Table, counted, significant};
-use anyhow::{Result, bail};
+use anyhow::Result;
 use funicular_files::Guard;
+use funicular_pages::figures;
 use funicular_study::analyses::calibrate::{
     self, Calibrated, CalibratedValue, DistanceRow, LeftOut, ProposalRow, ReadingRow, check_readings,
 };
 use funicular_study::request::{CalibrateRequest, GappedColumns, Request};
+use funicular_study::wording::{Words, worded};
 use serde_json::{Map, Value};
 use std::fmt::Write as _;
 
@@ -37,13 +39,29 @@ pub(super) fn run(of: &CalibrateRequest, args: &CalibrateArgs, guard: &mut Guard
     if let Some(poses) = &args.poses {
         guard.reads("the poses", poses);
     }
+    let DrawArgs { output, figure } = &args.drawn;
+    let path = output.output_file.as_deref().filter(|_| output.format.is_none());
+    let drawn = FigureSink::open(path, *figure, guard)?;
     let calibrated = OtherFile::robot("calibrated", args.calibrated.as_deref());
-    let files = ResultFiles::open(&args.sink, calibrated, None, guard)?;
+    // With a figure the result is printed.
+    let output_file = output.output_file.clone().filter(|_| drawn.is_none());
+    let printed = OutputArgs { format: output.format, output_file };
+    let files = ResultFiles::open(&printed, calibrated, args.page.as_deref(), guard)?;
 
     let mut watch = TerminalProgress::new();
     let found = calibrate::run(of, &mut watch)?;
     drop(watch);
-    files.write(&found, || Ok(found.robot_file.clone().into_bytes()), || bail!("`calibrate` has no page"))
+    if let Some(drawn) = drawn {
+        drawn.write(&figures::of_calibration(&found))?;
+    }
+    files.write(
+        &found,
+        || Ok(found.robot_file.clone().into_bytes()),
+        || {
+            let page = funicular_pages::pages::calibrate::page(&found, super::page::command_line()?)?;
+            Ok(worded(&page, Words::Program))
+        },
+    )
 }
 
 impl Printed for Calibrated {

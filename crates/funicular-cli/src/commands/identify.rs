@@ -5,6 +5,7 @@ use super::result_files::{OtherFile, ResultFiles};
 use crate::args::{Cli, IdentifyArgs};
 use crate::errors;
 use crate::output::Printed;
+use crate::pose_csv;
 use crate::progress::TerminalProgress;
 use crate::table::{Table, counted, significant};
 use anyhow::{Context, Result, bail};
@@ -12,7 +13,7 @@ use std::fmt::Write as _;
 
 use funicular_files::Guard;
 use funicular_formats::measurements::{self, FileOptions};
-use funicular_study::analyses::identify::{self, FittedValue, Identified, StaticRow};
+use funicular_study::analyses::identify::{self, FittedValue, Identified, ProposedMeasurement, StaticRow};
 use funicular_study::request::{Experiment, FitValue, IdentifyRequest, Request, ResponsePoints};
 use funicular_study::wording::{Words, worded};
 use serde_json::{Map, Value};
@@ -24,6 +25,9 @@ use std::path::Path;
 pub(super) fn run(of: &IdentifyRequest, args: &IdentifyArgs, guard: &mut Guard) -> Result<()> {
     for file in args.measured.iter().chain(&args.experiments) {
         guard.reads("the measurements", file);
+    }
+    if let Some(poses) = &args.poses {
+        guard.reads("the poses", poses);
     }
 
     let fitted = OtherFile::robot("fitted", args.fitted.as_deref());
@@ -48,6 +52,7 @@ pub(super) fn request(cli: &Cli, mut further: Map<String, Value>) -> Result<Requ
     let mut request = cli.request(further)?;
     if let Request::Identify(of) = &mut request {
         of.experiments = experiments(cli, &args)?;
+        of.poses = pose_csv::read_if_given(args.poses.as_deref(), &of.robot)?;
         add_priors(&mut of.fit, &args.prior)?;
     }
     Ok(request)
@@ -179,6 +184,16 @@ impl Printed for Identified {
         }
         if !self.statics.is_empty() {
             let _ = write!(text, "\n{}\n", Table::of(&StaticRow::columns(), &self.statics));
+        }
+        if !self.proposals.is_empty() {
+            let _ = write!(
+                text,
+                "\nMeasurements to make next, one after the other\n{}\n",
+                Table::of(&ProposedMeasurement::columns(), &self.proposals)
+            );
+        }
+        if let Some(count) = self.measurements_needed {
+            let _ = writeln!(text, "{} reach the wanted deviation.", counted(count, "proposed measurement"));
         }
         text
     }

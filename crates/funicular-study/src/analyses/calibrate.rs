@@ -3,9 +3,9 @@
 //! docs/theory.md, section 18d, has the equations. `identify` takes measured results of states that are known; here every
 //! row brings its own unknown pose.
 
-mod candidates;
 mod caveats;
 mod choice;
+mod drawn;
 mod profiles;
 mod reachable;
 mod report;
@@ -13,11 +13,12 @@ mod rows;
 mod table;
 mod words;
 
+pub use drawn::{AnchorRow, LinearRows, NetRows};
 pub use reachable::LeftOut;
 pub use rows::{CableResidual, CalibratedValue, DistanceRow, MinimumRow, ProposalRow, ReadingRow, Walk, WeakRow};
 pub use table::check as check_readings;
 
-use super::found;
+use super::{candidate_poses, found};
 use crate::Watch;
 use crate::columns::{ResultTable, Tabled};
 use crate::error::{Cancelled, NoSolution};
@@ -62,6 +63,8 @@ pub struct Calibrated {
     /// Frame in words.
     pub frame: String,
     pub values: Vec<CalibratedValue>,
+    /// Anchors with their covariance.
+    pub anchors: Vec<AnchorRow>,
     pub distances: Vec<DistanceRow>,
     pub rows: Vec<ReadingRow>,
     pub weak_combinations: Vec<WeakRow>,
@@ -105,6 +108,12 @@ pub struct Calibrated {
     pub iterations: usize,
     /// Robot file with the calibrated anchors and attachments.
     pub robot_file: String,
+    /// World axes along which the platform moves.
+    #[serde(skip)]
+    pub axes: Vec<usize>,
+    /// Rows as linear equations, for pages.
+    #[serde(skip)]
+    pub linear: Option<LinearRows>,
     #[serde(skip)]
     pub warnings: Vec<String>,
 }
@@ -137,7 +146,9 @@ pub fn run(request: &CalibrateRequest, watch: &mut dyn Watch) -> Result<Calibrat
     let parameters = Parameters::from_toml(&file.text)?;
     let robot = parameters.robot().clone();
     let rows = table::rows(&request.readings, &robot, request.position_std_m.is_some())?;
-    let candidates = candidates::wanted(request, &robot)?;
+    let is_proposed = request.propose > 0 || request.wanted_std_m.is_some();
+    let needs = (is_proposed, "⟪propose⟫ or ⟪wanted_std_m⟫");
+    let candidates = candidate_poses::wanted(needs, &request.grid, request.poses.as_ref(), &robot)?;
 
     // Unknowns and frame.
     let unknowns = unknowns(request, &robot)?;

@@ -80,6 +80,6 @@ impl Calibration {
     fn fit_across(&self, from: &CalibrationFit, frame: &CalibrationFrame, along: &DVec, held: &DVec) -> CalibrationFit {
         let values = DVec::from_column_slice(&from.values) + &frame.free * along;
         let rest = &frame.free * null_space(&DMat::from_rows(&[held.transpose()]));
-        self.fit(values.as_slice(), &from.poses, &rest)
+        self.fit_on(from, values.as_slice(), &rest)
     }
 }

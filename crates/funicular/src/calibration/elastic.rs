@@ -4,8 +4,8 @@
 use super::row::RowTerms;
 use super::{CalibratedRobot, Calibration, CalibrationUnknown, MeasuredRow};
 use crate::math::{DMat, DVec, Vec3};
-use crate::robot::{CableChange, Pose, RobotChange, Support, SupportChange};
-use crate::statics::{self, Equilibrium, StaticModel, derivatives};
+use crate::robot::{CableChange, Pose, RobotChange, State, Support, SupportChange};
+use crate::statics::{self, Equilibrium, StaticModel, TensionRule, derivatives};
 
 /// Step of differences along an unknown [m]. Equilibria are exact to 1e-12 m, the error of a difference is 1e-8 of its
 /// curvature.
@@ -39,19 +39,27 @@ impl Calibration {
             if !self.is_elastic() {
                 return RowState { pose: *pose, lengths: Vec::new() };
             }
+            if row.tensions.iter().flatten().count() == 0
+                && let Some(lengths) = self.lengths_of_prior(&at, pose)
+            {
+                return RowState { pose: *pose, lengths };
+            }
             let length = |(i, cable): (usize, &crate::robot::Cable)| {
-                // Where nothing but a prior tells the tensions, cables that fit the readings exactly would be far from it.
-                if let Some((tension, _)) =
-                    self.deviations.tension_prior.filter(|_| row.tensions.iter().flatten().count() == 0)
-                {
-                    return cable.straight_length(pose) * (1.0 - tension / cable.material.axial_stiffness);
-                }
                 let read = row.readings.get(i).copied().flatten();
                 read.map_or_else(|| cable.straight_length(pose), |reading| at.offsets[i] + at.scale * reading)
             };
             RowState { pose: *pose, lengths: at.robot.cables.iter().enumerate().map(length).collect() }
         };
         self.rows.iter().zip(poses).map(state).collect()
+    }
+
+    /// Lengths with which the platform rests at a pose with tensions near their prior: where nothing else tells the tensions,
+    /// lengths that fit the readings exactly have tensions far from it, or slack cables.
+    fn lengths_of_prior(&self, at: &CalibratedRobot, pose: &Pose) -> Option<Vec<f64>> {
+        let (tension, _) = self.deviations.tension_prior?;
+        let rule = TensionRule::Closest(vec![tension]);
+        let found = statics::solve_at(&at.robot, &State::Pose(*pose), self.model, &rule).ok()?;
+        Some(found.equilibrium.cables.iter().map(|cable| cable.unstrained_length).collect())
     }
 
     /// State after a step of the row's unknowns.

@@ -66,21 +66,25 @@ impl Calibration {
     /// Elimination of separable unknowns: G. H. Golub, V. Pereyra, SIAM J. Numer. Anal. 10 (1973); damping: H. B.
     /// Nielsen (1999).
     pub(super) fn fit(&self, values: &[f64], poses: &[Pose], free: &DMat) -> CalibrationFit {
-        self.fit_within(MAX_ITERATIONS, values, poses, free)
+        self.fit_within(MAX_ITERATIONS, values, self.states(values, poses), free)
     }
 
-    /// The same with at most so many iterations.
+    /// The same from the poses and lengths of another fit.
+    pub(super) fn fit_on(&self, from: &CalibrationFit, values: &[f64], free: &DMat) -> CalibrationFit {
+        self.fit_within(MAX_ITERATIONS, values, states_of(from), free)
+    }
+
+    /// The same from states of the rows, with at most so many iterations.
     pub(super) fn fit_within(
         &self,
         max_iterations: usize,
         values: &[f64],
-        poses: &[Pose],
+        mut states: Vec<RowState>,
         free: &DMat,
     ) -> CalibrationFit {
-        let mut states = self.states(values, poses);
         let mut fit = CalibrationFit {
             values: values.to_vec(),
-            poses: poses.to_vec(),
+            poses: states.iter().map(|state| state.pose).collect(),
             lengths: states.iter().map(|state| state.lengths.clone()).collect(),
             chi2: f64::INFINITY,
             iterations: 0,

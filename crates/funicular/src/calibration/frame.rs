@@ -331,8 +331,13 @@ impl CalibrationFrame {
         &project * covariance * project.transpose()
     }
 
+    /// Orthonormal basis of the changes of the unknowns that keep the conditions, as columns.
+    pub fn free_directions(&self) -> &DMat {
+        &self.free
+    }
+
     /// Projection of changes of the unknowns on those with inner conditions.
-    pub(super) fn inner_projection(&self) -> DMat {
+    pub fn inner_projection(&self) -> DMat {
         let n = self.motions.nrows();
         DMat::identity(n, n) - &self.motions * self.motions.transpose()
     }

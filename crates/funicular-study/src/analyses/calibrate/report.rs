@@ -1,13 +1,14 @@
 //! Results of a calibration from its minima.
 
-use super::candidates::Candidates;
 use super::choice::all_chosen;
+use super::drawn::{anchors, linear_rows};
 use super::profiles::profiles;
 use super::reachable::{LeftOut, Reachable, reachable};
 use super::rows::{CableResidual, CalibratedValue, DistanceRow, MinimumRow, ProposalRow, ReadingRow, Walk, WeakRow};
 
 use super::{Calibrated, in_mm, words};
 use crate::Watch;
+use crate::analyses::candidate_poses::Candidates;
 use crate::analyses::profile::Profile;
 use crate::normal::NOISE_DEVIATIONS;
 use crate::quantiles::{chi2_above, student_95};
@@ -134,6 +135,9 @@ impl<'a> CalibrationReport<'a> {
             is_determined,
             frame: words::frame(&self.of.robot, &self.frame),
             distances: self.distances(),
+            anchors: anchors(self, weak.first().and_then(|row| Some((row.direction.as_slice(), row.deviation_m?)))),
+            axes: self.of.axes(),
+            linear: linear_rows(self),
             weak_combinations: weak,
             minima: self.minima(),
             chi2: self.fit().chi2,
