@@ -120,3 +120,47 @@ fn profiles_are_named_by_kinds_and_paths_and_other_names_are_refused() {
     let text = refused.to_string();
     assert!(text.contains("no unknown is called `cables.9.anchor_m`"), "{text}");
 }
+
+#[test]
+fn a_prior_is_a_datum_of_its_kind_or_path() {
+    let readings = readings(1e-3, &mut Draws(9));
+    let keys = |prior: Value| json!({ "unknowns": ["anchors", "offsets"], "length_std_m": 1e-3, "prior": prior });
+    let without = calibrated(&readings, &keys(json!([])));
+    let with = calibrated(&readings, &keys(json!([{ "path": "offsets", "prior": 0.0, "prior_std": 1e-3 }])));
+    assert_eq!(with.degrees_of_freedom, without.degrees_of_freedom + 4);
+    let deviation = |found: &Calibrated, path: &str| {
+        found.values.iter().find(|row| row.path == path).and_then(|row| row.deviation).unwrap()
+    };
+    assert!(deviation(&with, "offset of cable 2") < 1e-3);
+    assert!(deviation(&with, "cables.3.anchor_m.x") < 0.5 * deviation(&without, "cables.3.anchor_m.x"));
+
+    let text = |prior: Value| {
+        let request =
+            json!({ "command": "calibrate", "robot": { "text": file() }, "readings": readings, "prior": prior });
+        run(&Request::from_json(&request.to_string()).unwrap(), &mut Silent).map(drop).unwrap_err().to_string()
+    };
+    let unknown = text(json!([{ "path": "offsets", "prior_std": 0.1 }]));
+    assert!(unknown.contains("no unknown is called `offsets`"), "{unknown}");
+    let wrong = text(json!([{ "path": "anchors", "prior_std": -0.1 }]));
+    assert!(wrong.contains("not positive") || wrong.contains("positive"), "{wrong}");
+}
+
+/// Tensions of the cables are limited: candidates near a side have none.
+#[test]
+fn candidates_without_tensions_within_the_limits_are_left_out() {
+    let readings = readings(1e-3, &mut Draws(9));
+    let grid = json!([{ "axis": "x", "values": [0.2, 2.0, 3.8] }, { "axis": "y", "values": [1.5, 3.4] }]);
+    let keys = |more: Value| {
+        let mut keys = json!({ "propose": 1, "grid": grid });
+        keys.as_object_mut().unwrap().extend(more.as_object().unwrap().clone());
+        keys
+    };
+    let free = calibrated(&readings, &keys(json!({})));
+    assert!(free.left_out.is_none() && (free.proposals[0].position_m[1] - 3.4).abs() < 1e-12);
+    // A candidate above the upper anchors cannot be held by cables that pull.
+    let limited = calibrated(&readings, &keys(json!({ "min_tension_n": 5.0, "max_tension_n": 100.0 })));
+    let left_out = limited.left_out.unwrap();
+    assert_eq!((left_out.candidates, left_out.by_tensions, left_out.by_clearance), (6, 3, 0));
+    assert!((limited.proposals[0].position_m[1] - 1.5).abs() < 1e-12);
+    assert!(limited.proposals[0].total_m > free.proposals[0].total_m);
+}

@@ -1,0 +1,81 @@
+//! What `identify` proposes to measure next: the deviations that it promises are those of a fit with this measurement.
+
+use funicular_study::analyses::identify::Identified;
+use funicular_study::{Request, Results, Silent, run};
+use serde_json::{Value, json};
+
+const HALL: &str = include_str!("../../../docs/quick-start/hall.toml");
+
+fn identified(experiments: &Value, more: &Value) -> Identified {
+    let mut request = json!({
+        "command": "identify", "robot": { "text": HALL }, "experiments": experiments,
+        "fit": [{ "path": "platform.mass_kg" }, { "path": "materials.rope.youngs_modulus_pa" }],
+    });
+    request.as_object_mut().unwrap().extend(more.as_object().unwrap().clone());
+    match run(&Request::from_json(&request.to_string()).unwrap(), &mut Silent).unwrap() {
+        Results::Identify(found) => *found,
+        _ => panic!("identify was requested"),
+    }
+}
+
+/// Three numbered frequencies of the robot of the quick start with 64 kg.
+fn measured() -> Value {
+    let frequencies = [(1.2459, "1"), (1.4446, "2"), (1.5195, "3")]
+        .map(|(hz, label)| json!({ "frequency_hz": hz, "std_hz": 0.002 * hz, "label": label }));
+    json!({ "hold_lengths_of_pose": true, "frequencies": frequencies })
+}
+
+#[test]
+fn a_proposed_measurement_leaves_the_deviations_that_it_promises() {
+    let grid = json!([{ "axis": "x", "values": [-2.0, 0.0, 2.0] }, { "axis": "z", "values": [2.0, 4.0] }]);
+    let kinds = json!(["frequencies", "tensions"]);
+    let proposed = identified(
+        &json!([measured()]),
+        &json!({ "propose": 2, "grid": grid, "propose_measuring": kinds, "propose_modes": 4 }),
+    );
+    let next = &proposed.proposals[0];
+    assert_eq!((proposed.proposals.len(), next.number), (2, 1));
+
+    // The same measurement with its predicted values: the minimum stays.
+    let [x, y, z] = next.position_m;
+    let frequencies: Vec<Value> = next
+        .frequency_hz
+        .iter()
+        .enumerate()
+        .map(|(k, hz)| json!({ "frequency_hz": hz, "label": (k + 1).to_string() }))
+        .collect();
+    let tensions = json!(null);
+    assert_eq!(next.measured, "frequencies", "tensions with 1 % say less than four frequencies with 1 %");
+    assert_eq!((frequencies.len(), tensions.is_null()), (4, true));
+    let second = json!({ "hold_lengths_of_pose": true, "pose": [x, y, z, 0.0, 0.0, 0.0], "frequencies": frequencies });
+    let with = identified(&json!([measured(), second]), &json!({}));
+    for ((before, after), promised) in proposed.values.iter().zip(&with.values).zip(&next.deviations) {
+        assert!((after.value / before.value - 1.0).abs() < 1e-4, "{}: {} {}", before.path, before.value, after.value);
+        let (after, promised) =
+            (after.deviation.unwrap() / with.deviation_factor, promised / proposed.deviation_factor);
+        assert!((after / promised - 1.0).abs() < 2e-3, "{}: {after} {promised}", before.path);
+        assert!(promised < before.deviation.unwrap() / proposed.deviation_factor);
+    }
+    let largest = |number: usize| proposed.proposals[number].largest_percent.unwrap();
+    assert!(largest(1) < largest(0));
+}
+
+#[test]
+fn the_least_number_of_measurements_reaches_the_wanted_deviation() {
+    let options = |wanted: f64| json!({ "wanted_percent": wanted, "grid": [{ "axis": "x", "values": [-2.0, 2.0] }] });
+    let found = identified(&json!([measured()]), &options(0.5));
+    let needed = found.measurements_needed.unwrap();
+    assert_eq!(found.proposals.len(), needed);
+    assert!(found.proposals[needed - 1].largest_percent.unwrap() <= 0.5);
+    assert!(needed == 1 || found.proposals[needed - 2].largest_percent.unwrap() > 0.5);
+    // None reaches nothing.
+    assert!(identified(&json!([measured()]), &options(1e-6)).measurements_needed.is_none());
+
+    let request = json!({
+        "command": "identify", "robot": { "text": HALL }, "experiments": [measured()], "propose": 1,
+        "fit": [{ "path": "platform.mass_kg" }], "grid": [{ "axis": "x", "values": [1.0] }],
+        "propose_measuring": ["tension"],
+    });
+    let refused = run(&Request::from_json(&request.to_string()).unwrap(), &mut Silent).map(drop).unwrap_err();
+    assert!(refused.to_string().contains("did you mean `tensions`?"), "{refused}");
+}
