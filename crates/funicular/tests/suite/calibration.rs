@@ -3,6 +3,7 @@
 
 mod more_unknowns;
 mod published;
+mod starts;
 
 use funicular::calibration::{
     Calibration, CalibrationError, CalibrationFit, CalibrationFrame, CalibrationPrecision, CalibrationUnknown,
@@ -370,53 +371,6 @@ fn a_reading_that_is_one_per_cent_off_is_found_and_named() {
         drop(a).total_cmp(&drop(b))
     });
     assert_eq!(worst, Some(4));
-}
-
-#[test]
-fn point_robots_are_found_from_nothing_but_lengths() {
-    let mut draws = Draws(77);
-    for _ in 0..10 {
-        let truth = with_errors(&camera(), 0.8, &mut draws);
-        let poses = camera_poses(14, &mut draws);
-        let rows = readings(&truth, &poses, &[0.0; 6], 1e-3, &mut draws);
-        // The file has one place for all anchors, apart from a rough figure that gives the frame.
-        let of = Calibration::new(camera(), unknowns(6, &[0, 1, 2], false), rows, deviations(1e-3), StaticModel::Ideal)
-            .unwrap();
-        let frame = of.frame(&FrameChoice::Anchors(Vec::new())).unwrap();
-        let found = search(&of, &frame, 10, &mut |_, _| true).unwrap();
-        assert!(found.from_nothing && frame.motion_count() == 6);
-        let precision = of.precision(&found.best, &of.frame_about(&frame, &found.best));
-        // 84 lengths less 12 and 42 unknowns: 30 ± 7.7, four deviations.
-        assert!(precision.degrees == 30 && found.best.chi2 < 62.0, "{}", found.best.chi2);
-        for of_pair in of.anchor_distances(&found.best, &precision) {
-            let [a, b] = of_pair.cables.map(|cable| truth.cables[cable].anchor.point_w);
-            assert!((of_pair.distance - (a - b).norm()).abs() < 5.0 * of_pair.deviation);
-        }
-    }
-}
-
-#[test]
-fn rigid_platforms_are_found_from_anchors_that_are_off() {
-    let mut draws = Draws(3);
-    let truth = robot("rigid", &RIGID_START, &RIGID_ATTACHMENTS);
-    let mut arrivals = 0;
-    for _ in 0..10 {
-        let poses: Vec<Pose> = (0..24)
-            .map(|_| {
-                let place = [3.0 + draws.within(1.2), 2.5 + draws.within(1.0), 1.6 + draws.within(0.7)];
-                Pose::new(place, [draws.within(15.0), draws.within(15.0), draws.within(15.0)])
-            })
-            .collect();
-        let rows = readings(&truth, &poses, &[0.0; 8], 0.5e-3, &mut draws);
-        let start = with_errors(&truth, 0.3, &mut draws);
-        let of = Calibration::new(start, unknowns(8, &[0, 1, 2], false), rows, deviations(0.5e-3), StaticModel::Ideal)
-            .unwrap();
-        let frame = of.frame(&FrameChoice::Anchors(Vec::new())).unwrap();
-        let found = search(&of, &frame, 10, &mut |_, _| true).unwrap();
-        // 192 readings less 18 and 144 unknowns: 30 ± 7.7, four deviations.
-        arrivals += usize::from(found.best.chi2 < 62.0);
-    }
-    assert_eq!(arrivals, 10);
 }
 
 #[test]
