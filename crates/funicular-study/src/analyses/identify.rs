@@ -304,11 +304,16 @@ pub fn run(request: &IdentifyRequest, watch: &mut dyn Watch) -> Result<Identifie
     // What to measure next.
     let (mut proposed, mut measurements_needed) = (Vec::new(), None);
     if proposals::is_wanted(request) {
-        let poses = wanted.poses(parameters.robot(), &model.at_rest(&best.x, 0)?.equilibrium.pose)?;
+        let first = model.at_rest(&best.x, 0)?;
+        let poses = wanted.poses(parameters.robot(), &first.held_pose.unwrap_or(first.equilibrium.pose))?;
         let is_chosen = |k| request.propose_for.is_empty() || proposed_for.contains(&k);
         let chosen: Vec<bool> = (0..unknowns.len()).map(is_chosen).collect();
         (proposed, measurements_needed) =
             proposals::proposals(&model, request, (best, judged.factor), &poses, &chosen, &watch)?;
+    }
+
+    if let (Some(wanted), None) = (request.wanted_percent, measurements_needed) {
+        warnings.push(proposals::not_reached(wanted));
     }
 
     let tables = tables(&mut model, request, &best.x, Some(&nominal[..]).filter(|_| has_nominal))?;

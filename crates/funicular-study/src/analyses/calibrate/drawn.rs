@@ -13,7 +13,8 @@ pub struct AnchorRow {
     /// Point of the robot file.
     pub start_m: [f64; 3],
     pub position_m: [f64; 3],
-    /// Places of its coordinates among the values; absent for a coordinate that is known.
+    /// Places of its coordinates among the values; none for a coordinate that is known.
+    #[serde(skip)]
     pub places: [Option<usize>; 3],
     /// Covariance of the coordinates with inner conditions; zero along a known coordinate, absent without deviations.
     #[serde(skip_serializing_if = "Option::is_none")]

@@ -39,7 +39,7 @@ const MISFIT: f64 = 10.0;
 const UNDECIDED: f64 = 9.0;
 
 /// Largest number of proposed poses while a wanted deviation is looked for.
-const MAX_PROPOSALS: usize = 100;
+pub(super) const MAX_PROPOSALS: usize = 100;
 
 /// Minima, precision and what the results need beside them.
 pub(super) struct CalibrationReport<'a> {

@@ -10,6 +10,7 @@ use crate::error::Cancelled;
 use crate::measurements::MeasuredFrequency;
 use crate::names::suggestion;
 use crate::request::{self, Experiment, IdentifyRequest, State};
+use crate::text::significant;
 use anyhow::{Result, bail};
 use funicular::math::chosen_rows::{ChosenRows, choose_rows};
 use funicular::math::least_squares::{LeastSquaresProblem, Minimum, precision};
@@ -146,6 +147,15 @@ pub(super) fn proposals(
     });
     found.truncate(needed.unwrap_or(0).max(request.propose));
     Ok((found, needed))
+}
+
+/// Sentence on a wanted deviation that no number of measurements reaches.
+pub(super) fn not_reached(wanted_percent: f64) -> String {
+    format!(
+        "{MAX_PROPOSALS} of the candidates do not reach deviations of {} %: offer other poses or kinds of measurements, \
+         more accurate ones, or fit fewer values",
+        significant(wanted_percent, 3)
+    )
 }
 
 /// Covariance of the coordinates, with one usual error along what the measurements do not see, and the weights of the
