@@ -23,6 +23,7 @@ mod page;
 mod parameters;
 mod payload;
 mod pose_error;
+mod profile_table;
 mod reduce;
 mod request;
 mod result_files;

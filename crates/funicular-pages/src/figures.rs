@@ -7,6 +7,7 @@
 
 pub(crate) mod axis;
 pub(crate) mod bodies;
+pub(crate) mod calibration;
 pub(crate) mod chart;
 mod contour;
 pub(crate) mod drawing;
@@ -25,7 +26,7 @@ pub(crate) mod supports;
 mod svg;
 pub(crate) mod view;
 
-pub use making::{RequestFigure, of_decay, of_request, of_sections};
+pub use making::{RequestFigure, of_calibration, of_decay, of_request, of_sections};
 
 pub use crate::figure_style::{DEFAULT_FONT_SIZE_PT, DEFAULT_WIDTH_MM, FONT_SIZE_LIMITS_PT, WIDTH_LIMITS_MM, WIDTHS};
 

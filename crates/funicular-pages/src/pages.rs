@@ -4,6 +4,7 @@
 //! a robot in it ([`live`]). It does not depend on the time, on random numbers or on the network: two runs write the
 //! same bytes.
 
+pub mod calibrate;
 pub mod design;
 pub(crate) mod figure;
 pub mod identify;

@@ -90,7 +90,7 @@ impl Kind {
                 ProgramForm::GridAxis | ProgramForm::Variation => Self::Axes,
                 ProgramForm::Positive => Self::Row,
                 ProgramForm::NotNegative => Self::OneOrRow,
-                ProgramForm::Fit | ProgramForm::Change => Self::Any,
+                ProgramForm::Fit | ProgramForm::Change | ProgramForm::Prior => Self::Any,
                 ProgramForm::Bound => Self::Limits,
                 _ => Self::Texts,
             },

@@ -66,11 +66,11 @@ def steps(text: str) -> Any:
 def value(command: str, option: str, text: str) -> Any:
     if (command, option) == ("pose-error", "--mass-kg"):
         return steps(text)
-    if option in ("--unknowns", "--hold-anchors", "--frame", "--propose-for"):
+    if option in ("--unknowns", "--hold-anchors", "--frame", "--propose-for", "--propose-measuring") or (command, option) == ("calibrate", "--profile"):
         return text.split(",")
     if option in ("--of", "--by", "--tolerances", "--deviations") and command != "schema":
         return text.split(",")
-    if option in ("--weights", "--avoid-hz", "--profile-s", "--shape-modes-hz"):
+    if option in ("--weights", "--avoid-hz", "--tension-range-n", "--profile-s", "--shape-modes-hz"):
         return [float(part) for part in text.replace(":", ",").split(",")]
     if option in ("--input", "--output", "--name", "--rope") or re.search("[a-z]{2}", text):
         return text
@@ -108,6 +108,10 @@ def call(line: str) -> tuple[str, list[str], dict[str, Any], dict[str, Any]]:
             keywords[key] = read_poses(next(rest))
         elif command == "design" and word == "--change":
             keywords.setdefault(key, []).append(chosen(next(rest)))
+        elif command == "calibrate" and word == "--prior":
+            path, _, prior = next(rest).partition("=")
+            known, _, deviation = prior.partition("±")
+            keywords.setdefault(key, {})[path] = (float(known), float(deviation)) if known else float(deviation)
         elif command == "identify" and word in ("--fit", "--prior", "--measured", "--node", "--response"):
             keywords.setdefault(key, []).append(next(rest))
         elif word in LISTS.get(command, ()):
@@ -134,6 +138,7 @@ def chosen(text: str) -> dict[str, Any]:
 # Options of `identify` that belong to the request; the others belong to its experiment.
 OF_REQUEST = {"starts", "from_hz", "to_hz", "response_noise", "frequency_noise", "damping_noise", "rigid_cables"}
 OF_REQUEST |= {"profile", "tension_rule", "target_tension_n", "min_tension_n", "max_tension_n"}
+OF_REQUEST |= {"propose", "grid", "poses", "propose_measuring", "propose_modes", "propose_for", "propose_by", "wanted_percent"}
 OF_REQUEST |= {"cable_model", "assembly", "in_plane_only", "winches"}
 
 

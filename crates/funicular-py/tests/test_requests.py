@@ -75,6 +75,9 @@ MORE = [
     f"funicular modes {ROBOT} --below-hz 2 --decay-percent 10",
     "funicular clearance windy.toml --in-gusts",
     f"funicular calibrate {MACHINE} --unknowns anchors --hold-anchors bl,br --starts 3 --position-std-m 0.01 --tension-std-n 2",
+    f"funicular calibrate {MACHINE} --prior cables.tl.anchor_m=±0.05 --prior cables.tr.anchor_m.y=3.8±0.1 --profile anchors",
+    f"funicular calibrate {MACHINE} --static-model spring --position-std-m 0.001 --tension-range-n 20:120",
+    f"funicular calibrate {MACHINE} --propose 1 --grid x=1:3:3 --propose-by determinant --min-tension-n 5 --max-tension-n 50",
     f"funicular calibrate {MACHINE} --length-std-m 0.0005 --propose 1 --poses waypoints.csv --propose-for anchors --wanted-std-m 0.05",
     f"funicular compare {ROBOT} --below-hz 2",
     f"funicular compare robots/cogiro.toml --below-hz 6 {TENSIONS} --platform --platform-share 0.6 --tolerance 0.05",
@@ -160,6 +163,10 @@ MORE = [
     "--measured-tensions-n 17,36,40,15,50,52 --tension-std-n 2",
     f"funicular identify robots/cogiro.toml --fit platform.mass_kg {TENSIONS} --length-std-m 0.002 "
     "--measured-lengths-m 9.1,9.0,7.8,7.6,7.3,7.4,8.3,8.4",
+    f"funicular identify {ROBOT} --fit platform.mass_kg {LENGTHS} --measured-tensions-n 17,36,40,15,50,52 --propose 1 "
+    "--grid x=-0.1,0.1 --propose-measuring frequencies,tensions --propose-modes 4 --propose-by determinant",
+    f"funicular identify {ROBOT} --fit platform.mass_kg {LENGTHS} --measured-tensions-n 17,36,40,15,50,52 "
+    "--wanted-percent 5 --poses near.csv --propose-for platform.mass_kg",
     "funicular identify robots/grab-4-cables.toml --fit platform.inertia_kg_m2 --experiments states.json --rigid-cables "
     "--starts 1 --frequency-noise 0.02 --damping-noise 0.2",
     "funicular paper",
@@ -230,6 +237,7 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     (tmp_path / "trajectory.csv").write_text(poses)
     (tmp_path / "lengths.csv").write_text(LENGTHS_OVER_TIME)
     (tmp_path / "waypoints.csv").write_text("x_m,y_m,z_m,roll_deg,pitch_deg,yaw_deg\n3.7,3.5,0,0,0,0\n1,1,0,0,0,0\n")
+    (tmp_path / "near.csv").write_text("x_m,y_m,z_m,roll_deg,pitch_deg,yaw_deg\n0,0.05,0.5,0,1,0\n")
     (tmp_path / "path.csv").write_text("t_s,x_m,y_m,z_m,yaw_deg\n0,0,0,1.5,0\n1,0.5,0.2,1.5,5\n2,1,0,1.6,10\n")
     (tmp_path / "gusts.csv").write_text("frequency_hz,along_m2_s,lateral_m2_s,up_m2_s\n0.01,40,20,10\n0.1,8,6,4\n1,0.2,0.2,0.1\n")
     (tmp_path / "windy.toml").write_text(windy())

@@ -7,6 +7,7 @@
 
 pub mod cable;
 pub mod calibrate;
+mod candidate_poses;
 pub mod check;
 pub mod clearance;
 pub mod compare;
@@ -21,6 +22,7 @@ pub mod modes;
 pub mod parameters;
 pub mod payload;
 pub mod pose_error;
+mod profile;
 pub mod reduce;
 mod result_groups;
 pub mod settle;

@@ -4,6 +4,7 @@ use crate::measure::Measure;
 use funicular::cable::CableModel;
 use funicular::dynamics::Assembly;
 use funicular::gradient::Hold;
+use funicular::math::chosen_rows::RowCriterion;
 use funicular::path::CourseForm;
 use funicular::robot::{LoadShape, TurbulenceSpectrum, WinchMode};
 use funicular::statics::{StaticModel, TensionRule};
@@ -293,6 +294,25 @@ impl From<&TensionRule> for TensionRuleName {
             TensionRule::Closest(_) => Self::Closest,
             TensionRule::Middle => Self::Middle,
             TensionRule::Stiffest => Self::Stiffest,
+        }
+    }
+}
+
+impl Named for RowCriterion {
+    const WHAT: &'static str = "criterion";
+    const ALL: &'static [Self] = &[Self::Variances, Self::Determinant];
+
+    fn name(self) -> &'static str {
+        match self {
+            Self::Variances => "variances",
+            Self::Determinant => "determinant",
+        }
+    }
+
+    fn about(self) -> &'static str {
+        match self {
+            Self::Variances => "Least sum of the variances of the chosen values",
+            Self::Determinant => "Least determinant of the covariance of all values, whatever their units",
         }
     }
 }

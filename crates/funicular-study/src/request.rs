@@ -25,7 +25,7 @@ mod uncertainty;
 mod vibration;
 mod workspace;
 
-pub use calibrate::CalibrateRequest;
+pub use calibrate::{CalibrateRequest, PriorValue};
 pub use design::{ChangeValue, DesignRequest};
 pub use files::{ExportRequest, ImportRequest, NewRequest, SchemaRequest};
 pub use gradient::{GradientRequest, frequencies};

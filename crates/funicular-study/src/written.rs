@@ -1,7 +1,7 @@
 //! Forms of the values of options on the command line. Each message contains the value and its permitted range.
 
 use crate::analyses::pose_error::MAX_MASSES;
-use crate::request::{Axis, BoundValue, ChangeValue, FitValue, Key, Kind, ProgramForm, Range};
+use crate::request::{Axis, BoundValue, ChangeValue, FitValue, Key, Kind, PriorValue, ProgramForm, Range};
 use crate::set_values;
 use crate::signals::{Input, Output};
 use crate::sweep::{self, Steps, ValueAxis};
@@ -46,6 +46,9 @@ fn read_form(form: ProgramForm, text: &str) -> Result<Value, String> {
         ProgramForm::Variation => variation(text),
         ProgramForm::Fit => fit(text),
         ProgramForm::Change => change(text),
+        ProgramForm::Prior => {
+            prior(text).and_then(|prior| serde_json::to_value(prior).map_err(|error| error.to_string()))
+        }
         ProgramForm::Band => band(text),
         ProgramForm::Bound => bound(text),
     }
@@ -245,6 +248,18 @@ fn change(text: &str) -> Result<Value, String> {
         ChangeValue { path, minimum: Some(number(low)?), maximum: Some(number(high)?), ..ChangeValue::default() }
     };
     serde_json::to_value(change).map_err(|error| error.to_string())
+}
+
+/// Reads `PATH=VALUE±DEVIATION` or `PATH=±DEVIATION`, a value that is known beforehand.
+///
+/// # Errors
+/// A text without a deviation, or one that is not positive.
+pub fn prior(text: &str) -> Result<PriorValue, String> {
+    let wrong = "a prior is a value and its deviation, as in platform.mass_kg=20±2";
+    let (path, value) = set_values::split(text).ok_or(wrong)?;
+    let (value, deviation) = value.split_once('±').or_else(|| value.split_once("+-")).ok_or(wrong)?;
+    let prior = if value.trim().is_empty() { None } else { Some(number(value)?) };
+    Ok(PriorValue { path: path.trim().to_owned(), prior, prior_std: values::positive(number(deviation)?)? })
 }
 
 /// Reads `FROM:TO`.

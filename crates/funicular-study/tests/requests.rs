@@ -316,12 +316,16 @@ fn requests() -> Vec<Value> {
             "calibrate",
             &[
                 &robot,
+                &tensions,
                 &json!({
                     "readings": { "length_1_m": [1.0, null], "x_m": [0.0, 0.1], "y_m": [0.0, 0.0], "z_m": [0.5, 0.5] },
                     "unknowns": ["anchors", "offsets"], "hold_anchors": ["2"], "frame": ["1", "3"],
-                    "length_std_m": 5e-4, "position_std_m": 0.01, "tension_std_n": 2.0, "static_model": "catenary", "starts": 4, "propose": 2,
+                    "length_std_m": 5e-4, "position_std_m": 0.01, "tension_std_n": 2.0, "tension_range_n": [20.0, 120.0],
+                    "prior": [{ "path": "offsets", "prior": 0.0, "prior_std": 0.02 }, { "path": "cables.1.anchor_m", "prior_std": 0.05 }],
+                    "profile": ["anchors"], "static_model": "catenary", "starts": 4, "propose": 2,
                     "grid": [{ "axis": "x", "from": -1.0, "to": 1.0, "count": 9 }, { "axis": "yaw", "values": [-5.0, 5.0] }],
-                    "poses": [[0.0, 0.0, 0.5, 0.0, 0.0, 0.0]], "propose_for": ["anchors"], "wanted_std_m": 0.005,
+                    "poses": [[0.0, 0.0, 0.5, 0.0, 0.0, 0.0]], "propose_for": ["anchors"], "propose_by": "determinant",
+                    "wanted_std_m": 0.005,
                 }),
             ],
         ),
@@ -349,7 +353,9 @@ fn requests() -> Vec<Value> {
                 &tensions,
                 &model,
                 &json!({
-                    "profile": ["platform.*"],
+                    "profile": ["platform.*"], "propose": 2, "grid": grid, "poses": [[0.0, 0.0, 0.5, 0.0, 0.0, 0.0]],
+                    "propose_measuring": ["tensions", "pose"], "propose_modes": 4, "propose_for": ["platform.mass_kg"],
+                    "propose_by": "determinant", "wanted_percent": 2.0,
                     "fit": [
                         { "path": "platform.mass_kg", "minimum": 1.0, "maximum": 30.0 },
                         { "path": "platform.center_of_mass_m.x", "prior": 0.0, "prior_std": 0.03 },

@@ -1,5 +1,5 @@
-//! Calibration from lengths whose poses are unknown: anchors, attachments, offsets and scale of the readings, found
-//! together with the pose of every row.
+//! Calibration from lengths whose poses are unknown: anchors, attachments, offsets and scale of the readings, and what
+//! else lies between them, found together with the pose of every row.
 //!
 //! The equations (96a) to (96k) are in section 18d of docs/theory.md. Straight rigid cables: a row of readings has more
 //! cables than its pose has degrees of freedom; what is left of it after its pose is eliminated, its net rows, says
@@ -14,6 +14,7 @@ mod fit;
 mod frame;
 mod from_nothing;
 mod precision;
+mod priors;
 mod proposal;
 mod row;
 mod search;
@@ -27,7 +28,7 @@ pub use fit::CalibrationFit;
 pub use frame::{CalibrationFrame, FrameChoice};
 pub use from_nothing::anchors_from_lengths;
 pub use precision::{AnchorDistance, CalibrationPrecision, LeftOutRow};
-pub use proposal::{ProposedPose, proposals};
+pub use proposal::{CandidatePose, ProposedPose, proposals};
 pub use row::{MeasuredRow, ReadingDeviations};
 pub use search::{CalibrationSearch, search};
 pub use unknowns::{CalibratedRobot, CalibrationUnknown};
@@ -54,6 +55,8 @@ pub struct Calibration {
     pub model: StaticModel,
     /// Length that makes the scale of the readings a length [m].
     scale_length: f64,
+    /// Unknowns that are known beforehand.
+    priors: Vec<priors::Prior>,
     /// True if the readings see no rotation: all cables end in one point of the platform.
     is_point: bool,
 }
@@ -85,8 +88,8 @@ pub enum CalibrationError {
     /// Elastic cables without tensions or coordinates.
     #[error(
         "cables that stretch or sag have a true length each in every row, so that lengths alone say nothing about the \
-         robot: measure tensions too (one per row helps, all are best), or coordinates of the platform, or take straight \
-         rigid cables where stretch and sag are below the deviation of the readings"
+         robot: measure tensions too (one per row helps, all are best), or coordinates of the platform, or give a range that \
+         the tensions keep to, or take straight rigid cables where stretch and sag are below the deviation of the readings"
     )]
     ElasticLengthsAlone,
     /// Rows whose poses their readings do not fix.
@@ -154,6 +157,7 @@ impl Calibration {
             deviations,
             model,
             scale_length: if mean > 0.0 { mean } else { 1.0 },
+            priors: Vec::new(),
             is_point,
         };
         made.check()?;
@@ -173,14 +177,19 @@ impl Calibration {
             let text = "a planar platform is calibrated in a coordinate plane only: turn the robot file into one";
             return Err(CalibrationError::NoSuchUnknown(text));
         }
-        let of_statics =
-            |of: &CalibrationUnknown| matches!(of, CalibrationUnknown::AxialStiffness | CalibrationUnknown::Mass);
-        if !self.is_elastic() && self.unknowns.iter().any(of_statics) {
-            let text = "straight rigid cables have neither stiffness nor tensions: choose an elastic static model with \
-                        measured tensions, or leave axial stiffness and mass out of the unknowns";
+        if self.unknowns.contains(&CalibrationUnknown::SupportStiffness) && !self.robot.has_supports() {
+            let text =
+                "no anchor of the robot file is on a flexible support: leave their stiffness out of the unknowns";
             return Err(CalibrationError::NoSuchUnknown(text));
         }
-        if self.is_elastic() && self.rows.iter().all(|row| row.data_count() == row.readings.iter().flatten().count()) {
+        let of_statics = |of: &CalibrationUnknown| of.factor().is_some();
+        if !self.is_elastic() && self.unknowns.iter().any(of_statics) {
+            let text = "straight rigid cables have neither stiffness nor tensions: choose an elastic static model with \
+                        measured tensions, or leave axial stiffness, mass and supports out of the unknowns";
+            return Err(CalibrationError::NoSuchUnknown(text));
+        }
+        let lengths = |row: &MeasuredRow| row.readings.iter().flatten().count();
+        if self.is_elastic() && self.rows.iter().all(|row| self.data_count(row) == lengths(row)) {
             return Err(CalibrationError::ElasticLengthsAlone);
         }
         for cable in 0..self.robot.cables.len() {
@@ -191,8 +200,9 @@ impl Calibration {
         }
         let coordinates = self.row_unknown_count();
         for (j, row) in self.rows.iter().enumerate() {
-            if row.data_count() < coordinates {
-                return Err(CalibrationError::OpenPose { row: j + 1, data: row.data_count(), coordinates });
+            let data = self.data_count(row);
+            if data < coordinates {
+                return Err(CalibrationError::OpenPose { row: j + 1, data, coordinates });
             }
         }
         Ok(())
@@ -203,17 +213,23 @@ impl Calibration {
     /// # Errors
     /// [`CalibrationError::TooFewRows`].
     pub fn check_count(&self, frame: &CalibrationFrame) -> Result<(), CalibrationError> {
-        let data: usize = self.rows.iter().map(MeasuredRow::data_count).sum();
+        let data: usize = self.rows.iter().map(|row| self.data_count(row)).sum();
         let poses = self.rows.len() * self.row_unknown_count();
-        let unknowns = frame.free_count();
+        let unknowns = frame.free_count().saturating_sub(self.priors.len());
         if data >= unknowns + poses {
             return Ok(());
         }
-        let most = self.rows.iter().map(MeasuredRow::data_count).max().unwrap_or(0);
+        let most = self.rows.iter().map(|row| self.data_count(row)).max().unwrap_or(0);
         let full = if self.is_elastic() { most } else { most.max(self.robot.cables.len()) };
         let net = full.saturating_sub(self.row_unknown_count());
         let needed = (net > 0).then(|| unknowns.div_ceil(net));
         Err(CalibrationError::TooFewRows { data, unknowns, poses, needed })
+    }
+
+    /// Number of data of a row: readings, coordinates, tensions, measured or known beforehand.
+    pub fn data_count(&self, row: &MeasuredRow) -> usize {
+        let tensions = (0..self.robot.cables.len()).filter(|cable| self.tension_datum(row, *cable).is_some()).count();
+        row.readings.iter().flatten().count() + row.position.iter().flatten().count() + tensions
     }
 
     /// Number of coordinates of a pose that the readings see: degrees of freedom, or only the translations if all cables
@@ -260,20 +276,28 @@ impl Calibration {
 
     /// Robot of the file, whose encoders count in metres from zero.
     fn as_in_file(&self) -> CalibratedRobot {
-        let factors = [1.0; 2];
+        let factors = [1.0; 3];
         CalibratedRobot { robot: self.robot.clone(), offsets: vec![0.0; self.robot.cables.len()], scale: 1.0, factors }
     }
 
-    /// Number that a value of the vectors of results means, and its derivative: metres as they are; a scale, or the factor
-    /// of axial stiffness or mass.
+    /// Number that a value of the vectors of results means, and its derivative: metres as they are; a scale, or a factor.
     pub fn meaning(&self, unknown: usize, value: f64) -> [f64; 2] {
         match self.unknowns[unknown] {
             CalibrationUnknown::Scale => [value / self.scale_length, 1.0 / self.scale_length],
-            CalibrationUnknown::AxialStiffness | CalibrationUnknown::Mass => {
+            of if of.factor().is_some() => {
                 let factor = (value / self.scale_length).exp();
                 [factor, factor / self.scale_length]
             }
             _ => [value, 1.0],
+        }
+    }
+
+    /// Value in the vectors of results of a number that [`Calibration::meaning`] returns.
+    pub(super) fn value_of(&self, unknown: usize, meaning: f64) -> f64 {
+        match self.unknowns[unknown] {
+            CalibrationUnknown::Scale => meaning * self.scale_length,
+            of if of.factor().is_some() => meaning.ln() * self.scale_length,
+            _ => meaning,
         }
     }
 

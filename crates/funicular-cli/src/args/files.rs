@@ -219,6 +219,10 @@ pub(crate) struct IdentifyArgs {
     #[arg(long, value_name = "PATH=VALUE±DEVIATION", value_parser = values::prior)]
     pub(crate) prior: Vec<FitValue>,
 
+    /// Poses of a proposal in a CSV file instead of a grid: columns x_m, y_m, z_m and optionally roll_deg, pitch_deg, yaw_deg
+    #[arg(long, value_name = "FILE.csv", help_heading = "Proposal", conflicts_with = "grid")]
+    pub(crate) poses: Option<PathBuf>,
+
     /// File with measured responses or natural frequencies: .uff or .unv (Universal File), or .csv (repeatable)
     #[arg(long, value_name = "FILE", help_heading = "Measurements")]
     pub(crate) measured: Vec<PathBuf>,
@@ -282,11 +286,16 @@ pub(crate) struct CalibrateArgs {
     #[arg(long, value_name = "FILE.csv", help_heading = "Proposal", conflicts_with = "grid")]
     pub(crate) poses: Option<PathBuf>,
     #[command(flatten)]
-    pub(crate) sink: OutputArgs,
+    pub(crate) drawn: DrawArgs,
 
     /// Write the robot file with the calibrated anchors and attachments to FILE; -o FILE.toml does the same
     #[arg(long, value_name = "FILE.toml", help_heading = "Output")]
     pub(crate) calibrated: Option<PathBuf>,
+
+    /// Write a page with the anchors and their ellipses, the residuals, rows that can be clicked away and the proposed poses
+    /// to FILE; -o FILE.html does the same. -o FILE.svg and FILE.pdf draw the anchors
+    #[arg(long, value_name = "FILE.html", help_heading = "Output")]
+    pub(crate) page: Option<PathBuf>,
 }
 
 /// Poses of an uncertainty, its page and its samples.

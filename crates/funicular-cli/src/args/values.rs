@@ -3,10 +3,10 @@
 
 use funicular_files::threads::{self, THREADS};
 use funicular_formats::measurements::{NodePoint, ResponseName};
-use funicular_study::request::FitValue;
+use funicular_study::request::{FitValue, PriorValue};
 use funicular_study::signals::{Input, Output};
-use funicular_study::written::{number, point};
-use funicular_study::{set_values, values};
+use funicular_study::values;
+use funicular_study::written::{self, number, point};
 use std::num::NonZeroUsize;
 
 /// Reads a positive number.
@@ -16,11 +16,8 @@ pub(crate) fn positive(text: &str) -> Result<f64, String> {
 
 /// Reads `PATH=VALUE±DEVIATION` or `PATH=±DEVIATION`.
 pub(super) fn prior(text: &str) -> Result<FitValue, String> {
-    let wrong = "a prior is a value and its deviation, as in platform.mass_kg=20±2";
-    let (path, value) = set_values::split(text).ok_or(wrong)?;
-    let (value, deviation) = value.split_once('±').or_else(|| value.split_once("+-")).ok_or(wrong)?;
-    let prior = if value.trim().is_empty() { None } else { Some(number(value)?) };
-    Ok(FitValue { path: path.trim().to_owned(), prior, prior_std: Some(positive(deviation)?), ..FitValue::default() })
+    let PriorValue { path, prior, prior_std } = written::prior(text)?;
+    Ok(FitValue { path, prior, prior_std: Some(prior_std), ..FitValue::default() })
 }
 
 /// Reads `NODE=X,Y,Z`.

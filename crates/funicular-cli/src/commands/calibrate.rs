@@ -1,18 +1,21 @@
 //! `calibrate`: readings, text and CSV, and the robot file.
 
+use super::profile_table::{Profiled, profiles};
 use super::result_files::{OtherFile, ResultFiles};
-use crate::args::{CalibrateArgs, Cli};
+use crate::args::{CalibrateArgs, Cli, DrawArgs, OutputArgs};
 use crate::number_table;
-use crate::output::Printed;
+use crate::output::{FigureSink, Printed};
 use crate::pose_csv;
 use crate::progress::TerminalProgress;
 use crate::table::{Table, counted, significant};
-use anyhow::{Result, bail};
+use anyhow::Result;
 use funicular_files::Guard;
+use funicular_pages::figures;
 use funicular_study::analyses::calibrate::{
-    self, Calibrated, CalibratedValue, DistanceRow, ProposalRow, ReadingRow, check_readings,
+    self, Calibrated, CalibratedValue, DistanceRow, LeftOut, ProposalRow, ReadingRow, check_readings,
 };
 use funicular_study::request::{CalibrateRequest, GappedColumns, Request};
+use funicular_study::wording::{Words, worded};
 use serde_json::{Map, Value};
 use std::fmt::Write as _;
 
@@ -36,13 +39,29 @@ pub(super) fn run(of: &CalibrateRequest, args: &CalibrateArgs, guard: &mut Guard
     if let Some(poses) = &args.poses {
         guard.reads("the poses", poses);
     }
+    let DrawArgs { output, figure } = &args.drawn;
+    let path = output.output_file.as_deref().filter(|_| output.format.is_none());
+    let drawn = FigureSink::open(path, *figure, guard)?;
     let calibrated = OtherFile::robot("calibrated", args.calibrated.as_deref());
-    let files = ResultFiles::open(&args.sink, calibrated, None, guard)?;
+    // With a figure the result is printed.
+    let output_file = output.output_file.clone().filter(|_| drawn.is_none());
+    let printed = OutputArgs { format: output.format, output_file };
+    let files = ResultFiles::open(&printed, calibrated, args.page.as_deref(), guard)?;
 
     let mut watch = TerminalProgress::new();
     let found = calibrate::run(of, &mut watch)?;
     drop(watch);
-    files.write(&found, || Ok(found.robot_file.clone().into_bytes()), || bail!("`calibrate` has no page"))
+    if let Some(drawn) = drawn {
+        drawn.write(&figures::of_calibration(&found))?;
+    }
+    files.write(
+        &found,
+        || Ok(found.robot_file.clone().into_bytes()),
+        || {
+            let page = funicular_pages::pages::calibrate::page(&found, super::page::command_line()?)?;
+            Ok(worded(&page, Words::Program))
+        },
+    )
 }
 
 impl Printed for Calibrated {
@@ -68,6 +87,11 @@ impl Printed for Calibrated {
             );
         }
 
+        text += &profiles(self.values.iter().filter_map(|row| {
+            let profile = row.profile.as_ref()?;
+            let (path, unit, value, digits) = (&row.path, row.unit, row.value, row.digits());
+            Some(Profiled { path, unit, value, digits, profile, parabola: row.interval_95 })
+        }));
         if !self.distances.is_empty() {
             let _ = write!(
                 text,
@@ -89,10 +113,18 @@ impl Printed for Calibrated {
             );
         }
         if !self.proposals.is_empty() {
+            let has_rules = self.proposals.iter().any(|row| row.tension_rule.is_some());
             let _ = write!(
                 text,
                 "\nPoses to measure next, one after the other\n{}",
-                Table::of(&ProposalRow::columns(self.turns), &self.proposals)
+                Table::of(&ProposalRow::columns(self.turns, has_rules), &self.proposals)
+            );
+        }
+        if let Some(LeftOut { candidates, by_tensions, by_clearance }) = self.left_out {
+            let _ = writeln!(
+                text,
+                "Of {} {by_tensions} have no tensions within the limits, and {by_clearance} are too near to a body or cable.",
+                counted(candidates, "candidate")
             );
         }
         if let Some(count) = self.poses_needed {

@@ -1,17 +1,19 @@
 //! `identify`: files of measurements, text and CSV.
 
+use super::profile_table::{Profiled, profiles};
 use super::result_files::{OtherFile, ResultFiles};
 use crate::args::{Cli, IdentifyArgs};
 use crate::errors;
 use crate::output::Printed;
+use crate::pose_csv;
 use crate::progress::TerminalProgress;
-use crate::table::{NONE, Table, counted, significant};
+use crate::table::{Table, counted, significant};
 use anyhow::{Context, Result, bail};
 use std::fmt::Write as _;
 
 use funicular_files::Guard;
 use funicular_formats::measurements::{self, FileOptions};
-use funicular_study::analyses::identify::{self, FittedValue, Identified, OpenEnd, StaticRow};
+use funicular_study::analyses::identify::{self, FittedValue, Identified, ProposedMeasurement, StaticRow};
 use funicular_study::request::{Experiment, FitValue, IdentifyRequest, Request, ResponsePoints};
 use funicular_study::wording::{Words, worded};
 use serde_json::{Map, Value};
@@ -23,6 +25,9 @@ use std::path::Path;
 pub(super) fn run(of: &IdentifyRequest, args: &IdentifyArgs, guard: &mut Guard) -> Result<()> {
     for file in args.measured.iter().chain(&args.experiments) {
         guard.reads("the measurements", file);
+    }
+    if let Some(poses) = &args.poses {
+        guard.reads("the poses", poses);
     }
 
     let fitted = OtherFile::robot("fitted", args.fitted.as_deref());
@@ -47,6 +52,7 @@ pub(super) fn request(cli: &Cli, mut further: Map<String, Value>) -> Result<Requ
     let mut request = cli.request(further)?;
     if let Request::Identify(of) = &mut request {
         of.experiments = experiments(cli, &args)?;
+        of.poses = pose_csv::read_if_given(args.poses.as_deref(), &of.robot)?;
         add_priors(&mut of.fit, &args.prior)?;
     }
     Ok(request)
@@ -146,7 +152,17 @@ impl Printed for Identified {
             counted(self.starts.len(), "start"),
         );
         text += &assignment(self);
-        text += &profiles(self);
+        text += &profiles(self.values.iter().filter_map(|row| {
+            let profile = row.profile.as_ref()?;
+            Some(Profiled {
+                path: &row.path,
+                unit: row.unit,
+                value: row.value,
+                digits: row.digits(),
+                profile,
+                parabola: row.parabola_95,
+            })
+        }));
         for strong in &self.strong_correlations {
             let _ = writeln!(text, "{strong}.");
         }
@@ -168,6 +184,16 @@ impl Printed for Identified {
         }
         if !self.statics.is_empty() {
             let _ = write!(text, "\n{}\n", Table::of(&StaticRow::columns(), &self.statics));
+        }
+        if !self.proposals.is_empty() {
+            let _ = write!(
+                text,
+                "\nMeasurements to make next, one after the other\n{}\n",
+                Table::of(&ProposedMeasurement::columns(), &self.proposals)
+            );
+        }
+        if let Some(count) = self.measurements_needed {
+            let _ = writeln!(text, "{} reach the wanted deviation.", counted(count, "proposed measurement"));
         }
         text
     }
@@ -209,47 +235,4 @@ fn responses(found: &Identified) -> Table {
         table.row(vec![name, response.frequency_hz.len().to_string(), significant(response.residual_rms, 3)]);
     }
     table
-}
-
-/// Table of the profiles; empty if there are none.
-fn profiles(found: &Identified) -> String {
-    let profiled: Vec<_> = found.values.iter().filter_map(|row| Some((row, row.profile.as_ref()?))).collect();
-    if profiled.is_empty() {
-        return String::new();
-    }
-    let mut table =
-        Table::new(&["value", "unit", "identified", "profile 95 % from", "to", "below", "above", "deviations", ""])
-            .text_columns(&[0, 1, 8]);
-
-    for (row, profile) in profiled {
-        let digits = row.digits();
-        let ends = [profile.from, profile.to];
-        let end = |k: usize| ends[k].map_or_else(|| NONE.to_owned(), |end| significant(end, digits));
-        let away = |k: usize| ends[k].map_or_else(|| NONE.to_owned(), |end| significant((end - row.value).abs(), 3));
-        let by_deviations = row.parabola_95.map_or_else(
-            || NONE.to_owned(),
-            |[low, high]| format!("{}, {}", significant(row.value - low, 3), significant(high - row.value, 3)),
-        );
-        let remark =
-            [(profile.open_below, "below"), (profile.open_above, "above")].into_iter().filter_map(|(open, side)| {
-                Some(match open? {
-                    OpenEnd::Bound => format!("not limited {side} within its bound"),
-                    OpenEnd::Flat => format!("not limited {side}"),
-                    OpenEnd::NoEquilibrium => format!("no equilibrium {side}"),
-                })
-            });
-        table.row(vec![
-            row.path.clone(),
-            row.unit.to_owned(),
-            significant(row.value, digits),
-            end(0),
-            end(1),
-            away(0),
-            away(1),
-            by_deviations,
-            remark.collect::<Vec<_>>().join(", "),
-        ]);
-    }
-
-    format!("\n{table}\n")
 }

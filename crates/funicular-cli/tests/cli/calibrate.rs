@@ -174,3 +174,47 @@ fn readings_that_do_not_fit_say_so_before_any_value_and_name_the_row() {
     assert_eq!(found["determined"], "No value is known as long as the readings do not fit: see the warnings");
     assert!(found["values"].as_array().unwrap().iter().all(|row| row["interval_95"].is_null()));
 }
+
+#[test]
+fn the_page_and_the_figure_draw_anchors_ellipses_and_proposals() {
+    let folder = tempfile::tempdir().unwrap();
+    let of = |name: &str| folder.path().join(name).display().to_string();
+    let grid = ["--propose", "2", "--grid", "x=0.4:4.2:9", "--grid", "y=0.4:3.5:8"];
+    let [html, svg, pdf] = ["page.html", "figure.svg", "figure.pdf"].map(of);
+    for file in [&html, &svg, &pdf] {
+        let words = machine(&[&grid[..], &["-o", file]].concat());
+        succeed(&words.iter().map(String::as_str).collect::<Vec<_>>());
+    }
+    let page = fs::read_to_string(&html).unwrap();
+    for part in ["figure-anchors-1", "to measure next", "weakest combination", "id=\"linear-rows\"", "belts.csv"] {
+        assert!(page.contains(part), "{part}");
+    }
+    // One net row of each of six rows, and five free values.
+    let linear = page.split("id=\"linear-rows\">").nth(1).unwrap().split("</script>").next().unwrap();
+    let linear: Value = serde_json::from_str(linear).unwrap();
+    assert_eq!(linear["linear"]["rows"].as_array().unwrap().len(), 6);
+    assert_eq!(linear["linear"]["information"].as_array().unwrap().len(), 5);
+
+    let figure = fs::read_to_string(&svg).unwrap();
+    assert!(figure.starts_with("<?xml") || figure.starts_with("<svg"), "{}", &figure[..60]);
+    assert!(figure.contains("weakest combination") && figure.contains("to measure next"));
+    assert!(fs::read(&pdf).unwrap().starts_with(b"%PDF"));
+}
+
+#[test]
+fn profiles_and_priors_of_the_machine_are_printed() {
+    let profiled = found(&["--profile", "cables.tl.anchor_m.y"]);
+    let row = profiled["values"].as_array().unwrap().iter().find(|row| row["path"] == "cables.tl.anchor_m.y").unwrap();
+    // The separate program: parabolic within 2.5 % at 4 deviations.
+    for (end, profile) in [(0, "from"), (1, "to")] {
+        let half = number(&row["interval_95"][1]) - number(&row["value"]);
+        assert!((number(&row["profile"][profile]) - number(&row["interval_95"][end])).abs() < 0.025 * half, "{row}");
+    }
+    let text = succeed(
+        &machine(&["--prior", "cables.tl.anchor_m.y=3.9±0.01", "--profile", "cables.tl.anchor_m.y"])
+            .iter()
+            .map(String::as_str)
+            .collect::<Vec<_>>(),
+    );
+    assert!(text.contains("prior 3.900 ± 0.010") && text.contains("profile 95 % from"), "{text}");
+}

@@ -5,7 +5,7 @@ use super::chart::{Chart, Entry, Layer, Panel, Sample};
 use super::drawing::{BLACK, Stroke};
 use super::space::{RobotShape, Space};
 use super::style::{self, GREY, ModelStyle, Symbol};
-use super::{Figure, FigureChoice, FigureContent, gusts, sections, settling};
+use super::{Figure, FigureChoice, FigureContent, calibration, gusts, sections, settling};
 use crate::figure_style::{MODE_TICKS, ModeTick, rgb};
 use anyhow::{Result, bail};
 use funicular::cable::CableModel;
@@ -15,6 +15,7 @@ use funicular::math::Vec3;
 use funicular::modes::{self, Mode};
 use funicular::robot::Robot;
 use funicular_study::Watch;
+use funicular_study::analyses::calibrate::{self, Calibrated};
 use funicular_study::analyses::modes::with_rigid_cables;
 use funicular_study::analyses::settle::Settled;
 use funicular_study::analyses::workspace::Workspace;
@@ -34,7 +35,7 @@ pub struct RequestFigure {
 
 /// Makes the figure of a request: the robot at its equilibrium for `statics`, the spectrum or the shape of one mode for
 /// `modes`, magnitude and phase for `frf`, the decay for `settle`, the spectra for `gust`, the differences
-/// between the cable models for `compare`.
+/// between the cable models for `compare`, the anchors with their ellipses for `calibrate`.
 ///
 /// # Errors
 /// A command without a figure, a choice that does not fit the command, or the errors of the command.
@@ -60,8 +61,13 @@ pub fn of_request(
             Ok(chart(gusts::chart(&found), found.warnings))
         }
         Request::Compare(of) => comparison(robot, of),
+        Request::Calibrate(of) => {
+            let found = calibrate::run(of, watch)?;
+            Ok(RequestFigure { figure: of_calibration(&found), warnings: found.warnings })
+        }
         other => bail!(
-            "`{}` has no figure of its own: `statics`, `modes`, `frf`, `settle`, `gust`, `workspace`, `compare` and `plot` \
+            "`{}` has no figure of its own: `statics`, `modes`, `frf`, `settle`, `gust`, `workspace`, `compare`, `calibrate` \
+             and `plot` \
              write .svg and .pdf; give another ending",
             other.command()
         ),
@@ -79,6 +85,11 @@ pub fn of_decay(found: &Settled) -> Figure {
 /// No section, or sections along several axes.
 pub fn of_sections(found: &Workspace) -> Result<Figure> {
     Ok(Figure(FigureContent::Chart(sections::chart(found)?)))
+}
+
+/// Makes the figure of a calibration that has been computed before.
+pub fn of_calibration(found: &Calibrated) -> Figure {
+    Figure(FigureContent::Chart(calibration::chart(found)))
 }
 
 fn chart(chart: Chart, warnings: Vec<String>) -> RequestFigure {

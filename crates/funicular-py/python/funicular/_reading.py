@@ -108,6 +108,23 @@ def _change(command: str, key: str, given: Any, *, cables: Sequence[str]) -> lis
     return [_number_of_file(key, path, value, _CHANGE, "plus_minus") for path, value in _pairs(key, given, wanted)]
 
 
+def _prior(command: str, key: str, given: Any, *, cables: Sequence[str]) -> list[dict[str, Any]]:
+    """Values known beforehand: a mapping from names to a deviation, to value and deviation, or to keys of a prior."""
+    known = ("prior", "prior_std")
+    listed = _listed(key, given, known)
+    if listed is not None:
+        return listed
+    wanted = 'give a mapping from names to deviations or to value and deviation, as in {"offsets": (0.0, 0.02)}'
+    found = []
+    for path, value in _pairs(key, given, wanted):
+        if _is_row(value):
+            if np.size(value) != 2:
+                raise InputError(f'`{key}["{path}"]` has {np.size(value)} numbers: give the value and its deviation')
+            value = dict(zip(known, value, strict=True))
+        found.append(_number_of_file(key, path, value, known, "prior_std"))
+    return found
+
+
 def _experiments(command: str, key: str, given: Any, *, cables: Sequence[str]) -> list[dict[str, Any]]:
     """Experiments of `identify`; those that name their cables have one number per such cable."""
     found = []
@@ -121,4 +138,4 @@ def _experiments(command: str, key: str, given: Any, *, cables: Sequence[str]) -
     return found
 
 
-_READERS: dict[str, Any] = {"fit": _fit, "change": _change, "experiments": _experiments}
+_READERS: dict[str, Any] = {"fit": _fit, "change": _change, "prior": _prior, "experiments": _experiments}

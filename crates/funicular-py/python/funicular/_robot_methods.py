@@ -316,21 +316,28 @@ def identify(of: Any, given: Given) -> Identified:
 
 
 @declared(Robot, "calibrate", positional=("readings", "unknowns"))
-def calibrate(of: Any, given: Given) -> Results:
-    """Calibrates anchors, attachments, offsets and scale from readings of lengths at poses that are not known.
+def calibrate(of: Any, given: Given, page: File | None = None, figure: File | None = None) -> Results:
+    """Calibrates anchors, attachments, offsets and more from readings of lengths at poses that are not known.
 
     Parameters
     ----------
     readings
         One row per pose: columns `length_NAME_m` or `length_NAME_mm` of every cable, and optionally `x_m`, `y_m`, `z_m`,
         `roll_deg`, `pitch_deg`, `yaw_deg`, as a mapping, a data frame or a CSV file.
+    prior
+        Values known beforehand: a mapping from kinds of unknowns or paths of values to a standard deviation, or to a value
+        and its deviation.
     poses
         Candidates of a proposal (n, 3) or (n, 6): x, y, z [m], roll, pitch, yaw [degrees].
+    page
+        HTML file of a page with the anchors and their ellipses, residuals, and rows that can be clicked away.
+    figure
+        File of a figure of the anchors, .svg or .pdf.
 
     Returns
     -------
     The keys of the program's JSON: `fit` and `determined` as sentences, `is_determined`, `values` with deviations and
-    intervals, `distances`, `rows`, `weak_combinations`, `walk`, `minima`, `proposals`, and `robot_file`.
+    intervals, `anchors` with their covariance, `distances`, `rows`, `weak_combinations`, `walk`, `minima`, `proposals`, and `robot_file`.
 
     Raises
     ------
@@ -343,7 +350,7 @@ def calibrate(of: Any, given: Given) -> Results:
     ----------
     docs/theory.md, equations (96a) to (96k).
     """
-    return _results.results(of._answer("calibrate", given))
+    return _results.results(of._calibrate(given, page, figure))
 
 
 @declared(Robot, "design", positional=("change",), without=("lengths_m", "hold_lengths_of_pose"), others=_AS_BOTH)

@@ -13,6 +13,7 @@ use crate::sweep::{ExecutorArgument, ProgressArgument, PyPlan, RunKeywords, Swee
 use crate::threads::Threads;
 use funicular_files::{Begin, UncertaintyOutcome, UncertaintyRun, WorkspaceRun};
 use funicular_formats::surface::{self, SurfaceFormat};
+use funicular_pages::figures::{self, Size};
 use funicular_pages::pages;
 use funicular_study::analyses::trajectory;
 use funicular_study::analyses::uncertainty::UncertaintyStudy;
@@ -138,6 +139,38 @@ impl PyRobot {
         answers::plain(py, &found)
     }
 
+    /// Calibration, whose page and figure go to files.
+    #[pyo3(name = "_calibrate")]
+    fn calibrate<'py>(
+        &self,
+        py: Python<'py>,
+        given: &Bound<'py, PyDict>,
+        page: Option<PathBuf>,
+        figure: Option<PathBuf>,
+    ) -> PyResult<TextKeyed<'py>> {
+        let request = self.request_of("calibrate", given)?;
+        let is_svg = figure.as_deref().map(figure_is_svg).transpose()?;
+        let found = py.detach(|| {
+            let mut watch = CtrlC::new();
+            run_on(&request, Some((*self.robot).clone()), &mut watch).map_err(|error| watch.or(&error))
+        })?;
+        if let Results::Calibrate(found) = &found {
+            if let Some(path) = page {
+                let call = format!("robot.calibrate(…, page={:?})", path.display().to_string());
+                let page = pages::calibrate::page(found, call).map_err(|error| errors::study(&error))?;
+                answers::write_bytes(path, worded(&page, Words::Python).as_bytes())?;
+            }
+            if let (Some(path), Some(is_svg)) = (figure, is_svg) {
+                let drawn = figures::of_calibration(found);
+                let size = Size::new(None, None).map_err(|error| errors::study(&error))?;
+                let bytes = if is_svg { drawn.svg(size).into_bytes() } else { drawn.pdf(size) };
+                answers::write_bytes(path, &bytes)?;
+            }
+        }
+        let text = found.to_json(Words::Python).map_err(|error| errors::study(&error.into()))?;
+        answers::loaded(py, &text)
+    }
+
     /// Workspace, found on all threads, with calls of `progress`; its surface goes to files.
     #[pyo3(name = "_workspace")]
     fn workspace<'py>(
@@ -167,6 +200,15 @@ impl PyRobot {
             answers::write_bytes(path, worded(&page, Words::Python).as_bytes())?;
         }
         answers::plain(py, &found)
+    }
+}
+
+/// True for the name of an SVG file, false for that of a PDF file.
+fn figure_is_svg(path: &Path) -> PyResult<bool> {
+    match path.extension().map(|ending| ending.to_string_lossy().to_lowercase()).as_deref() {
+        Some("svg") => Ok(true),
+        Some("pdf") => Ok(false),
+        _ => Err(errors::input(format!("`figure` {}: the file ends in .svg or .pdf", path.display()))),
     }
 }
 

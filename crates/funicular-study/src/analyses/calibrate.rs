@@ -3,23 +3,27 @@
 //! docs/theory.md, section 18d, has the equations. `identify` takes measured results of states that are known; here every
 //! row brings its own unknown pose.
 
-mod candidates;
 mod caveats;
+mod choice;
+mod drawn;
+mod profiles;
+mod reachable;
 mod report;
 mod rows;
-mod statistics;
 mod table;
 mod words;
 
+pub use drawn::{AnchorRow, LinearRows, NetRows};
+pub use reachable::LeftOut;
 pub use rows::{CableResidual, CalibratedValue, DistanceRow, MinimumRow, ProposalRow, ReadingRow, Walk, WeakRow};
 pub use table::check as check_readings;
 
-use super::found;
+use super::{candidate_poses, found};
 use crate::Watch;
 use crate::columns::{ResultTable, Tabled};
 use crate::error::{Cancelled, NoSolution};
 use crate::names::suggestion;
-use crate::request::{self, CalibrateRequest};
+use crate::request::{self, CalibrateRequest, PriorValue};
 use crate::table::Column;
 use crate::text::significant;
 use anyhow::{Result, anyhow, bail};
@@ -28,6 +32,7 @@ use funicular::calibration::{
 };
 use funicular::robot::Robot;
 use funicular::robot::parameters::Parameters;
+use funicular::statics::StaticModel;
 use report::CalibrationReport;
 use serde::Serialize;
 
@@ -38,7 +43,8 @@ const KEY: &str = "readings";
 const ASSUMED_DEVIATION: f64 = 1e-3;
 
 /// Names of the unknowns.
-const UNKNOWNS: [&str; 6] = ["anchors", "attachments", "offsets", "scale", "axial-stiffness", "mass"];
+const UNKNOWNS: [&str; 8] =
+    ["anchors", "attachments", "offsets", "scale", "pulley-radii", "axial-stiffness", "mass", "support-stiffness"];
 
 /// Name of the inner frame.
 const INNER: &str = "inner";
@@ -57,6 +63,8 @@ pub struct Calibrated {
     /// Frame in words.
     pub frame: String,
     pub values: Vec<CalibratedValue>,
+    /// Anchors with their covariance.
+    pub anchors: Vec<AnchorRow>,
     pub distances: Vec<DistanceRow>,
     pub rows: Vec<ReadingRow>,
     pub weak_combinations: Vec<WeakRow>,
@@ -67,6 +75,9 @@ pub struct Calibrated {
     pub minima: Vec<MinimumRow>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub proposals: Vec<ProposalRow>,
+    /// Number of candidates that were left out: no tensions within the limits, too near to a body, or out of reach.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub left_out: Option<LeftOut>,
     /// Least number of proposed poses that reaches the wanted deviation; absent if none was wanted or no number does.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub poses_needed: Option<usize>,
@@ -97,6 +108,12 @@ pub struct Calibrated {
     pub iterations: usize,
     /// Robot file with the calibrated anchors and attachments.
     pub robot_file: String,
+    /// World axes along which the platform moves.
+    #[serde(skip)]
+    pub axes: Vec<usize>,
+    /// Rows as linear equations, for pages.
+    #[serde(skip)]
+    pub linear: Option<LinearRows>,
     #[serde(skip)]
     pub warnings: Vec<String>,
 }
@@ -123,25 +140,31 @@ pub fn run(request: &CalibrateRequest, watch: &mut dyn Watch) -> Result<Calibrat
     request::check("position_std_m", request.position_std_m, crate::values::positive)?;
     request::check_positive("tension_std_n", request.tension_std_n)?;
     request::check("wanted_std_m", request.wanted_std_m, crate::values::positive)?;
+    check_tension_range(request)?;
+    request.tensions.check()?;
     let file = request.robot.read()?;
     let parameters = Parameters::from_toml(&file.text)?;
     let robot = parameters.robot().clone();
     let rows = table::rows(&request.readings, &robot, request.position_std_m.is_some())?;
-    let candidates = candidates::wanted(request, &robot)?;
+    let is_proposed = request.propose > 0 || request.wanted_std_m.is_some();
+    let needs = (is_proposed, "⟪propose⟫ or ⟪wanted_std_m⟫");
+    let candidates = candidate_poses::wanted(needs, &request.grid, request.poses.as_ref(), &robot)?;
 
     // Unknowns and frame.
     let unknowns = unknowns(request, &robot)?;
+    for (key, names) in [("profile", &request.profile), ("propose_for", &request.propose_for)] {
+        choice::all_chosen(key, names, &unknowns, &robot)?;
+    }
     let deviations = ReadingDeviations {
         reading: request.length_std_m.unwrap_or(ASSUMED_DEVIATION),
         position: request.position_std_m.unwrap_or(1.0),
         tension: request.tension_std_n,
+        tension_prior: request.tension_range_n.map(prior_of_range),
     };
     let named = |error: CalibrationError| in_words(&robot, error);
     let of = Calibration::new(robot.clone(), unknowns, rows, deviations, request.static_model).map_err(named)?;
+    let of = with_priors(request, of)?;
     check_signs(request, &of)?;
-    if of.is_elastic() && !matches!(candidates, candidates::Candidates::None) {
-        bail!("poses are proposed for straight rigid cables only: leave out ⟪propose⟫, or take ⟪static_model⟫ ideal");
-    }
     let frame = of.frame(&frame_choice(request, &robot)?).map_err(named)?;
     of.check_count(&frame).map_err(named)?;
 
@@ -157,7 +180,7 @@ pub fn run(request: &CalibrateRequest, watch: &mut dyn Watch) -> Result<Calibrat
     let found = found.ok_or_else(|| NoSolution(CalibrationError::NoMinimum { starts: request.starts }.to_string()))?;
 
     let report = CalibrationReport::new(request, &of, &frame, &found, &candidates)?;
-    let mut results = report.results()?;
+    let mut results = report.results(watch)?;
     results.warnings = caveats::warnings(&report, &results);
     Ok(results)
 }
@@ -226,16 +249,73 @@ fn unknowns(request: &CalibrateRequest, robot: &Robot) -> Result<Vec<Calibration
     if wants("offsets") {
         unknowns.extend((0..count).map(|cable| CalibrationUnknown::Offset { cable }));
     }
+    if wants("pulley-radii") {
+        let names: Vec<Option<&str>> =
+            robot.cables.iter().map(|cable| cable.anchor.pulley.as_ref().map(|pulley| pulley.name.as_str())).collect();
+        let is_first = |cable: &usize| names[*cable].is_some() && !names[..*cable].contains(&names[*cable]);
+        let first: Vec<usize> = (0..count).filter(is_first).collect();
+        if first.is_empty() {
+            bail!("⟪unknowns⟫: no cable of the robot file runs over a pulley: leave out pulley-radii");
+        }
+        unknowns.extend(first.into_iter().map(|cable| CalibrationUnknown::PulleyRadius { cable }));
+    }
     let common = [
         ("scale", CalibrationUnknown::Scale),
         ("axial-stiffness", CalibrationUnknown::AxialStiffness),
         ("mass", CalibrationUnknown::Mass),
+        ("support-stiffness", CalibrationUnknown::SupportStiffness),
     ];
     unknowns.extend(common.into_iter().filter(|(name, _)| wants(name)).map(|(_, unknown)| unknown));
     if unknowns.is_empty() {
         bail!("⟪hold_anchors⟫ holds every unknown: leave a cable out of it, or name further ⟪unknowns⟫");
     }
     Ok(unknowns)
+}
+
+fn check_tension_range(request: &CalibrateRequest) -> Result<()> {
+    let Some([low, high]) = request.tension_range_n else { return Ok(()) };
+    if !(low.is_finite() && high.is_finite() && 0.0 <= low && low < high) {
+        bail!("⟪tension_range_n⟫ {low}:{high} is no range: give the smallest and the largest tension, as in 20:120");
+    }
+    if request.static_model == StaticModel::Ideal {
+        bail!("⟪tension_range_n⟫ is of elastic cables: choose a ⟪static_model⟫, or leave it out");
+    }
+    Ok(())
+}
+
+/// Mean and standard deviation of equal chances in a range.
+fn prior_of_range([low, high]: [f64; 2]) -> (f64, f64) {
+    (0.5 * (low + high), (high - low) / 12.0_f64.sqrt())
+}
+
+/// The calibration with the priors of a request.
+fn with_priors(request: &CalibrateRequest, of: Calibration) -> Result<Calibration> {
+    let start = of.start();
+    let mut priors: Vec<Option<(f64, f64)>> = vec![None; start.len()];
+    for prior in &request.prior {
+        let PriorValue { path, prior: value, prior_std } = prior;
+        let wrong = |reason: String| anyhow!("⟪prior⟫ {path}: {reason}");
+        crate::values::positive(*prior_std).map_err(wrong)?;
+        for k in choice::chosen("prior", path, &of.unknowns, &of.robot)? {
+            let [in_file, _] = of.meaning(k, start[k]);
+            let value = crate::values::finite(value.unwrap_or(in_file)).map_err(wrong)?;
+            let is_positive = !matches!(
+                of.unknowns[k],
+                CalibrationUnknown::Anchor { .. }
+                    | CalibrationUnknown::Attachment { .. }
+                    | CalibrationUnknown::Offset { .. }
+            );
+            if is_positive && value <= 0.0 {
+                bail!("⟪prior⟫ {path}: {value} is not positive");
+            }
+            if priors[k].replace((value, *prior_std)).is_some() {
+                bail!("⟪prior⟫ {path}: {} has a prior already", words::path(&of.robot, &of.unknowns[k]).0);
+            }
+        }
+    }
+    let priors: Vec<(usize, f64, f64)> =
+        priors.iter().enumerate().filter_map(|(k, prior)| prior.map(|(value, std)| (k, value, std))).collect();
+    Ok(of.with_priors(&priors))
 }
 
 /// Refuses a name that no unknown has.

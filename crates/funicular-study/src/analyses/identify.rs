@@ -13,6 +13,7 @@ mod model;
 mod observations;
 mod precision;
 mod profile;
+mod proposals;
 mod reading;
 mod resolution;
 mod ridge;
@@ -21,10 +22,13 @@ mod starts;
 mod tables;
 mod unknowns;
 
-pub use profile::{OpenEnd, Profile};
+pub use super::profile::{OpenEnd, Profile};
+pub use proposals::ProposedMeasurement;
 pub use tables::{FittedResponse, FrequencyRow, StaticRow};
 
-use super::{fields, found};
+use super::candidate_poses::Candidates;
+use super::profile::LIMIT as NORMAL_95;
+use super::{candidate_poses, fields, found};
 use crate::Watch;
 use crate::chosen_numbers::at_bound;
 use crate::columns::{Columns, ResultTable, Style, Tabled, column, only_read, parts};
@@ -39,7 +43,6 @@ use funicular::robot::parameters::Parameters;
 use model::IdentifiedModel;
 use observations::{Observation, Subject};
 use precision::judge;
-use profile::LIMIT as NORMAL_95;
 use resolution::unresolved_peaks;
 use ridge::{Profiled, profiles};
 use search::search;
@@ -90,6 +93,12 @@ pub struct Identified {
     pub responses: Vec<FittedResponse>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub statics: Vec<StaticRow>,
+    /// Measurements to make next.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub proposals: Vec<ProposedMeasurement>,
+    /// Least number of proposed measurements that reaches the wanted deviation; absent if none was wanted or no number does.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub measurements_needed: Option<usize>,
     /// Robot file with the values.
     pub robot_file: String,
     #[serde(skip)]
@@ -244,7 +253,9 @@ pub fn run(request: &IdentifyRequest, watch: &mut dyn Watch) -> Result<Identifie
     let file = request.robot.read()?;
     let parameters = Parameters::from_toml(&file.text)?;
     let unknowns = unknowns(&parameters, &request.fit)?;
-    let profiled = profiled(&parameters, &unknowns, &request.profile)?;
+    let profiled = named(("profile", &request.profile), &parameters, &unknowns)?;
+    let wanted = candidates(request, &parameters)?;
+    let proposed_for = named(("propose_for", &request.propose_for), &parameters, &unknowns)?;
 
     // The search.
     let watch = RefCell::new(watch);
@@ -290,6 +301,21 @@ pub fn run(request: &IdentifyRequest, watch: &mut dyn Watch) -> Result<Identifie
     warnings.extend(rows.iter().filter_map(caveats::moves));
     warnings.extend(rows.iter().filter_map(|row| caveats::missed_minimum(row, best.chi2(), judged.factor)));
 
+    // What to measure next.
+    let (mut proposed, mut measurements_needed) = (Vec::new(), None);
+    if proposals::is_wanted(request) {
+        let first = model.at_rest(&best.x, 0)?;
+        let poses = wanted.poses(parameters.robot(), &first.held_pose.unwrap_or(first.equilibrium.pose))?;
+        let is_chosen = |k| request.propose_for.is_empty() || proposed_for.contains(&k);
+        let chosen: Vec<bool> = (0..unknowns.len()).map(is_chosen).collect();
+        (proposed, measurements_needed) =
+            proposals::proposals(&model, request, (best, judged.factor), &poses, &chosen, &watch)?;
+    }
+
+    if let (Some(wanted), None) = (request.wanted_percent, measurements_needed) {
+        warnings.push(proposals::not_reached(wanted));
+    }
+
     let tables = tables(&mut model, request, &best.x, Some(&nominal[..]).filter(|_| has_nominal))?;
     warnings.splice(0..0, caveats::left_out(&model, &tables.responses));
     Ok(Identified {
@@ -315,6 +341,8 @@ pub fn run(request: &IdentifyRequest, watch: &mut dyn Watch) -> Result<Identifie
         responses: tables.responses,
         statics: tables.statics,
         robot_file: model.text(&best.x)?,
+        proposals: proposed,
+        measurements_needed,
         warnings,
     })
 }
@@ -350,11 +378,22 @@ fn check(request: &IdentifyRequest) -> Result<()> {
     request::check_positive("damping_noise", request.damping_noise)
 }
 
-/// Numbers of the unknowns at the paths of profiles, in the order of the fit.
-fn profiled(parameters: &Parameters, unknowns: &[Unknown], paths: &[String]) -> Result<Vec<usize>> {
+/// Candidates of a proposal.
+fn candidates(request: &IdentifyRequest, parameters: &Parameters) -> Result<Candidates> {
+    proposals::check(request)?;
+    let needs = (proposals::is_wanted(request), "⟪propose⟫ or ⟪wanted_percent⟫");
+    candidate_poses::wanted(needs, &request.grid, request.poses.as_ref(), parameters.robot())
+}
+
+/// Numbers of the unknowns at the paths of an option, in the order of the fit.
+fn named(
+    (option, paths): (&'static str, &[String]),
+    parameters: &Parameters,
+    unknowns: &[Unknown],
+) -> Result<Vec<usize>> {
     let mut chosen = vec![false; unknowns.len()];
     for path in paths {
-        let pattern = ParameterPattern::parse("profile", path, parameters)?;
+        let pattern = ParameterPattern::parse(option, path, parameters)?;
         let matches: Vec<bool> =
             unknowns.iter().map(|unknown| pattern.matches(&parameters.list()[unknown.index])).collect();
         if !matches.contains(&true) {

@@ -3,8 +3,9 @@
 use super::commands;
 use super::json_text;
 use super::key::declared;
-use super::parts::{Model, Pose, RobotText, State, Tensions};
+use super::parts::{Axis, Model, Pose, RobotText, State, Tensions};
 use crate::measurements::{MeasuredFrequency, MeasuredResponse};
+use funicular::math::chosen_rows::RowCriterion;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 
@@ -42,6 +43,26 @@ declared! {
         /// fitted again, until χ² has risen by 3.84; * stands for any key, and a path to a table or vector for all numbers
         /// in it.
         profile: Vec<String> = Vec::new() => (Texts).form("PATHS");
+        /// Number of measurements to propose that reduce the deviations most, one after the other.
+        propose: usize = 0 => (Count(0..=100)).under("Proposal");
+        /// Axis of the poses of a proposal: x, y, z [m], roll, pitch, yaw [degrees], with N values from A to B, or with listed
+        /// values (repeatable); an axis that is not given stays at the pose of the first experiment.
+        grid: Vec<Axis> = Vec::new() => (List(ProgramForm::GridAxis)).form("AXIS=A:B:N|V,V,…").under("Proposal");
+        /// Poses of a proposal instead of a grid: position [m] and roll, pitch, yaw [degrees].
+        poses: Option<Vec<[f64; 6]>> = None => (Poses).under("Proposal");
+        /// What can be measured at each of these poses, separated by commas: frequencies (the lowest ones), tensions,
+        /// lengths, pose (at the lengths of the file's robot there). The loads are those of the first experiment.
+        propose_measuring: Vec<String> = vec!["frequencies".to_owned()] => (Texts).form("KINDS").under("Proposal");
+        /// Number of the lowest natural frequencies that are measured at each pose of a proposal.
+        propose_modes: usize = 6 => (Count(1..=100)).under("Proposal");
+        /// Values whose deviations the proposal reduces, by their paths, as in ⟪profile⟫.
+        propose_for: Vec<String> = Vec::new() => (Texts).form("PATHS").under("Proposal").otherwise("all fitted values");
+        /// Criterion of the proposal. Variances are relative to the values, or in usual errors of values that may be zero.
+        #[serde(with = "crate::names")]
+        propose_by: RowCriterion = RowCriterion::default() => (name::<RowCriterion>()).form("CRITERION").under("Proposal");
+        /// Largest relative deviation of a positive value that is wanted [%]: the least number of proposed measurements that
+        /// reaches it.
+        wanted_percent: Option<f64> = None => (Number(Positive)).under("Proposal");
         /// First frequency of the responses that counts [Hz].
         from_hz: Option<f64> = None => (Number(NotNegative)).under("Measurements").otherwise("all");
         /// Last frequency of the responses that counts [Hz].
@@ -66,6 +87,7 @@ declared! {
     examples {
         "funicular identify docs/quick-start/hall.toml --hold-lengths-of-pose \\\n    --measured docs/identification/hall-modes.csv --fit platform.mass_kg --prior platform.mass_kg=60±10",
         "funicular identify robot.toml --measured test.uff --node 2=0.1,0.08,0.02 --node 1=0.03,-0.02,0.05 \\\n    --fit platform.mass_kg --fit platform.center_of_mass_m --prior platform.center_of_mass_m=0±0.03 -o fitted.toml",
+        "funicular identify docs/quick-start/hall.toml --hold-lengths-of-pose \\\n    --measured docs/identification/hall-modes.csv --fit platform.mass_kg --fit materials.rope.youngs_modulus_pa \\\n    --propose 3 --grid x=-2:2:5 --propose-measuring frequencies,tensions",
         "funicular identify robot.toml --experiments poses.json --rigid-cables --fit platform.center_of_mass_m \\\n    --fit platform.inertia_kg_m2 -o result.json --page result.html",
     }
 }

@@ -80,7 +80,9 @@ pub enum ProgramForm {
     Fit,
     /// Value to choose, `PATH=±REACH` or `PATH=MIN:MAX`.
     Change,
-    /// Band of frequencies, `FROM:TO`.
+    /// Value known beforehand with its standard deviation, `PATH=VALUE±DEVIATION`.
+    Prior,
+    /// Band of frequencies or tensions, `FROM:TO`.
     Band,
     /// Limit of a quantity of a map, `QUANTITY=VALUE`.
     Bound,

@@ -82,6 +82,7 @@ fn of_form(form: ProgramForm) -> Value {
         ProgramForm::GridAxis | ProgramForm::Variation => axis(),
         ProgramForm::Fit => fit(),
         ProgramForm::Change => change(),
+        ProgramForm::Prior => prior(),
         ProgramForm::Band => numbers(Range::Positive, Some(2)),
         ProgramForm::Bound => bound(),
     }
@@ -172,6 +173,11 @@ fn fit() -> Value {
 fn change() -> Value {
     let number = number(Range::Finite);
     object(&["path"], &json!({ "path": text(), "minimum": number, "maximum": number, "plus_minus": number }))
+}
+
+fn prior() -> Value {
+    let keys = json!({ "path": text(), "prior": number(Range::Finite), "prior_std": number(Range::Positive) });
+    object(&["path", "prior_std"], &keys)
 }
 
 fn bound() -> Value {

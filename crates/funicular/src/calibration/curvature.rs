@@ -1,9 +1,9 @@
-//! Test of the covariance: a walk along the weakest combination of the unknowns. Noise can hide lost rank from every
-//! linearisation, but not from this walk.
+//! Fits with a combination of the unknowns or one of them held. A walk along the weakest combination tests the covariance:
+//! noise can hide lost rank from every linearisation, but not from this walk.
 
 use super::frame::CalibrationFrame;
 use super::{Calibration, CalibrationFit, CalibrationPrecision, null_space};
-use crate::math::DVec;
+use crate::math::{DMat, DVec};
 
 /// Steps of the walk, in deviations.
 const STEPS: [f64; 4] = [-2.0, -1.0, 1.0, 2.0];
@@ -49,13 +49,37 @@ impl Calibration {
         let weakest = eigen.eigenvalues.imax();
         let deviation = factor * eigen.eigenvalues[weakest].max(0.0).sqrt();
         let direction = eigen.eigenvectors.column(weakest).into_owned();
-        let rest = &frame.free * null_space(&crate::math::DMat::from_rows(&[direction.transpose()]));
-        let along = &frame.free * direction;
         let rise = |step: f64| {
-            let held = DVec::from_column_slice(&fit.values) + &along * (step * deviation);
-            let found = self.fit(held.as_slice(), &fit.poses, &rest);
-            (found.chi2 - fit.chi2) / (factor * factor)
+            let along = &direction * (step * deviation);
+            (self.fit_across(fit, frame, &along, &direction).chi2 - fit.chi2) / (factor * factor)
         };
         Some(WeakWalk { steps: STEPS, rises: STEPS.map(rise) })
+    }
+
+    /// Fits everything else again with one unknown held at `value`, for a profile of χ²; from a fit with another value of
+    /// it. A value that the frame holds stays.
+    pub fn fit_held(
+        &self,
+        from: &CalibrationFit,
+        frame: &CalibrationFrame,
+        precision: &CalibrationPrecision,
+        (unknown, value): (usize, f64),
+    ) -> CalibrationFit {
+        let held = frame.free.row(unknown).transpose();
+        if frame.holds(unknown) {
+            return from.clone();
+        }
+        // The others follow as the covariance says, if it knows this unknown.
+        let seen = &precision.free_covariance * &held;
+        let seen = if held.dot(&seen) > 0.0 { seen } else { held.clone() };
+        let along = &seen * ((value - from.values[unknown]) / held.dot(&seen));
+        self.fit_across(from, frame, &along, &held)
+    }
+
+    /// Fit from values moved by `along` the free directions, with the combination `held` of them held.
+    fn fit_across(&self, from: &CalibrationFit, frame: &CalibrationFrame, along: &DVec, held: &DVec) -> CalibrationFit {
+        let values = DVec::from_column_slice(&from.values) + &frame.free * along;
+        let rest = &frame.free * null_space(&DMat::from_rows(&[held.transpose()]));
+        self.fit_on(from, values.as_slice(), &rest)
     }
 }

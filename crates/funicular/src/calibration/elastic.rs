@@ -4,8 +4,12 @@
 use super::row::RowTerms;
 use super::{CalibratedRobot, Calibration, CalibrationUnknown, MeasuredRow};
 use crate::math::{DMat, DVec, Vec3};
-use crate::robot::{CableChange, Pose, RobotChange};
-use crate::statics::{self, Equilibrium, StaticModel, derivatives};
+use crate::robot::{CableChange, Pose, RobotChange, State, Support, SupportChange};
+use crate::statics::{self, Equilibrium, StaticModel, TensionRule, derivatives};
+
+/// Step of differences along an unknown [m]. Equilibria are exact to 1e-12 m, the error of a difference is 1e-8 of its
+/// curvature.
+const DIFFERENCE: f64 = 1e-4;
 
 /// Unknowns of one row: its pose, and where cables are elastic their unstrained lengths [m], of which the pose follows.
 #[derive(Debug, Clone)]
@@ -21,12 +25,24 @@ impl Calibration {
         self.model != StaticModel::Ideal
     }
 
+    /// Tension of a cable in a row with its deviation [N]: measured, or known beforehand; `None` for rigid cables.
+    pub(super) fn tension_datum(&self, row: &MeasuredRow, cable: usize) -> Option<(f64, f64)> {
+        let measured = row.tensions.get(cable).copied().flatten();
+        let measured = measured.map(|tension| (tension, self.deviations.tension));
+        if self.is_elastic() { measured.or(self.deviations.tension_prior) } else { measured }
+    }
+
     /// States in which a search begins: at poses, with the lengths of the readings.
     pub(super) fn states(&self, values: &[f64], poses: &[Pose]) -> Vec<RowState> {
         let at = self.robot_at(values);
         let state = |(row, pose): (&MeasuredRow, &Pose)| {
             if !self.is_elastic() {
                 return RowState { pose: *pose, lengths: Vec::new() };
+            }
+            if row.tensions.iter().flatten().count() == 0
+                && let Some(lengths) = self.lengths_of_prior(&at, pose)
+            {
+                return RowState { pose: *pose, lengths };
             }
             let length = |(i, cable): (usize, &crate::robot::Cable)| {
                 let read = row.readings.get(i).copied().flatten();
@@ -35,6 +51,15 @@ impl Calibration {
             RowState { pose: *pose, lengths: at.robot.cables.iter().enumerate().map(length).collect() }
         };
         self.rows.iter().zip(poses).map(state).collect()
+    }
+
+    /// Lengths with which the platform rests at a pose with tensions near their prior: where nothing else tells the tensions,
+    /// lengths that fit the readings exactly have tensions far from it, or slack cables.
+    fn lengths_of_prior(&self, at: &CalibratedRobot, pose: &Pose) -> Option<Vec<f64>> {
+        let (tension, _) = self.deviations.tension_prior?;
+        let rule = TensionRule::Closest(vec![tension]);
+        let found = statics::solve_at(&at.robot, &State::Pose(*pose), self.model, &rule).ok()?;
+        Some(found.equilibrium.cables.iter().map(|cable| cable.unstrained_length).collect())
     }
 
     /// State after a step of the row's unknowns.
@@ -113,11 +138,10 @@ impl Calibration {
         });
         let positions = (0..3)
             .filter_map(|axis| Some((rest.pose.position_w[axis] - row.position[axis]?) / self.deviations.position));
-        let tensions = row
-            .tensions
-            .iter()
-            .zip(&rest.cables)
-            .filter_map(|(measured, cable)| Some((cable.tension_anchor - (*measured)?) / self.deviations.tension));
+        let tensions = rest.cables.iter().enumerate().filter_map(|(i, cable)| {
+            let (known, deviation) = self.tension_datum(row, i)?;
+            Some((cable.tension_anchor - known) / deviation)
+        });
         DVec::from_vec(readings.chain(positions).chain(tensions).collect())
     }
 
@@ -130,17 +154,37 @@ impl Calibration {
         change: &RobotChange,
         of_reading: impl Fn(usize) -> f64,
     ) -> Option<DVec> {
-        let by = derivatives::at_held_lengths(&at.robot, rest, change).ok()?;
+        let (translation_w, tensions) = self.rates(at, rest, change)?;
         let readings = row.readings.iter().enumerate();
         let readings = readings.filter_map(|(i, reading)| reading.map(|_| of_reading(i) / self.deviations.reading));
         let positions =
-            (0..3).filter_map(|axis| row.position[axis].map(|_| by.translation_w[axis] / self.deviations.position));
-        let tensions = row
-            .tensions
-            .iter()
-            .zip(&by.cables)
-            .filter_map(|(measured, cable)| measured.map(|_| cable.tension_anchor / self.deviations.tension));
+            (0..3).filter_map(|axis| row.position[axis].map(|_| translation_w[axis] / self.deviations.position));
+        let tensions = tensions.iter().enumerate().filter_map(|(i, rate)| {
+            let (_, deviation) = self.tension_datum(row, i)?;
+            Some(rate / deviation)
+        });
         Some(DVec::from_vec(readings.chain(positions).chain(tensions).collect()))
+    }
+
+    /// Rates of the position and of the tensions at the anchors along a change, at held lengths; by differences where
+    /// supports settle.
+    fn rates(&self, at: &CalibratedRobot, rest: &Equilibrium, change: &RobotChange) -> Option<(Vec3, Vec<f64>)> {
+        if !at.robot.has_supports() {
+            let by = derivatives::at_held_lengths(&at.robot, rest, change).ok()?;
+            return Some((by.translation_w, by.cables.iter().map(|cable| cable.tension_anchor).collect()));
+        }
+        let moved = |step: f64| {
+            let lengths = rest.cables.iter().zip(&change.cables);
+            let lengths: Vec<f64> =
+                lengths.map(|(cable, change)| cable.unstrained_length + change.unstrained_length * step).collect();
+            let robot = at.robot.changed(change, step);
+            statics::forward(&robot, &lengths, self.model, Some(&rest.pose)).ok()
+        };
+        let (below, above) = (moved(-DIFFERENCE)?, moved(DIFFERENCE)?);
+        let per_step = 0.5 / DIFFERENCE;
+        let tensions = above.cables.iter().zip(&below.cables);
+        let tensions = tensions.map(|(above, below)| (above.tension_anchor - below.tension_anchor) * per_step);
+        Some(((above.pose.position_w - below.pose.position_w) * per_step, tensions.collect()))
     }
 
     /// Change of the robot along an unknown.
@@ -158,6 +202,20 @@ impl Calibration {
                 }
             }
             CalibrationUnknown::Mass => change.mass = at.robot.platform.mass / self.scale_length,
+            CalibrationUnknown::PulleyRadius { .. } => {
+                for (cable, change) in change.cables.iter_mut().enumerate() {
+                    if unknown.is_radius_of(&at.robot, cable) {
+                        change.pulley.radius = 1.0;
+                    }
+                }
+            }
+            CalibrationUnknown::SupportStiffness => {
+                let by_factor = |support: &Support| SupportChange {
+                    stiffness_w: support.stiffness_w / self.scale_length,
+                    ..SupportChange::default()
+                };
+                change.supports = at.robot.supports.iter().map(by_factor).collect();
+            }
             CalibrationUnknown::Offset { .. } | CalibrationUnknown::Scale => {}
         }
         change

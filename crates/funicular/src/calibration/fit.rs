@@ -45,9 +45,10 @@ pub struct CalibrationFit {
     pub converged: bool,
 }
 
-/// Linearisation of all rows at a point.
+/// Linearisation of all rows at a point, and the residuals of the priors.
 struct Linearised {
     rows: Vec<RowTerms>,
+    priors: DVec,
     chi2: f64,
 }
 
@@ -65,26 +66,31 @@ impl Calibration {
     /// Elimination of separable unknowns: G. H. Golub, V. Pereyra, SIAM J. Numer. Anal. 10 (1973); damping: H. B.
     /// Nielsen (1999).
     pub(super) fn fit(&self, values: &[f64], poses: &[Pose], free: &DMat) -> CalibrationFit {
-        self.fit_within(MAX_ITERATIONS, values, poses, free)
+        self.fit_within(MAX_ITERATIONS, values, self.states(values, poses), free)
     }
 
-    /// The same with at most so many iterations.
+    /// The same from the poses and lengths of another fit.
+    pub(super) fn fit_on(&self, from: &CalibrationFit, values: &[f64], free: &DMat) -> CalibrationFit {
+        self.fit_within(MAX_ITERATIONS, values, states_of(from), free)
+    }
+
+    /// The same from states of the rows, with at most so many iterations.
     pub(super) fn fit_within(
         &self,
         max_iterations: usize,
         values: &[f64],
-        poses: &[Pose],
+        mut states: Vec<RowState>,
         free: &DMat,
     ) -> CalibrationFit {
-        let mut states = self.states(values, poses);
         let mut fit = CalibrationFit {
             values: values.to_vec(),
-            poses: poses.to_vec(),
+            poses: states.iter().map(|state| state.pose).collect(),
             lengths: states.iter().map(|state| state.lengths.clone()).collect(),
             chi2: f64::INFINITY,
             iterations: 0,
             converged: false,
         };
+        let priors = self.prior_rows(free);
         let Some(mut at) = self.linearised(&fit.values, &states) else { return fit };
         fit.chi2 = at.chi2;
         let mut scale = Scales::new(free.ncols(), self.rows.len(), self.row_unknown_count());
@@ -92,8 +98,8 @@ impl Calibration {
 
         while fit.iterations < max_iterations && fit.chi2.is_finite() {
             fit.iterations += 1;
-            scale.grow(&at.rows, free);
-            let step = scale.step(&at.rows, free, damping);
+            scale.grow(&at.rows, free, &priors);
+            let step = scale.step(&at, free, &priors, damping);
             if step.predicted <= MIN_DECREASE + MIN_RELATIVE_DECREASE * fit.chi2 {
                 if damping <= LAST_DAMPING {
                     fit.converged = true;
@@ -142,8 +148,10 @@ impl Calibration {
         let robot = self.robot_at(values);
         let terms = self.rows.iter().zip(states).map(|(row, state)| self.terms_of(&robot, row, state));
         let rows: Vec<RowTerms> = terms.collect::<Option<_>>()?;
-        let chi2 = rows.iter().map(|row| row.residuals.norm_squared()).sum();
-        Some(Linearised { rows, chi2 })
+        let priors = self.prior_residuals(values);
+        let of_rows: f64 = rows.iter().map(|row| row.residuals.norm_squared()).sum();
+        let chi2 = of_rows + priors.norm_squared();
+        Some(Linearised { rows, priors, chi2 })
     }
 
     /// Linearisation of the rows of a fit; empty without equilibria.
@@ -154,7 +162,7 @@ impl Calibration {
     /// χ² at a point, with the states of the rows at rest; `None` without an equilibrium.
     fn chi2_at(&self, values: &[f64], states: &[RowState]) -> Option<(f64, Vec<RowState>)> {
         let robot = self.robot_at(values);
-        let (mut chi2, mut at_rest) = (0.0, Vec::with_capacity(states.len()));
+        let (mut chi2, mut at_rest) = (self.prior_residuals(values).norm_squared(), Vec::with_capacity(states.len()));
         for (row, state) in self.rows.iter().zip(states) {
             let (residuals, state) = self.row_residuals(&robot, row, state)?;
             chi2 += residuals.norm_squared();
@@ -169,10 +177,12 @@ impl Calibration {
         let of_row = |(row, terms): (&super::MeasuredRow, &RowTerms)| {
             let read = row.readings.iter().flatten().count();
             let placed = row.position.iter().flatten().count();
+            let tensions = (0..self.robot.cables.len()).filter_map(|cable| self.tension_datum(row, cable));
+            let tensions: Vec<f64> = tensions.map(|(_, deviation)| deviation).collect();
             let unit = |k: usize| match k {
                 k if k < read => self.deviations.reading,
                 k if k < read + placed => self.deviations.position,
-                _ => self.deviations.tension,
+                k => tensions[k - read - placed],
             };
             terms.residuals.iter().enumerate().map(|(k, residual)| residual * unit(k)).collect()
         };
@@ -200,8 +210,8 @@ impl Scales {
         Self { values: DVec::zeros(values), poses: vec![DVec::zeros(coordinates); rows] }
     }
 
-    fn grow(&mut self, rows: &[RowTerms], free: &DMat) {
-        let mut squares = DVec::zeros(self.values.len());
+    fn grow(&mut self, rows: &[RowTerms], free: &DMat, priors: &DMat) {
+        let mut squares = DVec::from_fn(self.values.len(), |k, _| priors.column(k).norm_squared());
         for (row, scale) in rows.iter().zip(&mut self.poses) {
             let along = &row.by_unknowns * free;
             for (k, column) in along.column_iter().enumerate() {
@@ -217,7 +227,8 @@ impl Scales {
     }
 
     /// Damped step of all unknowns.
-    fn step(&self, rows: &[RowTerms], free: &DMat, damping: f64) -> DampedStep {
+    fn step(&self, at: &Linearised, free: &DMat, priors: &DMat, damping: f64) -> DampedStep {
+        let rows = &at.rows;
         let root = damping.sqrt();
         let eliminated: Vec<EliminatedRow> = rows
             .iter()
@@ -225,8 +236,8 @@ impl Scales {
             .map(|(row, scale)| EliminatedRow::of(row, free, Some(&(scale * root))))
             .collect();
 
-        // The net rows of all rows, with the damping of the unknowns below.
-        let height: usize = eliminated.iter().map(|row| row.net.nrows()).sum();
+        // The net rows of all rows and of the priors, with the damping of the unknowns below.
+        let height = eliminated.iter().map(|row| row.net.nrows()).sum::<usize>() + priors.nrows();
         let count = free.ncols();
         let mut all = DMat::zeros(height + count, count);
         let mut right = DMat::zeros(height + count, 1);
@@ -236,20 +247,27 @@ impl Scales {
             right.view_mut((first, 0), (row.net.nrows(), 1)).copy_from(&(-&row.residuals));
             first += row.net.nrows();
         }
+        all.view_mut((first, 0), priors.shape()).copy_from(priors);
+        right.view_mut((first, 0), (priors.nrows(), 1)).copy_from(&(-&at.priors));
         // A column that no datum sees is damped as well, so that its unknown stays.
-        let largest = self.values.max().max(f64::MIN_POSITIVE);
+        let largest = self.values.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
         for k in 0..count {
             all[(height + k, k)] = root * self.values[k].max(1e-12 * largest);
         }
-        let factors = all.qr();
-        factors.q_tr_mul(&mut right);
-        let right = right.rows(0, count).column(0).into_owned();
-        let values = factors.r().solve_upper_triangular(&right).unwrap_or_else(|| DVec::zeros(count));
+        // Poses alone leave nothing to factorise.
+        let values = if count == 0 {
+            DVec::zeros(0)
+        } else {
+            let factors = all.qr();
+            factors.q_tr_mul(&mut right);
+            let right = right.rows(0, count).column(0).into_owned();
+            factors.r().solve_upper_triangular(&right).unwrap_or_else(|| DVec::zeros(count))
+        };
 
         // The poses follow.
         let poses: Vec<DVec> = eliminated.iter().map(|row| row.pose_step(&values)).collect();
         let along = free * &values;
-        let (mut before, mut after) = (0.0, 0.0);
+        let (mut before, mut after) = (at.priors.norm_squared(), (&at.priors + priors * &values).norm_squared());
         for (row, pose) in rows.iter().zip(&poses) {
             before += row.residuals.norm_squared();
             after += (&row.residuals + &row.by_unknowns * &along + &row.by_pose * pose).norm_squared();

@@ -110,6 +110,8 @@ impl Calibration {
         // Changes of the data, and numbers that are known but would have to change.
         let along = DMat::from_columns(&fields.iter().map(|of| of.unknowns.clone()).collect::<Vec<_>>());
         let known = fields.first().map_or(0, |of| of.known.len());
+        // Priors hold a place in the world as data do.
+        let net: Vec<DMat> = net.into_iter().chain([self.prior_rows(&identity)]).collect();
         let height: usize = net.iter().map(DMat::nrows).sum();
         let mut changes = DMat::zeros((height + known).max(fields.len()), fields.len());
         let mut first = 0;
@@ -186,8 +188,8 @@ impl Calibration {
         let unknowns = DVec::from_fn(self.unknowns.len(), |k, _| match self.unknowns[k] {
             CalibrationUnknown::Anchor { cable, axis } => anchor(cable)[axis],
             CalibrationUnknown::Attachment { cable, axis } => attachment(cable)[axis],
-            CalibrationUnknown::Offset { .. } | CalibrationUnknown::AxialStiffness | CalibrationUnknown::Mass => 0.0,
             CalibrationUnknown::Scale => scale * self.scale_length,
+            _ => 0.0,
         });
         let is_known = |of: CalibrationUnknown| !self.unknowns.contains(&of);
         let mut known = Vec::new();
@@ -329,8 +331,13 @@ impl CalibrationFrame {
         &project * covariance * project.transpose()
     }
 
+    /// Orthonormal basis of the changes of the unknowns that keep the conditions, as columns.
+    pub fn free_directions(&self) -> &DMat {
+        &self.free
+    }
+
     /// Projection of changes of the unknowns on those with inner conditions.
-    pub(super) fn inner_projection(&self) -> DMat {
+    pub fn inner_projection(&self) -> DMat {
         let n = self.motions.nrows();
         DMat::identity(n, n) - &self.motions * self.motions.transpose()
     }

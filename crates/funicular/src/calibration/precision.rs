@@ -21,6 +21,8 @@ pub struct CalibrationPrecision {
     pub(super) free_covariance: DMat,
     /// Net rows of each row, along the free directions.
     net: Vec<NetRow>,
+    /// Information `Σ WᵀW` of all net rows and priors, along the free directions.
+    pub information: DMat,
     /// Directions of the unknowns that no datum sees, unit vectors.
     pub lost: Vec<Vec<f64>>,
     /// Ratio of the least to the largest singular value of the net rows with unit columns.
@@ -83,13 +85,16 @@ impl Calibration {
             }
         }
         let count = frame.free.ncols();
-        let height: usize = net.iter().map(|row| row.by_free.nrows()).sum();
+        let priors = self.prior_rows(&frame.free);
+        let height = net.iter().map(|row| row.by_free.nrows()).sum::<usize>() + priors.nrows();
         let mut all = DMat::zeros(height.max(count), count);
         let mut first = 0;
         for row in &net {
             all.view_mut((first, 0), row.by_free.shape()).copy_from(&row.by_free);
             first += row.by_free.nrows();
         }
+        all.view_mut((first, 0), priors.shape()).copy_from(&priors);
+        let information = all.transpose() * &all;
         let scales: Vec<f64> = all.column_iter().map(|column| column.norm()).collect();
         let largest = scales.iter().copied().fold(0.0, f64::max).max(f64::MIN_POSITIVE);
         let scales: Vec<f64> = scales.iter().map(|scale| 1.0 / scale.max(1e-12 * largest)).collect();
@@ -117,6 +122,7 @@ impl Calibration {
             covariance: &frame.free * &free_covariance * frame.free.transpose(),
             free_covariance,
             net,
+            information,
             condition: if count == 0 { 1.0 } else { least },
             degrees: height.saturating_sub(rank),
             lost,
@@ -153,6 +159,11 @@ impl CalibrationPrecision {
     /// Standard deviation of each unknown; zero for one that the frame holds.
     pub fn deviations(&self) -> Vec<f64> {
         self.covariance.diagonal().iter().map(|variance| variance.max(0.0).sqrt()).collect()
+    }
+
+    /// Net rows `W` of each row along the free directions, with their residuals `e` (96c).
+    pub fn net_rows(&self) -> impl Iterator<Item = (&DMat, &[f64])> {
+        self.net.iter().map(|row| (&row.by_free, row.residuals.as_slice()))
     }
 
     /// Root of the sum of the variances of the unknowns.

@@ -1,10 +1,27 @@
 //! Poses that reduce the deviations most if they are measured next (96k).
 
+use super::elastic::RowState;
 use super::elimination::EliminatedRow;
 use super::frame::CalibrationFrame;
-use super::{Calibration, CalibrationFit, CalibrationPrecision, MeasuredRow};
+use super::{CalibratedRobot, Calibration, CalibrationFit, CalibrationPrecision, MeasuredRow};
+use crate::math::chosen_rows::{ChosenRows, RowCriterion, choose_rows};
 use crate::math::{DMat, DVec};
 use crate::robot::Pose;
+
+/// Pose that can be measured.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CandidatePose {
+    /// Pose.
+    pub pose: Pose,
+    /// Unstrained lengths of elastic cables with which the platform rests there [m]; empty for straight rigid ones.
+    pub lengths: Vec<f64>,
+}
+
+impl From<Pose> for CandidatePose {
+    fn from(pose: Pose) -> Self {
+        Self { pose, lengths: Vec::new() }
+    }
+}
 
 /// Pose to measure.
 #[derive(Debug, Clone)]
@@ -19,33 +36,27 @@ pub struct ProposedPose {
     pub deviations: Vec<f64>,
 }
 
-/// Chooses poses one after the other, each so that the sum of the variances of the chosen unknowns falls most. `weights`
-/// are factors of the variances, one per unknown.
+/// Chooses poses one after the other, each so that the criterion falls most. `weights` are factors of the variances, one
+/// per unknown. At each pose is measured what the rows have: readings of all cables, and the tensions and coordinates that
+/// any row has.
 pub fn proposals(
     of: &Calibration,
     fit: &CalibrationFit,
-    frame: &CalibrationFrame,
-    precision: &CalibrationPrecision,
-    candidates: &[Pose],
-    count: usize,
+    (frame, precision): (&CalibrationFrame, &CalibrationPrecision),
+    candidates: &[CandidatePose],
+    (count, criterion): (usize, RowCriterion),
     weights: &[f64],
 ) -> Vec<ProposedPose> {
-    // A pose of elastic cables has tensions of its own choice.
-    if of.is_elastic() {
-        return Vec::new();
-    }
     let robot = of.robot_at(&fit.values);
-    let reading = |pose: &Pose| -> Vec<f64> {
-        let cables = robot.robot.cables.iter().zip(&robot.offsets);
-        cables.map(|(cable, offset)| (cable.straight_length(pose) - offset) / robot.scale).collect()
-    };
-    let readings: Vec<Vec<f64>> = candidates.iter().map(reading).collect();
+    let readings: Vec<Vec<f64>> = candidates.iter().map(|candidate| robot.readings(candidate)).collect();
+    let measured = of.measured_kinds();
     let net: Vec<Option<DMat>> = candidates
         .iter()
         .zip(&readings)
-        .map(|(pose, readings)| {
-            let terms = of.row_terms(&robot, &MeasuredRow::of_readings(readings), pose);
-            let row = EliminatedRow::of(&terms, &frame.free, None);
+        .map(|(candidate, readings)| {
+            let row = MeasuredRow { readings: MeasuredRow::of_readings(readings).readings, ..measured.clone() };
+            let state = RowState { pose: candidate.pose, lengths: candidate.lengths.clone() };
+            let row = EliminatedRow::of(&of.terms_of(&robot, &row, &state)?, &frame.free, None);
             row.fixes_pose().then_some(row.net)
         })
         .collect();
@@ -58,43 +69,39 @@ pub fn proposals(
         let direction = frame.free.transpose() * DVec::from_column_slice(lost) * of.anchor_spread();
         covariance += &direction * direction.transpose();
     }
-    let mut proposed = Vec::new();
-    for _ in 0..count {
-        let now = (&weight * &covariance).trace();
-        let best = net
-            .iter()
-            .enumerate()
-            .filter_map(|(k, net)| {
-                let gain = gain(&covariance, &weight, net.as_ref()?)?;
-                gain.is_finite().then_some((k, gain))
-            })
-            .max_by(|a, b| a.1.total_cmp(&b.1));
-        let Some((candidate, gain)) = best else { break };
-        let Some(next) = net[candidate].as_ref().and_then(|net| with_row(&covariance, net)) else { break };
-        covariance = next;
+    let proposed = |ChosenRows { candidate, covariance }: ChosenRows| {
         let full = &frame.free * &covariance * frame.free.transpose();
-        proposed.push(ProposedPose {
+        ProposedPose {
             candidate,
             readings: readings[candidate].clone(),
-            total: (now - gain).max(0.0).sqrt(),
+            total: (&weight * &covariance).trace().max(0.0).sqrt(),
             deviations: full.diagonal().iter().map(|variance| variance.max(0.0).sqrt()).collect(),
-        });
+        }
+    };
+    choose_rows(&covariance, &weight, &net, count, criterion).into_iter().map(proposed).collect()
+}
+
+impl CalibratedRobot {
+    /// Readings of all cables at a pose.
+    fn readings(&self, candidate: &CandidatePose) -> Vec<f64> {
+        let cables = self.robot.cables.iter().zip(&self.offsets).enumerate();
+        let reading = |(i, (cable, offset)): (usize, (&crate::robot::Cable, &f64))| {
+            let length = candidate.lengths.get(i).copied().unwrap_or_else(|| cable.straight_length(&candidate.pose));
+            (length - offset) / self.scale
+        };
+        cables.map(reading).collect()
     }
-    proposed
 }
 
-/// Decrease of the weighted sum of variances by a row: trace of `(I + W S Wᵀ)⁻¹ W S w S Wᵀ`.
-fn gain(covariance: &DMat, weight: &DMat, net: &DMat) -> Option<f64> {
-    let seen = covariance * net.transpose();
-    let inner = DMat::identity(net.nrows(), net.nrows()) + net * &seen;
-    let solved = inner.cholesky()?.solve(&seen.transpose());
-    Some((solved * weight * seen).trace())
-}
-
-/// Covariance with one more row.
-fn with_row(covariance: &DMat, net: &DMat) -> Option<DMat> {
-    let seen = covariance * net.transpose();
-    let inner = DMat::identity(net.nrows(), net.nrows()) + net * &seen;
-    let solved = inner.cholesky()?.solve(&seen.transpose());
-    Some(covariance - seen * solved)
+impl Calibration {
+    /// Row with the kinds of data besides readings that any of the rows has; the values have no meaning.
+    fn measured_kinds(&self) -> MeasuredRow {
+        let any = |has: &dyn Fn(&MeasuredRow) -> bool| self.rows.iter().any(has).then_some(0.0);
+        let tension = |cable: usize| any(&|row: &MeasuredRow| row.tensions.get(cable).copied().flatten().is_some());
+        MeasuredRow {
+            position: [0, 1, 2].map(|axis| any(&|row: &MeasuredRow| row.position[axis].is_some())),
+            tensions: (0..self.robot.cables.len()).map(tension).collect(),
+            ..MeasuredRow::default()
+        }
+    }
 }

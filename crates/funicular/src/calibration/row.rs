@@ -23,15 +23,9 @@ impl MeasuredRow {
     pub fn of_readings(readings: &[f64]) -> Self {
         Self { readings: readings.iter().copied().map(Some).collect(), ..Self::default() }
     }
-
-    /// Number of data.
-    pub fn data_count(&self) -> usize {
-        let tensions = self.tensions.iter().flatten().count();
-        self.readings.iter().flatten().count() + self.position.iter().flatten().count() + tensions
-    }
 }
 
-/// Standard deviations of the data of all rows.
+/// Standard deviations of the data of all rows, and what is known of the tensions beforehand.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ReadingDeviations {
     /// Of a reading [m].
@@ -40,6 +34,9 @@ pub struct ReadingDeviations {
     pub position: f64,
     /// Of a measured tension [N].
     pub tension: f64,
+    /// Tension of elastic cables at the anchor that was not measured, with its standard deviation [N]; `None` if nothing is
+    /// known.
+    pub tension_prior: Option<(f64, f64)>,
 }
 
 /// Residuals of one row and their derivatives, each divided by the standard deviation of its datum.
@@ -66,7 +63,8 @@ impl Calibration {
     }
 
     /// Residuals of a row with their derivatives: a straight length changes with its anchor by the unit vector `u`
-    /// towards it, with the platform by −(u, RA × u), with the attachment by −Rᵀu (96b).
+    /// towards it, with the platform by −(u, RA × u), with the attachment by −Rᵀu, with the radius of its pulley by the wrap
+    /// angle and `u` along the exit offset (96b).
     pub(super) fn row_terms(&self, at: &CalibratedRobot, row: &MeasuredRow, pose: &Pose) -> RowTerms {
         let residuals = self.residuals(at, row, pose);
         let (count, coordinates) = (residuals.len(), self.coordinates());
@@ -84,12 +82,16 @@ impl Calibration {
                 by_pose[(k, c)] = -by_motion[c] * per_length;
             }
             let by_attachment = -(pose.rot_wp.inverse() * u);
+            let contact = at.robot.cables[cable].anchor.contact(&(pose.position_w + line.lever_w));
             for (j, unknown) in self.unknowns.iter().enumerate() {
                 by_unknowns[(k, j)] = per_length
                     * match *unknown {
                         CalibrationUnknown::Anchor { cable: of, axis } if of == cable => u[axis],
                         CalibrationUnknown::Attachment { cable: of, axis } if of == cable => by_attachment[axis],
                         CalibrationUnknown::Offset { cable: of } if of == cable => -1.0,
+                        // The arc grows by the wrap angle, and the exit point moves away from the entry point.
+                        of if of.is_radius_of(&at.robot, cable) => contact
+                            .map_or(0.0, |contact| contact.wrap + u.dot(&contact.exit_offset_w()) / contact.radius),
                         CalibrationUnknown::Scale => {
                             let length = at.robot.cables[cable].straight_length(pose);
                             -(length - at.offsets[cable]) / (at.scale * self.scale_length)

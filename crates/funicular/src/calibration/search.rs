@@ -6,6 +6,7 @@ use super::spread::spread;
 use super::{Calibration, CalibrationFit, CalibrationUnknown, MeasuredRow, anchors_from_lengths, null_space};
 use crate::math::{DMat, DVec, Vec3};
 use crate::robot::Pose;
+use crate::statics::StaticModel;
 
 /// Arrivals at the best minimum that end the search: two if its χ² is one of noise.
 const ENOUGH_ARRIVALS: usize = 5;
@@ -17,7 +18,7 @@ const OF_NOISE: f64 = 3.0;
 /// Starts after which a search ends whose best χ² is this many times that of noise: then the readings are wrong, not the
 /// starts.
 const STARTS_OF_MISFIT: usize = 5;
-const MISFIT: f64 = 100.0;
+const FAR_FROM_NOISE: f64 = 100.0;
 
 /// Iterations of one start. Sound starts arrive within about 50; the best one goes on to its end.
 const ITERATIONS_OF_START: usize = 80;
@@ -76,7 +77,8 @@ pub fn search(
             _ => of.moved_start(frame, number),
         };
         done += 1;
-        let found = of.polished(of.fit_within(ITERATIONS_OF_START, &values, &poses, &frame.free), frame);
+        let found =
+            of.polished(of.fit_within(ITERATIONS_OF_START, &values, of.states(&values, &poses), &frame.free), frame);
         if !found.chi2.is_finite() {
             continue;
         }
@@ -94,7 +96,8 @@ pub fn search(
         let enough = |(best, arrivals): &(CalibrationFit, usize)| {
             *arrivals >= if best.chi2 <= noise { ENOUGH_OF_NOISE } else { ENOUGH_ARRIVALS }
         };
-        let is_misfit = minima.first().is_some_and(|(best, _)| best.chi2 > MISFIT * noise) && done >= STARTS_OF_MISFIT;
+        let is_misfit =
+            minima.first().is_some_and(|(best, _)| best.chi2 > FAR_FROM_NOISE * noise) && done >= STARTS_OF_MISFIT;
         if number > 0 && (minima.first().is_some_and(enough) || is_misfit) {
             break;
         }
@@ -103,7 +106,7 @@ pub fn search(
     let mut minima = minima.into_iter();
     let (mut best, arrivals) = minima.next()?;
     if !best.converged {
-        best = of.canonical(of.fit(&best.values, &best.poses, &frame.free), frame);
+        best = of.canonical(of.fit_on(&best, &best.values, &frame.free), frame);
     }
     frame.hold(&mut best.values, &of.start());
     let variance = (best.chi2 / of.degrees(frame).max(1) as f64).max(1.0);
@@ -123,7 +126,7 @@ impl Calibration {
 
     /// Number of data less that of the unknowns and the coordinates of all poses.
     fn degrees(&self, frame: &CalibrationFrame) -> usize {
-        let data: usize = self.rows.iter().map(MeasuredRow::data_count).sum();
+        let data = self.rows.iter().map(|row| self.data_count(row)).sum::<usize>() + self.prior_count();
         data.saturating_sub(frame.free_count() + self.rows.len() * self.row_unknown_count())
     }
 
@@ -168,39 +171,20 @@ impl Calibration {
         self.moved(pose, &step)
     }
 
-    /// Pose of one row with the unknowns held, from a start; with its χ².
+    /// Pose of one row with the unknowns held, from a start; with its χ². Elastic cables are straight and rigid for it.
     pub(super) fn pose_of_row(&self, values: &[f64], row: &MeasuredRow, start: &Pose) -> (Pose, f64) {
-        let at = self.robot_at(values);
-        let mut pose = *start;
-        let mut chi2 = self.residuals(&at, row, &pose).norm_squared();
-        let mut damping = 1e-3;
-        for _ in 0..60 {
-            let terms = self.row_terms(&at, row, &pose);
-            let mut normal = terms.by_pose.transpose() * &terms.by_pose;
-            let gradient = terms.by_pose.transpose() * &terms.residuals;
-            let largest = normal.diagonal().max().max(f64::MIN_POSITIVE);
-            for c in 0..normal.nrows() {
-                normal[(c, c)] += damping * normal[(c, c)].max(1e-9 * largest);
-            }
-            let Some(factors) = normal.cholesky() else { break };
-            let step = -factors.solve(&gradient);
-            let next = self.moved(&pose, &step);
-            let next_chi2 = self.residuals(&at, row, &next).norm_squared();
-            if next_chi2 < chi2 {
-                let is_end = chi2 - next_chi2 < 1e-9 * (1.0 + chi2);
-                (pose, chi2) = (next, next_chi2);
-                damping = (damping * 0.2_f64).max(1e-12);
-                if is_end {
-                    break;
-                }
-            } else {
-                damping *= 5.0;
-                if damping > 1e9 {
-                    break;
-                }
-            }
-        }
-        (pose, chi2)
+        let alone = Self {
+            robot: self.robot.clone(),
+            unknowns: self.unknowns.clone(),
+            rows: vec![MeasuredRow { tensions: Vec::new(), ..row.clone() }],
+            deviations: self.deviations,
+            model: StaticModel::Ideal,
+            scale_length: self.scale_length,
+            priors: Vec::new(),
+            is_point: self.is_point,
+        };
+        let found = alone.fit(values, &[*start], &DMat::zeros(values.len(), 0));
+        (found.poses[0], found.chi2)
     }
 
     /// Fit in which no row has a better pose elsewhere: rows that have take it, and everything is fitted again.

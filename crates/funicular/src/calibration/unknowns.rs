@@ -2,6 +2,9 @@
 
 use crate::robot::Robot;
 
+/// Least radius of a pulley in a search [m]: a step beyond zero has no meaning.
+const MIN_RADIUS: f64 = 1e-6;
+
 /// Unknown number of the robot or of its readings.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum CalibrationUnknown {
@@ -30,6 +33,13 @@ pub enum CalibrationUnknown {
     AxialStiffness,
     /// Factor of the mass of the platform.
     Mass,
+    /// Radius of the pulley that this cable, and every other one with a pulley of its name, runs over [m].
+    PulleyRadius {
+        /// Index of the first cable with it.
+        cable: usize,
+    },
+    /// Factor of the stiffness of all flexible supports.
+    SupportStiffness,
 }
 
 impl CalibrationUnknown {
@@ -37,7 +47,28 @@ impl CalibrationUnknown {
     pub fn cable(&self) -> Option<usize> {
         match self {
             Self::Anchor { cable, .. } | Self::Attachment { cable, .. } | Self::Offset { cable } => Some(*cable),
-            Self::Scale | Self::AxialStiffness | Self::Mass => None,
+            Self::Scale | Self::AxialStiffness | Self::Mass | Self::PulleyRadius { .. } | Self::SupportStiffness => {
+                None
+            }
+        }
+    }
+
+    /// Place of a factor of all cables, of the platform or of all supports among those of [`CalibratedRobot::factors`].
+    pub(super) fn factor(&self) -> Option<usize> {
+        match self {
+            Self::AxialStiffness => Some(0),
+            Self::Mass => Some(1),
+            Self::SupportStiffness => Some(2),
+            _ => None,
+        }
+    }
+
+    /// True for the radius of the pulley of this cable.
+    pub(super) fn is_radius_of(&self, robot: &Robot, cable: usize) -> bool {
+        let name = |cable: usize| robot.cables[cable].anchor.pulley.as_ref().map(|pulley| pulley.name.as_str());
+        match self {
+            Self::PulleyRadius { cable: first } => name(cable).is_some() && name(cable) == name(*first),
+            _ => false,
         }
     }
 }
@@ -51,8 +82,9 @@ pub struct CalibratedRobot {
     pub offsets: Vec<f64>,
     /// Metres of length per metre of reading.
     pub scale: f64,
-    /// Factors of the axial stiffness of all cables and of the mass of the platform, which the robot has already.
-    pub factors: [f64; 2],
+    /// Factors of the axial stiffness of all cables, of the mass of the platform and of the stiffness of all supports,
+    /// which the robot has already.
+    pub factors: [f64; 3],
 }
 
 impl CalibratedRobot {
@@ -65,6 +97,10 @@ impl CalibratedRobot {
             CalibrationUnknown::Scale => self.scale * scale_length,
             CalibrationUnknown::AxialStiffness => self.factors[0].ln() * scale_length,
             CalibrationUnknown::Mass => self.factors[1].ln() * scale_length,
+            CalibrationUnknown::SupportStiffness => self.factors[2].ln() * scale_length,
+            CalibrationUnknown::PulleyRadius { cable } => {
+                self.robot.cables[cable].anchor.pulley.as_ref().map_or(0.0, |pulley| pulley.radius)
+            }
         };
         unknowns.iter().map(value).collect()
     }
@@ -88,6 +124,22 @@ impl CalibratedRobot {
                     let factor = (*value / scale_length).exp();
                     self.robot.platform.mass *= factor / self.factors[1];
                     self.factors[1] = factor;
+                }
+                CalibrationUnknown::SupportStiffness => {
+                    let factor = (*value / scale_length).exp();
+                    for support in &mut self.robot.supports {
+                        support.stiffness_w *= factor / self.factors[2];
+                    }
+                    self.factors[2] = factor;
+                }
+                CalibrationUnknown::PulleyRadius { .. } => {
+                    let with_it: Vec<usize> =
+                        (0..self.robot.cables.len()).filter(|cable| of.is_radius_of(&self.robot, *cable)).collect();
+                    for cable in with_it {
+                        if let Some(pulley) = &mut self.robot.cables[cable].anchor.pulley {
+                            pulley.radius = value.max(MIN_RADIUS);
+                        }
+                    }
                 }
             }
         }

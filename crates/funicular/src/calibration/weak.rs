@@ -119,11 +119,9 @@ impl Calibration {
         let field = |anchor: &dyn Fn(usize) -> Vec3, offset: &dyn Fn(usize) -> f64, scale: f64| {
             DVec::from_fn(self.unknowns.len(), |k, _| match self.unknowns[k] {
                 CalibrationUnknown::Anchor { cable, axis } => anchor(cable)[axis],
-                CalibrationUnknown::Attachment { .. }
-                | CalibrationUnknown::AxialStiffness
-                | CalibrationUnknown::Mass => 0.0,
                 CalibrationUnknown::Offset { cable } => offset(cable),
                 CalibrationUnknown::Scale => scale,
+                _ => 0.0,
             })
         };
         let (still, none) = (|_: usize| Vec3::zeros(), |_: usize| 0.0);

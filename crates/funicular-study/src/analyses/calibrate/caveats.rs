@@ -1,6 +1,7 @@
 //! Warnings about a calibration: place, number, and what to do.
 
-use super::report::CalibrationReport;
+use super::reachable::none_left;
+use super::report::{CalibrationReport, MAX_PROPOSALS};
 use super::rows::{ReadingRow, Walk};
 use super::{Calibrated, in_mm};
 use crate::normal::NOISE_DEVIATIONS;
@@ -27,6 +28,8 @@ pub(super) fn warnings(of: &CalibrationReport, results: &Calibrated) -> Vec<Stri
     warnings.extend(stretch(of));
     warnings.extend(open_rows(of));
     warnings.extend(other_sign(of));
+    warnings.extend(none_left(results));
+    warnings.extend(not_reached(of, results));
     warnings
 }
 
@@ -171,6 +174,16 @@ fn open_rows(of: &CalibrationReport) -> Option<String> {
             rows.join(", ")
         )
     })
+}
+
+/// Warning of a wanted deviation that no number of candidates reaches.
+fn not_reached(of: &CalibrationReport, results: &Calibrated) -> Option<String> {
+    let wanted = of.request.wanted_std_m.filter(|_| results.poses_needed.is_none())?;
+    Some(format!(
+        "{MAX_PROPOSALS} of the candidates do not reach deviations of {}: offer poses that are farther apart or turned, \
+         or more accurate readings",
+        in_mm(wanted)
+    ))
 }
 
 /// Warning of an encoder whose readings fall while its cable pays out.

@@ -1,10 +1,17 @@
 //! Results of a calibration from its minima.
 
-use super::candidates::Candidates;
+use super::choice::all_chosen;
+use super::drawn::{anchors, linear_rows};
+use super::profiles::profiles;
+use super::reachable::{LeftOut, Reachable, reachable};
 use super::rows::{CableResidual, CalibratedValue, DistanceRow, MinimumRow, ProposalRow, ReadingRow, Walk, WeakRow};
-use super::statistics::{chi2_above, student_95};
+
 use super::{Calibrated, in_mm, words};
+use crate::Watch;
+use crate::analyses::candidate_poses::Candidates;
+use crate::analyses::profile::Profile;
 use crate::normal::NOISE_DEVIATIONS;
+use crate::quantiles::{chi2_above, student_95};
 use crate::request::{CalibrateRequest, RobotText};
 use crate::set_values;
 use crate::text::{counted, significant};
@@ -32,7 +39,7 @@ const MISFIT: f64 = 10.0;
 const UNDECIDED: f64 = 9.0;
 
 /// Largest number of proposed poses while a wanted deviation is looked for.
-const MAX_PROPOSALS: usize = 100;
+pub(super) const MAX_PROPOSALS: usize = 100;
 
 /// Minima, precision and what the results need beside them.
 pub(super) struct CalibrationReport<'a> {
@@ -46,7 +53,12 @@ pub(super) struct CalibrationReport<'a> {
     /// Factor of a deviation whose interval holds 95 %.
     quantile: f64,
     paths: Vec<(String, &'static str)>,
-    candidates: Vec<Pose>,
+    /// Candidates of a proposal.
+    poses: Vec<Pose>,
+    /// True for an unknown whose profile is wanted.
+    profiled: Vec<bool>,
+    /// True for an unknown whose deviation a proposal reduces.
+    proposed_for: Vec<bool>,
     source: &'a RobotText,
 }
 
@@ -70,6 +82,8 @@ impl<'a> CalibrationReport<'a> {
             None => ((degrees > 0).then_some(ratio), student_95(degrees)),
         };
         let middle = middle(&fit.poses);
+        let marks = |key, names: &[String]| all_chosen(key, names, &of.unknowns, &of.robot);
+        let proposed_for = marks("propose_for", &request.propose_for)?;
         Ok(Self {
             request,
             of,
@@ -77,7 +91,9 @@ impl<'a> CalibrationReport<'a> {
             factor,
             quantile: quantile.unwrap_or(f64::NAN),
             paths: of.unknowns.iter().map(|unknown| words::path(&of.robot, unknown)).collect(),
-            candidates: candidates.poses(&of.robot, &middle)?,
+            poses: candidates.poses(&of.robot, &middle)?,
+            profiled: marks("profile", &request.profile)?,
+            proposed_for: if request.propose_for.is_empty() { vec![true; of.unknowns.len()] } else { proposed_for },
             source: &request.robot,
             frame,
             precision,
@@ -93,19 +109,23 @@ impl<'a> CalibrationReport<'a> {
     }
 
     /// All results.
-    pub(super) fn results(&self) -> Result<Calibrated> {
+    ///
+    /// # Errors
+    /// Work that was stopped, or a robot file that cannot be written.
+    pub(super) fn results(&self, watch: &mut dyn Watch) -> Result<Calibrated> {
         let walk = self.walk();
         let is_parabola = walk.as_ref().is_none_or(WeakWalk::is_parabola);
         let is_one = !self.fits_otherwise();
         let is_determined =
             is_parabola && is_one && !self.is_misfit() && self.precision.lost.is_empty() && self.factor.is_some();
-        let values = self.values(is_parabola && is_one && !self.is_misfit());
+        let profiles = if self.is_misfit() { Vec::new() } else { profiles(self, &self.profiled, watch)? };
+        let values = self.values(is_parabola && is_one && !self.is_misfit(), profiles);
         let rows = self.rows();
         let weak = self.weak();
         let inner = self.frame.inner(&self.precision.covariance);
         let root = |covariance: &DMat| Some(self.factor? * covariance.trace().max(0.0).sqrt());
         let is_known = self.precision.lost.is_empty();
-        let (proposals, poses_needed) = self.proposals();
+        let (proposals, poses_needed, left_out) = self.proposals(watch)?;
         let residuals: Vec<f64> = rows.iter().flat_map(|row| row.residuals.iter().map(|of| of.residual_m)).collect();
         let squares: f64 = residuals.iter().map(|residual| residual * residual).sum();
         Ok(Calibrated {
@@ -115,10 +135,13 @@ impl<'a> CalibrationReport<'a> {
             is_determined,
             frame: words::frame(&self.of.robot, &self.frame),
             distances: self.distances(),
+            anchors: anchors(self, weak.first().and_then(|row| Some((row.direction.as_slice(), row.deviation_m?)))),
+            axes: self.of.axes(),
+            linear: linear_rows(self),
             weak_combinations: weak,
             minima: self.minima(),
             chi2: self.fit().chi2,
-            data: self.of.rows.iter().map(funicular::calibration::MeasuredRow::data_count).sum(),
+            data: self.of.rows.iter().map(|row| self.of.data_count(row)).sum(),
             degrees_of_freedom: self.precision.degrees,
             residual_rms_m: (squares / residuals.len().max(1) as f64).sqrt(),
             length_std_m: self.factor.map(|factor| factor * self.of.deviations.reading),
@@ -135,6 +158,7 @@ impl<'a> CalibrationReport<'a> {
             rows,
             walk: walk.map(|walk| walk_row(&walk)),
             proposals,
+            left_out,
             poses_needed,
         })
     }
@@ -148,6 +172,13 @@ impl<'a> CalibrationReport<'a> {
     /// Variance of the residuals over that of the data.
     fn variance(&self) -> f64 {
         self.factor.unwrap_or(1.0).max(MIN_FACTOR).powi(2)
+    }
+
+    /// Variance of the residuals over that of the data, and the factor of a deviation whose interval holds 95 %; `None` if
+    /// nothing tells them.
+    pub(super) fn noise(&self) -> Option<(f64, f64)> {
+        self.factor.filter(|factor| *factor > MIN_FACTOR && self.quantile.is_finite())?;
+        Some((self.variance(), self.quantile))
     }
 
     /// Rise of χ² of another minimum, in the variance of the residuals.
@@ -168,14 +199,15 @@ impl<'a> CalibrationReport<'a> {
         self.of.weak_walk(self.fit(), &self.frame, &self.precision, factor)
     }
 
-    fn values(&self, has_intervals: bool) -> Vec<CalibratedValue> {
+    fn values(&self, has_intervals: bool, mut profiles: Vec<Option<Profile>>) -> Vec<CalibratedValue> {
         let start = self.of.start();
         let deviations = self.precision.deviations();
         let inner = self.frame.inner(&self.precision.covariance);
         let lost: Vec<bool> = (0..start.len())
             .map(|k| self.precision.lost.iter().any(|direction| direction[k].abs() > LOST_PART))
             .collect();
-        let value = |k: usize| {
+        profiles.resize(start.len(), None);
+        let value = |(k, profile): (usize, Option<Profile>)| {
             let [value, unit] = self.of.meaning(k, self.fit().values[k]);
             let held = self.frame.holds(k);
             let known = |deviation: f64| self.factor.filter(|_| !lost[k]).map(|factor| factor * deviation * unit);
@@ -190,9 +222,12 @@ impl<'a> CalibrationReport<'a> {
                 deviation,
                 interval_95: reach.filter(|reach| reach.is_finite()).map(|reach| [value - reach, value + reach]),
                 inner_deviation: known(inner[(k, k)].max(0.0).sqrt()),
+                prior: self.of.prior_of(k).map(|(value, _)| value),
+                prior_deviation: self.of.prior_of(k).map(|(_, deviation)| deviation),
+                profile,
             }
         };
-        (0..start.len()).map(value).collect()
+        profiles.into_iter().enumerate().map(value).collect()
     }
 
     fn distances(&self) -> Vec<DistanceRow> {
@@ -277,17 +312,16 @@ impl<'a> CalibrationReport<'a> {
         self.found.others.iter().map(row).collect()
     }
 
-    /// Proposed poses, and the number of them that the wanted deviation needs.
-    fn proposals(&self) -> (Vec<ProposalRow>, Option<usize>) {
-        let Some(factor) = self.factor else { return (Vec::new(), None) };
-        if self.candidates.is_empty() {
-            return (Vec::new(), None);
-        }
-        let weights: Vec<f64> = self.of.unknowns.iter().map(|unknown| self.weight(unknown)).collect();
+    /// Proposed poses, the number of them that the wanted deviation needs, and the candidates that were left out.
+    fn proposals(&self, watch: &mut dyn Watch) -> Result<(Vec<ProposalRow>, Option<usize>, Option<LeftOut>)> {
+        let Some(factor) = self.factor.filter(|_| !self.poses.is_empty()) else { return Ok((Vec::new(), None, None)) };
+        let Reachable { candidates, rules, left_out } = reachable(self, &self.poses, watch)?;
+        let weights: Vec<f64> = self.proposed_for.iter().map(|chosen| if *chosen { 1.0 } else { 0.0 }).collect();
         let count = if self.request.wanted_std_m.is_some() { MAX_PROPOSALS } else { self.request.propose };
-        let found = proposals(self.of, self.fit(), &self.frame, &self.precision, &self.candidates, count, &weights);
+        let by = (count, self.request.propose_by);
+        let found = proposals(self.of, self.fit(), (&self.frame, &self.precision), &candidates, by, &weights);
         let row = |(n, of): (usize, &funicular::calibration::ProposedPose)| {
-            let pose = &self.candidates[of.candidate];
+            let pose = &candidates[of.candidate].pose;
             let chosen = (0..weights.len()).filter(|&k| weights[k] > 0.0);
             let largest = chosen.max_by(|a, b| of.deviations[*a].total_cmp(&of.deviations[*b])).unwrap_or(0);
             ProposalRow {
@@ -295,6 +329,7 @@ impl<'a> CalibrationReport<'a> {
                 position_m: pose.position_w.into(),
                 roll_pitch_yaw_deg: rotation::to_roll_pitch_yaw_deg(&pose.rot_wp),
                 readings_m: of.readings.clone(),
+                tension_rule: rules[of.candidate],
                 total_m: factor * of.total,
                 largest_m: factor * of.deviations[largest],
                 largest_of: self.paths[largest].0.clone(),
@@ -312,21 +347,7 @@ impl<'a> CalibrationReport<'a> {
             .wanted_std_m
             .and_then(|wanted| rows.iter().find(|row| row.largest_m <= wanted).map(|row| row.number));
         rows.truncate(needed.unwrap_or(0).max(self.request.propose));
-        (rows, needed)
-    }
-
-    /// Factor of the variance of an unknown in a proposal.
-    fn weight(&self, unknown: &CalibrationUnknown) -> f64 {
-        let name = match unknown {
-            CalibrationUnknown::Anchor { .. } => "anchors",
-            CalibrationUnknown::Attachment { .. } => "attachments",
-            CalibrationUnknown::Offset { .. } => "offsets",
-            CalibrationUnknown::Scale => "scale",
-            CalibrationUnknown::AxialStiffness => "axial-stiffness",
-            CalibrationUnknown::Mass => "mass",
-        };
-        let chosen = &self.request.propose_for;
-        if chosen.is_empty() || chosen.iter().any(|of| of == name) { 1.0 } else { 0.0 }
+        Ok((rows, needed, left_out))
     }
 
     /// Sentence on the fit.
@@ -388,11 +409,17 @@ impl<'a> CalibrationReport<'a> {
         format!("The values are known to {known}{weakest}")
     }
 
-    /// Robot file with anchors and attachments.
+    /// Robot file with anchors, attachments and radii.
     fn robot_file(&self) -> Result<String> {
         let mut assignments = Vec::new();
         for (k, unknown) in self.of.unknowns.iter().enumerate() {
-            if matches!(unknown, CalibrationUnknown::Anchor { .. } | CalibrationUnknown::Attachment { .. }) {
+            let is_in_file = matches!(
+                unknown,
+                CalibrationUnknown::Anchor { .. }
+                    | CalibrationUnknown::Attachment { .. }
+                    | CalibrationUnknown::PulleyRadius { .. }
+            );
+            if is_in_file {
                 let path = set_values::path(&self.paths[k].0).map_err(|error| anyhow!("{error}"))?;
                 assignments.push(path.with("⟪unknowns⟫", self.fit().values[k]));
             }

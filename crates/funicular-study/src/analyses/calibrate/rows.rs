@@ -1,8 +1,9 @@
 //! Rows of the results of a calibration, with their columns.
 
 use crate::analyses::fields;
+use crate::analyses::profile::Profile;
 use crate::columns::{Columns, column, parts};
-use crate::text::digits_for;
+use crate::text::{digits_for, significant};
 use serde::Serialize;
 
 /// Calibrated value.
@@ -24,20 +25,33 @@ pub struct CalibratedValue {
     /// Standard deviation with inner conditions, which no choice of the frame enlarges.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub inner_deviation: Option<f64>,
+    /// Value known beforehand.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub prior: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub prior_deviation: Option<f64>,
+    /// Profile of χ², if it was asked for: ends of the interval that holds the value with 95 %, and points.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub profile: Option<Profile>,
 }
 
 impl CalibratedValue {
-    fn digits(&self) -> usize {
+    /// Number of digits of the value, by its deviation.
+    pub fn digits(&self) -> usize {
         digits_for(self.value, self.deviation)
     }
 
     /// Columns of the values.
     pub fn columns() -> Columns<Self> {
-        let remark = |row: &Self| match (row.held, row.deviation) {
-            (true, _) => "held by the frame",
-            (false, None) => "not determined",
-            (false, Some(_)) => "",
+        let remark = |row: &Self| match (row.held, row.deviation, row.prior.zip(row.prior_deviation)) {
+            (true, ..) => "held by the frame".to_owned(),
+            (false, None, _) => "not determined".to_owned(),
+            (false, Some(_), Some((value, deviation))) => {
+                format!("prior {} ± {}", significant(value, 4), significant(deviation, 2))
+            }
+            (false, Some(_), None) => String::new(),
         };
+        let profile = |row: &Self| row.profile.as_ref().map_or([None; 2], |profile| [profile.from, profile.to]);
         let [low, high] = fields::interval_95(|row: &Self| row.interval_95, Self::digits, "the value with 95 %");
         Columns::new([
             column("path", "", "path of the number in the robot file, or its name", |row: &Self| row.path.clone())
@@ -52,7 +66,10 @@ impl CalibratedValue {
             high,
             column("inner_deviation", "", "standard deviation with inner conditions", |row: &Self| row.inner_deviation)
                 .significant("inner ±", "", 3),
-            column("remark", "", "what holds the value, or that nothing determines it", remark).plain(""),
+            column("remark", "", "what holds the value, or that nothing determines it; its prior", remark).plain(""),
+            column("prior", "", "value that was known beforehand", |row: &Self| row.prior),
+            column("prior_deviation", "", "its standard deviation", |row: &Self| row.prior_deviation),
+            parts("profile_95_{}", ["from", "to"], "", "end of the interval of the profile: {}", profile),
         ])
     }
 }
@@ -191,6 +208,9 @@ pub struct ProposalRow {
     pub roll_pitch_yaw_deg: [f64; 3],
     /// Readings at the pose with the calibrated values, one per cable.
     pub readings_m: Vec<f64>,
+    /// Rule of the tensions at the pose, if they are a matter of choice.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub tension_rule: Option<&'static str>,
     /// Root of the sum of the variances of the chosen values after this pose and those before it.
     pub total_m: f64,
     /// Largest deviation of a value then.
@@ -202,8 +222,8 @@ pub struct ProposalRow {
 }
 
 impl ProposalRow {
-    /// Columns of the proposed poses.
-    pub fn columns(turns: bool) -> Columns<Self> {
+    /// Columns of the proposed poses; with the rules of tensions if any has one.
+    pub fn columns(turns: bool, has_rules: bool) -> Columns<Self> {
         Columns::new([
             column("number", "1", "number of proposed poses up to this one", |row: &Self| row.number).plain("next"),
             parts("{}_m", fields::AXES, "m", "position of the platform origin, {}", |row: &Self| row.position_m)
@@ -222,6 +242,9 @@ impl ProposalRow {
             ),
             column("largest_of", "", "value with the largest deviation", |row: &Self| row.largest_of.clone())
                 .plain("of"),
+            column("tension_rule", "", "rule of the tensions", |row: &Self| row.tension_rule)
+                .plain("tensions")
+                .read_if(has_rules),
         ])
     }
 }

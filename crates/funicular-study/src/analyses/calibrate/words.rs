@@ -95,6 +95,11 @@ pub(super) fn path(robot: &Robot, of: &CalibrationUnknown) -> (String, &'static 
         CalibrationUnknown::Scale => ("scale".to_owned(), "1"),
         CalibrationUnknown::AxialStiffness => ("factor of the axial stiffness".to_owned(), "1"),
         CalibrationUnknown::Mass => ("factor of the mass".to_owned(), "1"),
+        CalibrationUnknown::PulleyRadius { cable: i } => {
+            let name = robot.cables[i].anchor.pulley.as_ref().map_or("", |pulley| pulley.name.as_str());
+            (format!("pulleys.{}.radius_m", funicular::robot::parameters::quoted_key(name)), "m")
+        }
+        CalibrationUnknown::SupportStiffness => ("factor of the support stiffness".to_owned(), "1"),
     }
 }
 

@@ -60,7 +60,7 @@ const EXCHANGED: f64 = 3.0;
 const AROUND: usize = 3;
 
 /// Quantile of the normal distribution for an interval of 95 %.
-const NORMAL_95: f64 = super::profile::LIMIT;
+const NORMAL_95: f64 = crate::analyses::profile::LIMIT;
 
 /// Fit with other modes.
 pub(crate) struct OtherFit {

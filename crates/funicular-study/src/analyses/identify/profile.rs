@@ -2,19 +2,10 @@
 
 use super::model::IdentifiedModel;
 use super::unknowns::Unknown;
+use crate::analyses::profile::{LIMIT, OpenEnd, Profile, ProfilePoint, ProfileSide};
 use crate::error::Cancelled;
 use anyhow::Result;
 use funicular::math::least_squares::{LeastSquaresEnding, Minimum, minimise};
-
-/// Root of the rise of χ² at the ends of an interval of 95 %: the quantile of the normal distribution, whose square
-/// 3.84 is the quantile of χ² with one degree of freedom.
-pub(crate) const LIMIT: f64 = 1.959_963_984_540_054;
-
-/// Maximum relative error of this root at an end: the interval is accurate to this fraction of its half width.
-const ACCURACY: f64 = 1e-3;
-
-/// Maximum number of fits on the way to one end; four are usual.
-const MAX_FITS: usize = 30;
 
 /// Number of fits that is expected per side, for the progress alone.
 pub(super) const USUAL_FITS: usize = 8;
@@ -25,74 +16,8 @@ const REACH: f64 = 30.0;
 /// Distance at which an end is searched at least, over the distance of the value in the file.
 const BEYOND_START: f64 = 1.5;
 
-/// Minimum and maximum factor by which the distance grows from one fit to the next before an end is enclosed.
-const MIN_GROWTH: f64 = 1.1;
-const MAX_GROWTH: f64 = 4.0;
-
-/// Minimum distance of the next fit from both sides of an interval that encloses an end, relative to its width.
-const MIN_PART: f64 = 0.05;
-
-/// Width of the interval that encloses an end, relative to its outer side, up to which χ² jumps over its limit there.
-const MIN_WIDTH: f64 = ACCURACY * ACCURACY;
-
 /// Maximum number of iterations of one fit, which starts beside its minimum.
 const MAX_ITERATIONS: usize = 60;
-
-/// Distances at which points of the curve are computed, relative to the distance of the end; the last one is beyond it.
-const FRACTIONS: [f64; 4] = [0.25, 0.5, 0.75, 1.25];
-
-/// Fall of χ² below the minimum, in units in which the limit of its rise is 3.84. A point this far below the minimum
-/// shows that the search missed it.
-const FALL: f64 = 1e-2;
-
-/// Point of a profile.
-#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
-pub struct ProfilePoint {
-    /// Value that is held.
-    pub value: f64,
-    /// Rise of χ² over its minimum, divided by the square of the factor of the deviations.
-    pub chi2_rise: f64,
-}
-
-/// Reason why a profile has no end on a side.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum OpenEnd {
-    /// χ² stays below its limit up to the bound of the value.
-    Bound,
-    /// χ² stays below its limit within the searched distance.
-    Flat,
-    /// The robot has no equilibrium beyond.
-    NoEquilibrium,
-}
-
-/// Profile of one value.
-#[derive(Debug, Clone, PartialEq, serde::Serialize)]
-pub struct Profile {
-    /// Lower end of the interval that holds the value with 95 %; absent if χ² does not reach its limit.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub from: Option<f64>,
-    /// Upper end.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub to: Option<f64>,
-    /// Reason why there is no lower end.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub open_below: Option<OpenEnd>,
-    /// Reason why there is no upper end.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub open_above: Option<OpenEnd>,
-    /// Points, ascending, with the minimum.
-    pub points: Vec<ProfilePoint>,
-    /// Fits that were made.
-    pub fits: usize,
-    /// True if a fit has a smaller χ² than the minimum: the search has missed it.
-    pub falls: bool,
-}
-
-impl Profile {
-    /// Rise of χ² at the ends of an interval of 95 %.
-    pub const RISE_95: f64 = LIMIT * LIMIT;
-}
 
 /// Fit with one value held.
 #[derive(Debug, Clone)]
@@ -142,25 +67,12 @@ impl Profiler<'_, '_> {
         }
         self.model.choose(choices);
 
-        let fits = &self.fits[first..];
-        let mut points: Vec<(f64, f64)> = fits.iter().filter_map(|fit| Some((fit.x[k], fit.rise?))).collect();
-        points.push((self.best.x[k], 0.0));
-        points.sort_by(|a, b| a.0.total_cmp(&b.0));
         let unknown: &Unknown = &self.model.unknowns[k];
-        let [from, to] = ends.map(|(end, _)| end.map(|x| unknown.value(x)));
-        let [open_below, open_above] = ends.map(|(_, open)| open);
-        Ok(Profile {
-            from,
-            to,
-            open_below,
-            open_above,
-            falls: points.iter().any(|(_, rise)| *rise < -FALL),
-            points: points
-                .into_iter()
-                .map(|(x, chi2_rise)| ProfilePoint { value: unknown.value(x), chi2_rise })
-                .collect(),
-            fits: fits.len(),
-        })
+        let fits = &self.fits[first..];
+        let at_minimum = ProfilePoint { value: unknown.value(self.best.x[k]), chi2_rise: 0.0 };
+        let point = |fit: &HeldFit| Some(ProfilePoint { value: unknown.value(fit.x[k]), chi2_rise: fit.rise? });
+        let points = fits.iter().filter_map(point).chain([at_minimum]).collect();
+        Ok(Profile::of(ends.map(|(end, open)| (end.map(|x| unknown.value(x)), open)), points, fits.len()))
     }
 }
 
@@ -181,60 +93,12 @@ impl Side<'_, '_, '_> {
         let (unknown, best) = (&self.profiler.model.unknowns[self.k], self.profiler.best.x[self.k]);
         let (low, high) = unknown.coordinate_bounds();
         let bound = if self.sign < 0.0 { best - low } else { high - best };
-        if bound <= 0.0 {
-            return Ok((None, Some(OpenEnd::Bound)));
-        }
         // A value without an end has run away from the file's value, which the profile has to come back to.
         let from_start = (best - unknown.coordinate(unknown.start)).abs();
         let reach = (REACH * step.max(unknown.spread())).max(BEYOND_START * from_start);
-
-        // The root of the rise is nearly proportional to the distance.
-        let (mut below, mut above) = ((0.0, 0.0), None::<(f64, f64)>);
-        let mut distance = (LIMIT * step).min(bound);
-        let mut end = None;
-        for _ in 0..MAX_FITS {
-            let root = self.rise(distance)?.map_or(f64::INFINITY, |rise| rise.max(0.0).sqrt());
-            if (root / LIMIT - 1.0).abs() <= ACCURACY {
-                end = Some(distance);
-                break;
-            }
-            if root < LIMIT {
-                below = (distance, root);
-                if distance >= bound || distance >= reach {
-                    break;
-                }
-            } else {
-                above = Some((distance, root));
-            }
-            distance = match above {
-                None => (distance * (LIMIT / root).clamp(MIN_GROWTH, MAX_GROWTH)).min(bound).min(reach),
-                Some((far, root)) if root.is_finite() => {
-                    let part = (LIMIT - below.1) / (root - below.1);
-                    below.0 + part.clamp(MIN_PART, 1.0 - MIN_PART) * (far - below.0)
-                }
-                Some((far, _)) => 0.5 * (below.0 + far),
-            };
-            if above.is_some_and(|(far, _)| far - below.0 <= MIN_WIDTH * far) {
-                break;
-            }
-        }
-        let (end, open) = match (end, above) {
-            (Some(end), _) => (end, None),
-            // χ² jumps over its limit, as where a measured frequency changes its mode.
-            (None, Some((far, root))) if root.is_finite() => (0.5 * (below.0 + far), None),
-            (None, Some(_)) => (below.0, Some(OpenEnd::NoEquilibrium)),
-            (None, None) if below.0 >= bound => (below.0, Some(OpenEnd::Bound)),
-            (None, None) => (below.0, Some(OpenEnd::Flat)),
-        };
-
-        // The curve between, and beyond.
-        for fraction in FRACTIONS {
-            let at = fraction * end;
-            if at < bound && at > 0.0 && (fraction < 1.0 || open.is_none()) {
-                self.rise(at)?;
-            }
-        }
-        Ok((open.is_none().then_some(best + self.sign * end), open))
+        let side = ProfileSide { limit: LIMIT, step, bound, reach };
+        let (distance, open) = side.end(&mut |distance| self.rise(distance))?;
+        Ok((distance.map(|distance| best + self.sign * distance), open))
     }
 
     /// Rise of χ² if the coordinate is held at a distance; `None` if the robot has no equilibrium there.

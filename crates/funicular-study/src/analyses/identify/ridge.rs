@@ -2,7 +2,8 @@
 //! determine poorly.
 
 use super::model::IdentifiedModel;
-use super::profile::{LIMIT, Profile, Profiler, USUAL_FITS};
+use super::profile::{Profiler, USUAL_FITS};
+use crate::analyses::profile::{LIMIT, Profile};
 use anyhow::Result;
 use funicular::math::least_squares::Minimum;
 

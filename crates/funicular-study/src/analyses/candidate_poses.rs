@@ -1,8 +1,8 @@
-//! Candidates of a proposal: a grid, or a list of poses.
+//! Candidates of a proposal of `calibrate` or `identify`: a grid, or a list of poses.
 
 use crate::at_rest::check_pose;
 use crate::names::suggestion;
-use crate::request::CalibrateRequest;
+use crate::request::Axis;
 use anyhow::{Result, anyhow, bail};
 use funicular::robot::{Pose, Robot};
 
@@ -13,7 +13,7 @@ const AXES: [&str; 6] = ["x", "y", "z", "roll", "pitch", "yaw"];
 const MAX_CANDIDATES: usize = 100_000;
 
 /// Candidates before the axes that are not given are known.
-pub(super) enum Candidates {
+pub(crate) enum Candidates {
     /// None were asked for.
     None,
     /// Poses as they are.
@@ -22,18 +22,23 @@ pub(super) enum Candidates {
     Grid([Vec<f64>; 6]),
 }
 
-/// Candidates that a request wants.
+/// Candidates that a request wants, whose options `needs` say that there is a proposal.
 ///
 /// # Errors
 /// A proposal without candidates, an axis that does not exist or is there twice, or a pose that the platform cannot have.
-pub(super) fn wanted(request: &CalibrateRequest, robot: &Robot) -> Result<Candidates> {
-    if request.propose == 0 && request.wanted_std_m.is_none() {
-        if !request.grid.is_empty() || request.poses.is_some() {
-            bail!("candidates need a number of poses: give ⟪propose⟫ or ⟪wanted_std_m⟫");
+pub(crate) fn wanted(
+    (is_wanted, needs): (bool, &str),
+    given_grid: &[Axis],
+    given_poses: Option<&Vec<[f64; 6]>>,
+    robot: &Robot,
+) -> Result<Candidates> {
+    if !is_wanted {
+        if !given_grid.is_empty() || given_poses.is_some() {
+            bail!("candidates need a number of poses: give {needs}");
         }
         return Ok(Candidates::None);
     }
-    match (&request.poses, request.grid.is_empty()) {
+    match (given_poses, given_grid.is_empty()) {
         (Some(_), false) => bail!("⟪poses⟫ and ⟪grid⟫ are both given: leave out one of them"),
         (None, true) => bail!("a proposal needs candidates: give their ⟪grid⟫ or a list of ⟪poses⟫"),
         (Some(poses), true) => {
@@ -42,14 +47,14 @@ pub(super) fn wanted(request: &CalibrateRequest, robot: &Robot) -> Result<Candid
             poses.iter().try_for_each(|pose| check_pose(robot, pose))?;
             Ok(Candidates::Poses(poses))
         }
-        (None, false) => grid(request),
+        (None, false) => grid(given_grid),
     }
 }
 
-fn grid(request: &CalibrateRequest) -> Result<Candidates> {
+fn grid(given: &[Axis]) -> Result<Candidates> {
     let mut values: [Vec<f64>; 6] = Default::default();
     let known = AXES.map(str::to_owned);
-    for axis in &request.grid {
+    for axis in given {
         let name = axis.name();
         let place = AXES
             .iter()
@@ -76,7 +81,7 @@ impl Candidates {
     ///
     /// # Errors
     /// A pose that the platform cannot have.
-    pub(super) fn poses(&self, robot: &Robot, middle: &Pose) -> Result<Vec<Pose>> {
+    pub(crate) fn poses(&self, robot: &Robot, middle: &Pose) -> Result<Vec<Pose>> {
         let values = match self {
             Self::None => return Ok(Vec::new()),
             Self::Poses(poses) => return Ok(poses.clone()),

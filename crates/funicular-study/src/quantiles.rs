@@ -13,7 +13,7 @@ const MANY: usize = 10_000;
 ///
 /// # References
 /// M. Abramowitz, I. A. Stegun, Handbook of Mathematical Functions, 26.7.3 and 26.7.4.
-pub(super) fn student_95(degrees: usize) -> Option<f64> {
+pub(crate) fn student_95(degrees: usize) -> Option<f64> {
     match degrees {
         0 => None,
         degrees if degrees >= MANY => Some(normal_quantile(0.975)),
@@ -47,7 +47,7 @@ fn within(t: f64, degrees: usize) -> f64 {
 ///
 /// # References
 /// E. B. Wilson, M. M. Hilferty, The distribution of chi-square, PNAS 17 (1931) 684.
-pub(super) fn chi2_above(p: f64, degrees: usize) -> f64 {
+pub(crate) fn chi2_above(p: f64, degrees: usize) -> f64 {
     match degrees {
         1 => normal_quantile(0.5 * p).powi(2),
         2 => -2.0 * p.ln(),

@@ -1,0 +1,97 @@
+//! What figures and pages draw of a calibration: anchors with their covariance, and the rows as linear equations, with
+//! which a page fits again without some of them.
+
+use super::report::CalibrationReport;
+use funicular::calibration::CalibrationUnknown;
+use funicular::math::DMat;
+use serde::Serialize;
+
+/// Anchor after a calibration.
+#[derive(Serialize)]
+pub struct AnchorRow {
+    pub cable: String,
+    /// Point of the robot file.
+    pub start_m: [f64; 3],
+    pub position_m: [f64; 3],
+    /// Places of its coordinates among the values; none for a coordinate that is known.
+    #[serde(skip)]
+    pub places: [Option<usize>; 3],
+    /// Covariance of the coordinates with inner conditions; zero along a known coordinate, absent without deviations.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub covariance_m2: Option<[[f64; 3]; 3]>,
+    /// One deviation along the weakest combination.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub weakest_m: Option<[f64; 3]>,
+}
+
+/// Rows as linear equations about the fit, for fits without some of them (96j).
+#[derive(Serialize)]
+pub struct LinearRows {
+    /// Changes of the values along the free directions, one list per value.
+    pub free: Vec<Vec<f64>>,
+    /// The same with inner conditions.
+    pub inner: Vec<Vec<f64>>,
+    /// Information of all rows and priors.
+    pub information: Vec<Vec<f64>>,
+    /// Net rows of each row, with their residuals.
+    pub rows: Vec<NetRows>,
+    /// Factors that turn changes of the values into their units.
+    pub units: Vec<f64>,
+    pub chi2: f64,
+    pub degrees_of_freedom: usize,
+    /// Factor of the deviations if it does not come from the residuals.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub factor: Option<f64>,
+}
+
+/// What one row leaves for the values.
+#[derive(Serialize)]
+pub struct NetRows {
+    pub by_free: Vec<Vec<f64>>,
+    pub residuals: Vec<f64>,
+}
+
+fn lists(matrix: &DMat) -> Vec<Vec<f64>> {
+    matrix.row_iter().map(|row| row.iter().copied().collect()).collect()
+}
+
+/// Anchors of a report; `weakest` is the weakest combination with its deviation.
+pub(super) fn anchors(of: &CalibrationReport, weakest: Option<(&[f64], f64)>) -> Vec<AnchorRow> {
+    let robot = of.of.robot_at(&of.found.best.values).robot;
+    let inner = of.frame.inner(&of.precision.covariance);
+    let scale = of.factor.filter(|_| of.precision.lost.is_empty()).map(|factor| factor * factor);
+    let row = |(i, cable): (usize, &funicular::robot::Cable)| {
+        let places = [0, 1, 2].map(|axis| of.of.position_of(&CalibrationUnknown::Anchor { cable: i, axis }));
+        let entry = |a: Option<usize>, b: Option<usize>| a.zip(b).map_or(0.0, |(a, b)| inner[(a, b)]);
+        AnchorRow {
+            cable: cable.name.clone(),
+            start_m: of.of.robot.cables[i].anchor.point_w.into(),
+            position_m: cable.anchor.point_w.into(),
+            places,
+            covariance_m2: scale.map(|scale| places.map(|a| places.map(|b| scale * entry(a, b)))),
+            weakest_m: weakest
+                .map(|(direction, deviation)| places.map(|place| place.map_or(0.0, |k| deviation * direction[k]))),
+        }
+    };
+    robot.cables.iter().enumerate().map(row).collect()
+}
+
+/// Rows of a report as linear equations; `None` where a combination is lost.
+pub(super) fn linear_rows(of: &CalibrationReport) -> Option<LinearRows> {
+    if !of.precision.lost.is_empty() {
+        return None;
+    }
+    let free = of.frame.free_directions();
+    let rows = of.precision.net_rows();
+    let values = &of.found.best.values;
+    Some(LinearRows {
+        free: lists(free),
+        inner: lists(&(of.frame.inner_projection() * free)),
+        information: lists(&of.precision.information),
+        rows: rows.map(|(net, residuals)| NetRows { by_free: lists(net), residuals: residuals.to_vec() }).collect(),
+        units: values.iter().enumerate().map(|(k, value)| of.of.meaning(k, *value)[1]).collect(),
+        chi2: of.found.best.chi2,
+        degrees_of_freedom: of.precision.degrees,
+        factor: of.request.length_std_m.and(of.factor),
+    })
+}

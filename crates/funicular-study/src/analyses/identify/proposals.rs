@@ -1,0 +1,282 @@
+//! What to measure next: poses and kinds of measurements that reduce the deviations of the values most (96k).
+
+use super::model::IdentifiedModel;
+use super::unknowns::Unknown;
+use crate::Watch;
+use crate::analyses::fields;
+use crate::at_rest;
+use crate::columns::{Columns, column, parts};
+use crate::error::Cancelled;
+use crate::measurements::MeasuredFrequency;
+use crate::names::suggestion;
+use crate::request::{self, Experiment, IdentifyRequest, State};
+use crate::text::significant;
+use anyhow::{Result, bail};
+use funicular::math::chosen_rows::{ChosenRows, choose_rows};
+use funicular::math::least_squares::{LeastSquaresProblem, Minimum, precision};
+use funicular::math::{DMat, rotation};
+use funicular::robot::Pose;
+use serde::Serialize;
+use std::cell::RefCell;
+
+/// Maximum number of candidates: each is computed with its derivatives, which takes about as long as one step of the fit.
+const MAX_CANDIDATES: usize = 2000;
+
+/// Largest number of proposed measurements while a wanted deviation is looked for.
+const MAX_PROPOSALS: usize = 100;
+
+/// Frequency with which the search of a list of modes begins [Hz]; it goes on until the list is long enough.
+const FIRST_HZ: f64 = 1.0;
+
+/// Singular value of a direction, relative to the largest one, up to which the measurements do not see it.
+const UNSEEN: f64 = 1e-6;
+
+/// Kinds of measurements.
+const KINDS: [&str; 4] = ["frequencies", "tensions", "lengths", "pose"];
+
+/// Measurement to make next.
+#[derive(Serialize)]
+pub struct ProposedMeasurement {
+    /// Number of proposed measurements up to this one.
+    pub number: usize,
+    pub position_m: [f64; 3],
+    pub roll_pitch_yaw_deg: [f64; 3],
+    /// What is measured there: `frequencies`, `tensions`, `lengths` or `pose`.
+    pub measured: String,
+    /// Natural frequencies of the identified robot there, if they are measured.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub frequency_hz: Vec<f64>,
+    /// Standard deviations of all values after this measurement and those before it, in their order.
+    pub deviations: Vec<f64>,
+    /// Largest of these relative to its value, of the chosen positive values.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub largest_percent: Option<f64>,
+    /// Value that has it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub largest_of: Option<String>,
+}
+
+impl ProposedMeasurement {
+    /// Columns of the proposed measurements.
+    pub fn columns() -> Columns<Self> {
+        Columns::new([
+            column("number", "1", "number of proposed measurements up to this one", |row: &Self| row.number)
+                .plain("next"),
+            parts("{}_m", fields::AXES, "m", "position of the platform origin, {}", |row: &Self| row.position_m)
+                .components("position", "m", 4),
+            parts("{}_deg", ["roll", "pitch", "yaw"], "deg", "{} of the platform", |row: &Self| row.roll_pitch_yaw_deg)
+                .components("roll, pitch, yaw", "°", 3),
+            column("measured", "", "what is measured there", |row: &Self| row.measured.clone()).plain("measured"),
+            column("largest_percent", "%", "largest relative deviation of a chosen value then", |row: &Self| {
+                row.largest_percent
+            })
+            .significant("largest ±", "%", 3),
+            column("largest_of", "", "value with the largest relative deviation", |row: &Self| row.largest_of.clone())
+                .plain("of"),
+        ])
+    }
+}
+
+/// Candidate: what is measured at a pose.
+struct Candidate {
+    pose: Pose,
+    kind: &'static str,
+    frequency_hz: Vec<f64>,
+    /// Derivatives of its residuals; `None` if the robot cannot be measured there.
+    rows: Option<DMat>,
+}
+
+/// Checks the options of a proposal.
+///
+/// # Errors
+/// A kind that does not exist, or a deviation that is not positive.
+pub(super) fn check(request: &IdentifyRequest) -> Result<()> {
+    request::check("wanted_percent", request.wanted_percent, crate::values::positive)?;
+    let known = KINDS.map(str::to_owned);
+    if let Some(unknown) = request.propose_measuring.iter().find(|kind| !known.contains(kind)) {
+        bail!("⟪propose_measuring⟫: there is no `{unknown}`{}", suggestion(unknown, &known));
+    }
+    Ok(())
+}
+
+/// True if a proposal is wanted.
+pub(super) fn is_wanted(request: &IdentifyRequest) -> bool {
+    request.propose > 0 || request.wanted_percent.is_some()
+}
+
+/// Proposed measurements, and the number of them that reaches the wanted deviation. `chosen` marks the values whose
+/// deviations count.
+///
+/// # Errors
+/// Too many candidates, or work that was stopped.
+pub(super) fn proposals(
+    model: &IdentifiedModel<'_>,
+    request: &IdentifyRequest,
+    (best, factor): (&Minimum, f64),
+    poses: &[Pose],
+    chosen: &[bool],
+    watch: &RefCell<&mut dyn Watch>,
+) -> Result<(Vec<ProposedMeasurement>, Option<usize>)> {
+    let kinds: Vec<&'static str> =
+        KINDS.into_iter().filter(|kind| request.propose_measuring.iter().any(|wanted| wanted == kind)).collect();
+    let total = poses.len() * kinds.len();
+    if total > MAX_CANDIDATES {
+        bail!("⟪grid⟫: {total} measurements are candidates: give at most {MAX_CANDIDATES} poses times kinds");
+    }
+    let mut candidates = Vec::with_capacity(total);
+    for (pose, kind) in poses.iter().flat_map(|pose| kinds.iter().map(move |kind| (pose, *kind))) {
+        watch.borrow_mut().progress(candidates.len(), total, "candidates");
+        if watch.borrow().is_cancelled() {
+            return Err(Cancelled.into());
+        }
+        candidates.push(candidate(model, request, &best.x, pose, kind));
+    }
+
+    let (covariance, weight) = covariance(model, best, chosen);
+    let count = if request.wanted_percent.is_some() { MAX_PROPOSALS } else { request.propose };
+    let rows: Vec<Option<DMat>> = candidates.iter().map(|candidate| candidate.rows.clone()).collect();
+    let found = choose_rows(&covariance, &weight, &rows, count, request.propose_by);
+    let mut found: Vec<ProposedMeasurement> = found
+        .iter()
+        .enumerate()
+        .map(|(n, choice)| proposed(model, (best, factor), n + 1, &candidates[choice.candidate], choice, chosen))
+        .collect();
+    let needed = request.wanted_percent.and_then(|wanted| {
+        let reaches = |row: &&ProposedMeasurement| row.largest_percent.is_some_and(|largest| largest <= wanted);
+        found.iter().find(reaches).map(|row| row.number)
+    });
+    found.truncate(needed.unwrap_or(0).max(request.propose));
+    Ok((found, needed))
+}
+
+/// Sentence on a wanted deviation that no number of measurements reaches.
+pub(super) fn not_reached(wanted_percent: f64) -> String {
+    format!(
+        "{MAX_PROPOSALS} of the candidates do not reach deviations of {} %: offer other poses or kinds of measurements, \
+         more accurate ones, or fit fewer values",
+        significant(wanted_percent, 3)
+    )
+}
+
+/// Covariance of the coordinates, with one usual error along what the measurements do not see, and the weights of the
+/// chosen ones.
+fn covariance(model: &IdentifiedModel<'_>, best: &Minimum, chosen: &[bool]) -> (DMat, DMat) {
+    let scales: Vec<f64> = model.unknowns.iter().map(Unknown::spread).collect();
+    let known = precision(&best.jacobian, &scales);
+    let mut covariance = known.covariance;
+    let floor = UNSEEN * known.directions.first().map_or(0.0, |(value, _)| *value);
+    for (_, direction) in known.directions.iter().filter(|(value, _)| *value <= floor) {
+        covariance +=
+            DMat::from_fn(scales.len(), scales.len(), |i, j| direction[i] * direction[j] * scales[i] * scales[j]);
+    }
+    let weight =
+        DMat::from_fn(scales.len(), scales.len(), |i, j| if i == j && chosen[i] { scales[i].powi(-2) } else { 0.0 });
+    (covariance, weight)
+}
+
+/// Candidate with its derivatives at the identified values.
+fn candidate(
+    model: &IdentifiedModel<'_>,
+    request: &IdentifyRequest,
+    x: &[f64],
+    pose: &Pose,
+    kind: &'static str,
+) -> Candidate {
+    let found = experiment(model, request, x, pose, kind).and_then(|experiment| {
+        let frequency_hz: Vec<f64> = experiment.frequencies.iter().map(|of| of.frequency_hz).collect();
+        let of_candidate = IdentifyRequest { experiments: vec![experiment], ..request.clone() };
+        let is_cancelled = || false;
+        let mut alone = IdentifiedModel::new(model.parameters, model.unknowns, &of_candidate, &is_cancelled).ok()?;
+        let (_, jacobian) = alone.linearised(x)?;
+        let measured = jacobian.nrows() - alone.prior_count();
+        Some((frequency_hz, jacobian.rows(0, measured).into_owned()))
+    });
+    let (frequency_hz, rows) = found.map_or_else(|| (Vec::new(), None), |(hz, rows)| (hz, Some(rows)));
+    Candidate { pose: *pose, kind, frequency_hz, rows }
+}
+
+/// Experiment of a candidate, whose measured values are those of the identified robot; `None` without an equilibrium.
+fn experiment(
+    model: &IdentifiedModel<'_>,
+    request: &IdentifyRequest,
+    x: &[f64],
+    pose: &Pose,
+    kind: &str,
+) -> Option<Experiment> {
+    let first = request.experiments.first()?;
+    let given = request::Pose::from(pose);
+    let state = State {
+        lengths_m: None,
+        pose: Some(given),
+        hold_lengths_of_pose: first.state.hold_lengths_of_pose || kind == "pose",
+        ..first.state.clone()
+    };
+    let mut experiment = Experiment {
+        cables: first.cables.clone(),
+        position_std_m: first.position_std_m,
+        rotation_std_deg: first.rotation_std_deg,
+        tension_std_n: first.tension_std_n,
+        length_std_m: first.length_std_m,
+        state,
+        ..Experiment::default()
+    };
+    match kind {
+        "frequencies" => {
+            let numbered = |(k, frequency_hz): (usize, f64)| MeasuredFrequency {
+                frequency_hz,
+                label: Some((k + 1).to_string()),
+                ..MeasuredFrequency::default()
+            };
+            experiment.frequencies = (0..request.propose_modes).map(|k| numbered((k, FIRST_HZ))).collect();
+            let of_list = IdentifyRequest { experiments: vec![experiment.clone()], ..request.clone() };
+            let is_cancelled = || false;
+            let mut alone = IdentifiedModel::new(model.parameters, model.unknowns, &of_list, &is_cancelled).ok()?;
+            let predicted = alone.predict(x, None).ok()?;
+            experiment.frequencies = predicted.values.iter().map(|value| value.re).enumerate().map(numbered).collect();
+        }
+        "pose" => experiment.measured_pose = Some(given),
+        _ => {
+            let rest = at_rest::equilibrium(model.robot(x).ok()?, &request.robot, &experiment.state, &request.tensions);
+            let cables = rest.ok()?.equilibrium.cables;
+            if kind == "tensions" {
+                experiment.measured_tensions_n = Some(cables.iter().map(|cable| cable.tension_platform).collect());
+            } else {
+                experiment.measured_lengths_m = Some(cables.iter().map(|cable| cable.unstrained_length).collect());
+            }
+        }
+    }
+    Some(experiment)
+}
+
+fn proposed(
+    model: &IdentifiedModel<'_>,
+    (best, factor): (&Minimum, f64),
+    number: usize,
+    candidate: &Candidate,
+    choice: &ChosenRows,
+    chosen: &[bool],
+) -> ProposedMeasurement {
+    let values = model.values(&best.x);
+    let coordinate: Vec<f64> =
+        choice.covariance.diagonal().iter().map(|variance| factor * variance.max(0.0).sqrt()).collect();
+    let deviations: Vec<f64> = model
+        .unknowns
+        .iter()
+        .zip(&values)
+        .zip(&coordinate)
+        .map(|((unknown, value), deviation)| unknown.rate(*value) * deviation)
+        .collect();
+    let largest = (0..values.len())
+        .filter(|&k| chosen[k] && model.unknowns[k].is_log)
+        .max_by(|a, b| coordinate[*a].total_cmp(&coordinate[*b]));
+    ProposedMeasurement {
+        number,
+        position_m: candidate.pose.position_w.into(),
+        roll_pitch_yaw_deg: rotation::to_roll_pitch_yaw_deg(&candidate.pose.rot_wp),
+        measured: candidate.kind.to_owned(),
+        frequency_hz: candidate.frequency_hz.clone(),
+        deviations,
+        largest_percent: largest.map(|k| 100.0 * coordinate[k]),
+        largest_of: largest.map(|k| model.unknowns[k].path.clone()),
+    }
+}

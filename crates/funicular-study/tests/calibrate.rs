@@ -1,0 +1,166 @@
+//! Calibration through a request: profiles, priors, proposals, and whether intervals hold the truth.
+
+use funicular_study::analyses::calibrate::Calibrated;
+use funicular_study::{Request, Results, Silent, run};
+use serde_json::{Map, Value, json};
+
+/// Anchors of a planar robot [m].
+const ANCHORS: [[f64; 2]; 4] = [[0.0, 0.0], [4.0, 0.0], [3.9, 3.0], [-0.1, 2.9]];
+
+/// Positions at which it is read [m].
+const POSITIONS: [[f64; 2]; 7] = [[1.2, 1.0], [2.7, 0.9], [2.8, 2.1], [1.1, 2.0], [2.0, 0.6], [3.1, 1.5], [0.8, 1.5]];
+
+/// Robot file with the anchors.
+fn file() -> String {
+    let cables = ANCHORS.iter().enumerate().map(|(i, [x, y])| {
+        format!("[[cables]]\nname = \"{}\"\nmaterial = \"rope\"\nanchor_m = [{x}, {y}, 0.0]\n", i + 1)
+    });
+    format!(
+        "name = \"plotter\"\n[platform]\nmass_kg = 1\ninertia_kg_m2 = [1, 1, 1]\nmotion = \"planar-xy\"\n\
+         [materials.rope]\naxial_stiffness_n = 1e7\nmass_kg_per_m = 0.0\n{}",
+        cables.map(|cable| cable + "attachment_m = [0, 0, 0]\n").collect::<String>()
+    )
+}
+
+/// Random numbers of a fixed seed.
+struct Draws(u64);
+
+impl Draws {
+    fn uniform(&mut self) -> f64 {
+        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (self.0 >> 11) as f64 / (1_u64 << 53) as f64
+    }
+
+    /// Box and Muller.
+    fn normal(&mut self) -> f64 {
+        (-2.0 * (1.0 - self.uniform()).ln()).sqrt() * (std::f64::consts::TAU * self.uniform()).cos()
+    }
+}
+
+/// Readings at the positions with noise [m].
+fn readings(deviation: f64, draws: &mut Draws) -> Value {
+    let column = |[x, y]: [f64; 2], draws: &mut Draws| -> Vec<f64> {
+        POSITIONS.iter().map(|[px, py]| (px - x).hypot(py - y) + deviation * draws.normal()).collect()
+    };
+    let columns =
+        ANCHORS.iter().enumerate().map(|(i, anchor)| (format!("length_{}_m", i + 1), json!(column(*anchor, draws))));
+    Value::Object(columns.collect::<Map<_, _>>())
+}
+
+/// Calibration of the robot from readings, with further keys.
+fn calibrated(readings: &Value, more: &Value) -> Calibrated {
+    let mut request = json!({ "command": "calibrate", "robot": { "text": file() }, "readings": readings });
+    request.as_object_mut().unwrap().extend(more.as_object().unwrap().clone());
+    match run(&Request::from_json(&request.to_string()).unwrap(), &mut Silent).unwrap() {
+        Results::Calibrate(found) => *found,
+        _ => panic!("calibrate was requested"),
+    }
+}
+
+/// Truth of a value by its path.
+fn truth(path: &str) -> f64 {
+    let keys: Vec<&str> = path.split('.').collect();
+    ANCHORS[keys[1].parse::<usize>().unwrap() - 1][usize::from(keys[3] == "y")]
+}
+
+#[test]
+fn profiles_are_the_intervals_of_the_deviations_where_chi_squared_is_a_parabola() {
+    // With noise of 10 µm everything is linear: the ends differ by their accuracy of 0.1 % and the curvature.
+    let readings = readings(1e-5, &mut Draws(3));
+    for (more, factor) in [(json!({ "length_std_m": 1e-5 }), 1.0), (json!({}), 1.0)] {
+        let mut more = more;
+        more["profile"] = json!(["anchors"]);
+        let found = calibrated(&readings, &more);
+        let profiled: Vec<_> = found.values.iter().filter(|row| row.profile.is_some()).collect();
+        assert_eq!(profiled.len(), 5, "the frame holds three of eight coordinates");
+        for row in profiled {
+            let (profile, [from, to]) = (row.profile.as_ref().unwrap(), row.interval_95.unwrap());
+            let half = factor * 0.5 * (to - from);
+            assert!((profile.from.unwrap() - from).abs() < 3e-3 * half, "{}: {:?} {from}", row.path, profile.from);
+            assert!((profile.to.unwrap() - to).abs() < 3e-3 * half, "{}: {:?} {to}", row.path, profile.to);
+            assert!(!profile.falls && profile.points.len() > 6);
+        }
+    }
+}
+
+#[test]
+fn profiles_hold_the_truth_where_chi_squared_is_curved() {
+    // Noise of 2 cm leaves up to 20 cm: the linear intervals are not symmetric any more.
+    let mut draws = Draws(17);
+    let (mut held, mut count) = (0, 0);
+    for _ in 0..60 {
+        let readings = readings(0.02, &mut draws);
+        let found = calibrated(&readings, &json!({ "length_std_m": 0.02, "profile": ["anchors"] }));
+        for row in found.values.iter().filter(|row| !row.held) {
+            // Another frame than the truth's would compare other numbers: the second anchor is above the first.
+            let profile = row.profile.as_ref().unwrap();
+            let is_within = profile.from.is_none_or(|from| from <= truth(&row.path))
+                && profile.to.is_none_or(|to| truth(&row.path) <= to);
+            held += usize::from(is_within);
+            count += 1;
+        }
+    }
+    let share = held as f64 / count as f64;
+    // 300 intervals of correlated values: 95 % ± 3 deviations.
+    assert!((0.90..=0.985).contains(&share), "{held} of {count}");
+}
+
+#[test]
+fn profiles_are_named_by_kinds_and_paths_and_other_names_are_refused() {
+    let readings = readings(1e-3, &mut Draws(5));
+    let found = calibrated(&readings, &json!({ "profile": ["cables.*.anchor_m.y"] }));
+    let profiled: Vec<&str> =
+        found.values.iter().filter(|row| row.profile.is_some()).map(|row| row.path.as_str()).collect();
+    assert_eq!(profiled, ["cables.3.anchor_m.y", "cables.4.anchor_m.y"]);
+
+    let request = json!({
+        "command": "calibrate", "robot": { "text": file() }, "readings": readings, "profile": ["cables.9.anchor_m"],
+    });
+    let refused = run(&Request::from_json(&request.to_string()).unwrap(), &mut Silent).map(drop).unwrap_err();
+    let text = refused.to_string();
+    assert!(text.contains("no unknown is called `cables.9.anchor_m`"), "{text}");
+}
+
+#[test]
+fn a_prior_is_a_datum_of_its_kind_or_path() {
+    let readings = readings(1e-3, &mut Draws(9));
+    let keys = |prior: Value| json!({ "unknowns": ["anchors", "offsets"], "length_std_m": 1e-3, "prior": prior });
+    let without = calibrated(&readings, &keys(json!([])));
+    let with = calibrated(&readings, &keys(json!([{ "path": "offsets", "prior": 0.0, "prior_std": 1e-3 }])));
+    assert_eq!(with.degrees_of_freedom, without.degrees_of_freedom + 4);
+    let deviation = |found: &Calibrated, path: &str| {
+        found.values.iter().find(|row| row.path == path).and_then(|row| row.deviation).unwrap()
+    };
+    assert!(deviation(&with, "offset of cable 2") < 1e-3);
+    assert!(deviation(&with, "cables.3.anchor_m.x") < 0.5 * deviation(&without, "cables.3.anchor_m.x"));
+
+    let text = |prior: Value| {
+        let request =
+            json!({ "command": "calibrate", "robot": { "text": file() }, "readings": readings, "prior": prior });
+        run(&Request::from_json(&request.to_string()).unwrap(), &mut Silent).map(drop).unwrap_err().to_string()
+    };
+    let unknown = text(json!([{ "path": "offsets", "prior_std": 0.1 }]));
+    assert!(unknown.contains("no unknown is called `offsets`"), "{unknown}");
+    let wrong = text(json!([{ "path": "anchors", "prior_std": -0.1 }]));
+    assert!(wrong.contains("not positive") || wrong.contains("positive"), "{wrong}");
+}
+
+/// Tensions of the cables are limited: candidates near a side have none.
+#[test]
+fn candidates_without_tensions_within_the_limits_are_left_out() {
+    let readings = readings(1e-3, &mut Draws(9));
+    let grid = json!([{ "axis": "x", "values": [0.2, 2.0, 3.8] }, { "axis": "y", "values": [1.5, 3.4] }]);
+    let keys = |more: Value| {
+        let mut keys = json!({ "propose": 1, "grid": grid });
+        keys.as_object_mut().unwrap().extend(more.as_object().unwrap().clone());
+        keys
+    };
+    let free = calibrated(&readings, &keys(json!({})));
+    assert!(free.left_out.is_none() && (free.proposals[0].position_m[1] - 3.4).abs() < 1e-12);
+    // A candidate above the upper anchors cannot be held by cables that pull.
+    let limited = calibrated(&readings, &keys(json!({ "min_tension_n": 5.0, "max_tension_n": 100.0 })));
+    let left_out = limited.left_out.unwrap();
+    assert_eq!((left_out.candidates, left_out.by_tensions, left_out.by_clearance), (6, 3, 0));
+    assert!((limited.proposals[0].position_m[1] - 1.5).abs() < 1e-12);
+    assert!(limited.proposals[0].total_m > free.proposals[0].total_m);
+}
