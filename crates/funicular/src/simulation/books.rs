@@ -25,7 +25,6 @@ pub struct EnergyBooks {
     pub dissipated: f64,
     /// Energy that payloads brought with them, less what they took away.
     pub payloads: f64,
-    /// Energy at the start.
     pub(super) at_start: f64,
 }
 
@@ -33,6 +32,11 @@ impl EnergyBooks {
     /// Energy of platform and ropes [J].
     pub fn total(&self) -> f64 {
         self.kinetic + self.strain + self.potential
+    }
+
+    /// Energy at the start [J].
+    pub fn at_start(&self) -> f64 {
+        self.at_start
     }
 
     /// What the books are off by [J]: energy that only the errors of mesh and steps explain.

@@ -49,6 +49,12 @@ fn release_of(case: &Value) -> Vec<SimulationEvent> {
     if lost > 0.0 { vec![SimulationEvent::Release { time: 0.0, mass: lost, point_p: None }] } else { Vec::new() }
 }
 
+fn ramp_of(case: &Value) -> SimulationEvent {
+    let rows: Vec<Vec<f64>> = case["length_ramps"]["t0_t1_dl"].as_array().unwrap().iter().map(numbers).collect();
+    let changes = rows.iter().map(|row| row[2]).collect();
+    SimulationEvent::Ramp { time: rows[0][0], duration: rows[0][1] - rows[0][0], changes }
+}
+
 /// Largest differences from the samples of a case, over their bounds: positions, tensions.
 fn compare(case: &Value, simulation: &mut Simulation, until: f64) -> [f64; 2] {
     let mut worst = [0.0_f64; 2];
@@ -74,7 +80,7 @@ fn a_taut_release_is_that_of_two_independent_methods() {
     let case = case("release-taut-4mm");
     let (robot, rest, mut settings) = robot_of(&case);
     settings.mesh = Mesh { elements: 6, degree: 10 };
-    settings.tolerance = 1e-9;
+    settings.tolerance = 3e-10;
     let mut simulation = Simulation::new(&robot, &rest, &release_of(&case), 1.0, &settings).unwrap();
     let worst = compare(&case, &mut simulation, 1.0);
     assert!(worst[0] < 1.0 && worst[1] < 1.0, "{worst:?}");
@@ -88,10 +94,7 @@ fn a_move_of_winches_is_that_of_a_chain_of_material_nodes() {
     let (robot, rest, mut settings) = robot_of(&case);
     settings.mesh = Mesh { elements: 6, degree: 8 };
     settings.tolerance = 1e-8;
-    let rows: Vec<Vec<f64>> = case["length_ramps"]["t0_t1_dl"].as_array().unwrap().iter().map(numbers).collect();
-    let changes = rows.iter().map(|row| row[2]).collect();
-    let ramp = SimulationEvent::Ramp { time: rows[0][0], duration: rows[0][1] - rows[0][0], changes };
-    let mut simulation = Simulation::new(&robot, &rest, &[ramp], 2.0, &settings).unwrap();
+    let mut simulation = Simulation::new(&robot, &rest, &[ramp_of(&case)], 2.0, &settings).unwrap();
     let worst = compare(&case, &mut simulation, 2.0);
     assert!(worst[0] < 1.0 && worst[1] < 1.0, "{worst:?}");
     assert!(simulation.at(2.0).unwrap().energy.defect().abs() < 2e-4);
@@ -187,7 +190,7 @@ fn a_hoisted_mass_has_the_tension_of_its_acceleration() {
         assert!((cable.tension_platform / (5.0 * acceleration) - 1.0).abs() < 0.03, "{k} {cable:?}");
     }
     let books = simulation.at(2.5).unwrap().energy;
-    assert!(books.winches > 2.0 * 9.81 * 5.0 && books.defect().abs() < 1e-3 * books.winches, "{books:?}");
+    assert!(books.winches > 50.0 && books.defect().abs() < 1e-3 * books.winches, "{books:?}");
 }
 
 /// Errors of the position after a release fall with the fourth power of the step, and with a high power of the mesh.
@@ -207,9 +210,21 @@ fn errors_fall_with_the_order_of_the_method() {
     let order = ((first - exact).norm() / (second - exact).norm()).ln() / (many / few).ln();
     assert!(order > 3.5, "order {order}, steps {few} and {many}");
 
-    let exact = run(Mesh { elements: 6, degree: 6 }, 1e-9).0;
-    let off = [1, 2, 4].map(|elements| (run(Mesh { elements, degree: 4 }, 1e-9).0 - exact).norm());
-    assert!(off[0] > 4.0 * off[1] && off[1] > 4.0 * off[2], "{off:?}");
+}
+
+/// Errors of the position after a smooth move fall with a high power of the mesh.
+#[test]
+fn errors_of_a_smooth_move_fall_fast_with_the_mesh() {
+    let case = case("winch-4mm");
+    let (robot, rest, settings) = robot_of(&case);
+    let run = |elements, degree| {
+        let settings = SimulationSettings { mesh: Mesh { elements, degree }, tolerance: 1e-9, ..settings.clone() };
+        let mut simulation = Simulation::new(&robot, &rest, &[ramp_of(&case)], 1.0, &settings).unwrap();
+        simulation.at(1.0).unwrap().pose.position_w
+    };
+    let exact = run(12, 4);
+    let off = [1, 2, 4, 8].map(|elements| (run(elements, 2) - exact).norm());
+    assert!(off.windows(2).all(|pair| pair[0] > 8.0 * pair[1]), "{off:?}");
 }
 
 /// A cable fails when its tension reaches a value; the last cable cannot be cut.
