@@ -26,6 +26,8 @@ pub struct Mesh {
 }
 
 impl Mesh {
+    /// Three elements of degree eight: the tension after a release is right to 1 % (root mean square).
+    pub const STANDARD: Self = Self { elements: 3, degree: 8 };
     /// Highest degree: beyond it the blocks of the elements cost more than they gain.
     pub const MAX_DEGREE: usize = 10;
     /// Largest number of elements.
@@ -39,9 +41,8 @@ impl Mesh {
 }
 
 impl Default for Mesh {
-    /// Three elements of degree eight: the tension after a release is right to 1 % (root mean square).
     fn default() -> Self {
-        Self { elements: 3, degree: 8 }
+        Self::STANDARD
     }
 }
 
