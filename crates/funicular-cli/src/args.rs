@@ -10,7 +10,7 @@ use clap::{Arg, ArgAction, ArgMatches, Args, Command, FromArgMatches};
 pub(crate) use files::{
     CalibrateArgs, ChangeArgs, DesignArgs, DrawArgs, DrawModesArgs, FigureArgs, FileArgs, Format, GustArgs,
     IdentifyArgs, ImportArgs, MapArgs, MergeArgs, NewArgs, OutputArgs, PageArgs, PlotArgs, ReduceArgs, ReducedTo,
-    RequestArgs, RunArgs, SettleArgs, TrajectoryArgs, UncertaintyArgs, WorkspaceArgs,
+    RequestArgs, RunArgs, SettleArgs, SimulateArgs, TrajectoryArgs, UncertaintyArgs, WorkspaceArgs,
 };
 use files::{OptionalRobotArgs, RobotArgs};
 use funicular_study::request::{self, CommandInfo, Declared, Experiment, Key, Request, RequestRobot, ResponsePoints};
@@ -145,6 +145,7 @@ fn with_files(name: &str, command: Command) -> Command {
         "reduce" => ReduceArgs::augment_args(command),
         "settle" => SettleArgs::augment_args(command),
         "trajectory" => TrajectoryArgs::augment_args(command),
+        "simulate" => SimulateArgs::augment_args(command).mut_arg("duration_s", |arg| arg.visible_alias("for")),
         "gust" => GustArgs::augment_args(command),
         "identify" => IdentifyArgs::augment_args(command),
         "calibrate" => CalibrateArgs::augment_args(command),

@@ -29,6 +29,7 @@ mod request;
 mod result_files;
 mod schema;
 mod settle;
+mod simulate;
 mod speeds;
 mod statics;
 mod stiffness;
@@ -70,6 +71,7 @@ pub(crate) fn run(cli: &Cli) -> Result<()> {
         Request::Gust(_) => gust::run(&request, &cli.files()?, guard()),
         Request::Settle(of) => settle::run(of, &cli.files()?, guard()),
         Request::Trajectory(of) => trajectory::run(of, &cli.files()?, &mut guard()),
+        Request::Simulate(of) => simulate::run(of, &cli.files()?, &mut guard()),
         Request::Reduce(of) => reduce::run(of, &cli.files()?, guard()),
         Request::Identify(of) => identify::run(of, &cli.files()?, &mut guard()),
         Request::Calibrate(of) => calibrate::run(of, &cli.files()?, &mut guard()),
@@ -109,6 +111,7 @@ fn request_of(cli: &Cli) -> Result<Request> {
         "settle" => settle::request(cli, further),
         "gust" => gust::request(cli, further),
         "trajectory" => trajectory::request(cli, further),
+        "simulate" => simulate::request(cli, further),
         "merge" => merge::request(cli, further),
         "plot" => page::plot_request(cli, further),
         "new" => new_robot::request(cli, further),

@@ -27,6 +27,7 @@ pub mod reduce;
 mod result_groups;
 pub mod settle;
 pub mod shared;
+pub mod simulate;
 pub mod speeds;
 pub mod statics;
 pub mod stiffness;

@@ -16,6 +16,7 @@ mod loads;
 mod pages;
 mod parts;
 mod shape;
+mod simulate;
 mod source_file;
 mod speeds;
 mod statics;
@@ -39,6 +40,7 @@ pub use parts::{
     OneOrSeveral, Pose, ResponsePoints, ResponseRange, RobotText, State, Tensions, Terms,
 };
 pub use shape::schema;
+pub use simulate::{CutEvent, LengthsEvent, PickEvent, PushEvent, ReleaseEvent, Scenario, SimulateRequest, StopEvent};
 pub use source_file::{MAX_BYTES, SourceFile};
 pub use speeds::{RequiredVelocities, SpeedsRequest};
 pub use statics::{
@@ -161,6 +163,7 @@ commands! {
     Loads(LoadsRequest) "loads" Needed robot;
     Speeds(SpeedsRequest) "speeds" Needed robot;
     Trajectory(TrajectoryRequest) "trajectory" Needed robot;
+    Simulate(SimulateRequest) "simulate" Needed robot;
     Clearance(ClearanceRequest) "clearance" Needed robot;
     PoseError(PoseErrorRequest) "pose-error" Needed robot;
     Cable(CableRequest) "cable" Needed robot;

@@ -19,6 +19,7 @@ use crate::analyses::{
     pose_error::{self, PoseErrors},
     reduce::{self, ReducedForm},
     settle::{self, Settled},
+    simulate::{self, Simulated},
     speeds::{self, Speeds},
     statics::{self, Statics},
     stiffness::{self, Stiffness},
@@ -132,6 +133,7 @@ answers! {
     Loads(Loads): of => loads::run(robot()?, of)?;
     Speeds(Speeds): of => speeds::run(robot()?, of)?;
     Trajectory(TrajectoryResult): of => trajectory::run(robot()?, of, watch)?;
+    Simulate(Box<Simulated>): of => Box::new(simulate::run(robot()?, of, watch)?);
     Clearance(Clearances): of => clearance::run(robot()?, of)?;
     PoseError(PoseErrors): of => pose_error::run(&robot()?, of, watch)?;
     Cable(CableResult): of => cable::run(robot()?, of, watch)?;

@@ -65,6 +65,7 @@ pub mod pose_error;
 pub mod reduced_model;
 pub mod response;
 pub mod robot;
+pub mod simulation;
 pub mod speeds;
 pub mod statics;
 pub mod suggest;

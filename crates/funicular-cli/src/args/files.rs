@@ -138,6 +138,17 @@ pub(crate) struct TrajectoryArgs {
     pub(crate) page: Option<PathBuf>,
 }
 
+/// Scenario of a simulation, and its result.
+#[derive(Debug, Args)]
+pub(crate) struct SimulateArgs {
+    /// What happens, in a TOML file: [[release]], [[pick]], [[lengths]], [[stop]], [[push]] and [[cut]] with their times;
+    /// a `table` of [[lengths]] names a CSV file beside it
+    #[arg(long, value_name = "FILE.toml")]
+    pub(crate) scenario: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) sink: OutputArgs,
+}
+
 /// Measured spectra of gusts, and the response that is printed or drawn.
 #[derive(Debug, Args)]
 pub(crate) struct GustArgs {

@@ -76,6 +76,7 @@ fn print_results(request: &Request, robot: Option<Robot>, sink: &Sink) -> Result
         Results::Payload(found) => sink.write(found),
         Results::Loads(found) => sink.write(found),
         Results::Speeds(found) => sink.write(found),
+        Results::Simulate(found) => sink.write(&**found),
         Results::Clearance(found) => sink.write(found),
         Results::PoseError(found) => sink.write(found),
         Results::Cable(found) => sink.write(found),

@@ -66,9 +66,8 @@ pub fn of_request(
             Ok(RequestFigure { figure: of_calibration(&found), warnings: found.warnings })
         }
         other => bail!(
-            "`{}` has no figure of its own: `statics`, `modes`, `frf`, `settle`, `gust`, `workspace`, `compare`, `calibrate` \
-             and `plot` \
-             write .svg and .pdf; give another ending",
+            "`{}` has no figure of its own: `statics`, `modes`, `frf`, `settle`, `gust`, `workspace`, `compare`, \
+             `calibrate` and `plot` write .svg and .pdf; give another ending",
             other.command()
         ),
     }

@@ -184,6 +184,13 @@ fn bound() -> Value {
     object(&["quantity", "value"], &json!({ "quantity": text(), "value": number(Range::Finite) }))
 }
 
+/// Events of a simulation. Their keys are checked when they are read.
+pub(super) fn scenario() -> Value {
+    let kinds = ["release", "pick", "lengths", "stop", "push", "cut"];
+    let lists: Map<String, Value> = kinds.into_iter().map(|kind| (kind.to_owned(), objects())).collect();
+    json!({ "type": "object", "properties": lists, "additionalProperties": false })
+}
+
 /// Text of a robot file with its changes.
 pub(super) fn robot() -> Value {
     let change = object(&["path", "value"], &json!({ "path": text(), "value": {} }));

@@ -27,6 +27,7 @@ mod random;
 mod reduced_model;
 mod response;
 mod robot;
+mod simulation;
 mod speeds;
 mod statics;
 mod stretch_loss;

@@ -1,0 +1,150 @@
+//! `simulate`: scenario, text and CSV. A run that is killed leaves the rows so far beside its file.
+
+use crate::args::{Cli, SimulateArgs};
+use crate::number_table;
+use crate::output::{Printed, Sink};
+use crate::progress::TerminalProgress;
+use crate::table::{Table, counted, significant};
+use anyhow::{Context, Result, anyhow};
+use funicular_files::Guard;
+use funicular_files::endings::Kind;
+use funicular_study::Cancelled;
+use funicular_study::analyses::simulate::{self, ColumnError, Peak, Simulated, SimulatedRow};
+use funicular_study::columns::ResultTable;
+use funicular_study::request::{Request, SimulateRequest};
+use serde_json::{Map, Value};
+use std::fmt::Write as _;
+use std::fs::{self, File};
+use std::io::{BufWriter, Write};
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+/// Rows that the table shows.
+const SHOWN: usize = 21;
+
+/// Time after which rows that are ready are on the disk.
+const FLUSH: Duration = Duration::from_secs(1);
+
+/// Request of a simulation. Errors of its scenario name the file.
+pub(super) fn request(cli: &Cli, further: Map<String, Value>) -> Result<Request> {
+    let mut request = cli.request(further)?;
+    let files = cli.files::<SimulateArgs>()?;
+    if let (Request::Simulate(of), Some(path)) = (&mut request, &files.scenario) {
+        let shown = path.display();
+        let text = fs::read_to_string(path).with_context(|| format!("cannot read the scenario {shown}"))?;
+        let folder = path.parent().unwrap_or(Path::new("")).to_owned();
+        let table = |name: &str| number_table::read(&folder.join(name), "the table", |_| Ok(()));
+        of.scenario =
+            simulate::scenario_from_toml(&text, table).map_err(|error| anyhow!("the scenario {shown}: {error}"))?;
+    }
+    Ok(request)
+}
+
+/// Runs `simulate`. Rows of a CSV file are written as they become ready.
+pub(super) fn run(of: &SimulateRequest, args: &SimulateArgs, guard: &mut Guard) -> Result<()> {
+    if let Some(path) = &args.scenario {
+        guard.reads("the scenario", path);
+    }
+    // Errors of the robot file are reported before errors of the destination.
+    let robot = of.robot.read()?.robot;
+    let sink = Sink::open(&args.sink, &[], guard)?;
+    let names: Vec<String> = robot.cables.iter().map(|cable| cable.name.clone()).collect();
+    let mut partial = PartialRows::beside(args.sink.output_file.as_deref(), names)?;
+
+    let mut watch = TerminalProgress::new();
+    let found = simulate::run_with(robot, of, &mut watch, &mut |row| partial.add(row))?;
+    drop(watch);
+    sink.write(&found)?;
+    partial.remove();
+    if found.stopped_at_s.is_some() { Err(Cancelled.into()) } else { Ok(()) }
+}
+
+/// Rows of a run that has not ended, in FILE.csv.partial.
+struct PartialRows {
+    file: Option<(BufWriter<File>, PathBuf)>,
+    cables: Vec<String>,
+    has_header: bool,
+    flushed: Instant,
+}
+
+impl PartialRows {
+    fn beside(path: Option<&Path>, cables: Vec<String>) -> Result<Self> {
+        let path = path.filter(|path| Kind::of(path) == Some(Kind::Csv));
+        let file = path
+            .map(|path| {
+                let mut name = path.as_os_str().to_owned();
+                name.push(".partial");
+                let path = PathBuf::from(name);
+                let file = File::create(&path).with_context(|| format!("cannot write {}", path.display()))?;
+                anyhow::Ok((BufWriter::new(file), path))
+            })
+            .transpose()?;
+        Ok(Self { file, cables, has_header: false, flushed: Instant::now() })
+    }
+
+    fn add(&mut self, row: &SimulatedRow) -> Result<()> {
+        let Some((file, path)) = &mut self.file else { return Ok(()) };
+        let csv = crate::output::as_csv(ResultTable::new(SimulatedRow::columns(&self.cables), [row]))?;
+        let from =
+            if self.has_header { csv.iter().position(|byte| *byte == b'\n').map_or(0, |end| end + 1) } else { 0 };
+        self.has_header = true;
+        let cannot = || format!("cannot write {}", path.display());
+        file.write_all(&csv[from..]).with_context(cannot)?;
+        if self.flushed.elapsed() > FLUSH {
+            file.flush().with_context(cannot)?;
+            self.flushed = Instant::now();
+        }
+        Ok(())
+    }
+
+    /// Removes the file after the whole result has been written.
+    fn remove(self) {
+        if let Some((file, path)) = self.file {
+            drop(file);
+            // The result is complete; a file that stays does no harm.
+            let _ = fs::remove_file(path);
+        }
+    }
+}
+
+impl Printed for Simulated {
+    fn text(&self) -> String {
+        let columns = SimulatedRow::columns(&self.cables);
+        let step = self.rows.len().div_ceil(SHOWN).max(1);
+        let shown = self.rows.iter().step_by(step);
+        let table = Table::of(&columns, shown.clone());
+        let mut text = format!(
+            "{}: simulation of {} s{}\n{} of degree {} in each rope, tolerance {} m, {}\n",
+            self.robot,
+            significant(self.duration_s, 5),
+            self.origin.phrase(),
+            counted(self.elements, "element"),
+            self.degree,
+            significant(self.tolerance_m, 3),
+            counted(self.steps.accepted, "step"),
+        );
+        if let Some(time) = self.stopped_at_s {
+            let _ = writeln!(text, "STOPPED at {} s", significant(time, 5));
+        }
+        for cut in &self.cuts {
+            let _ = writeln!(text, "cable \"{}\" fails at {} s", cut.cable, significant(cut.t_s, 5));
+        }
+        for slack in &self.slack {
+            let (first, share) = (significant(slack.first_s, 4), significant(100.0 * slack.share, 3));
+            let _ = writeln!(text, "cable \"{}\" is slack from {first} s on, for {share} % of the time", slack.cable);
+        }
+        let _ = write!(text, "\n{table}\n{} of {} shown.\n", shown.len(), counted(self.rows.len(), "row"));
+        let _ = write!(text, "\nLargest tensions\n{}", Table::of(&Peak::columns(), &self.peaks));
+        if self.errors.is_empty() {
+            let _ = writeln!(text, "\nNo error: the run was not repeated with a finer mesh.");
+        } else {
+            let _ = write!(
+                text,
+                "\nDifference from a run with a finer mesh and tolerance\n{}",
+                Table::of(&ColumnError::columns(), &self.errors)
+            );
+        }
+        let _ = writeln!(text, "Energy is off by at most {} J.", significant(self.energy_defect_j, 2));
+        text
+    }
+}

@@ -1,0 +1,269 @@
+//! `simulate`: large motion in time, with its own error.
+
+mod error;
+mod events;
+mod rows;
+
+pub use error::{ColumnError, Peak};
+pub use events::scenario_from_toml;
+pub use rows::SimulatedRow;
+
+use super::found;
+use super::shared::Origin;
+use crate::at_rest::{self, AtRest};
+use crate::columns::{ResultTable, Tabled};
+use crate::error::{Cancelled, NoSolution};
+use crate::request::SimulateRequest;
+use crate::table::Column;
+use crate::watch::Watch;
+use anyhow::{Result, anyhow, bail};
+use error::errors;
+use events::Events;
+use funicular::robot::Robot;
+use funicular::simulation::{Mesh, Simulation, SimulationError, SimulationSettings, StepCounts};
+use serde::Serialize;
+
+/// Number of parts of the duration between its rows, if nothing says how many.
+const PARTS: f64 = 1000.0;
+/// Largest number of rows.
+const MAX_ROWS: f64 = 2e6;
+/// Tolerance of the finer run over that of the first.
+const FINER: f64 = 0.1;
+
+/// Results of `simulate`.
+#[derive(Serialize)]
+pub struct Simulated {
+    #[serde(skip)]
+    pub robot: String,
+    #[serde(flatten)]
+    pub origin: Origin,
+    pub duration_s: f64,
+    /// Time at which the run was stopped from outside; absent if it came to its end.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub stopped_at_s: Option<f64>,
+    pub elements: usize,
+    pub degree: usize,
+    pub tolerance_m: f64,
+    pub steps: Steps,
+    /// Cables that were slack, with the time at which their tension first fell below 0.5 N.
+    pub slack: Vec<SlackRow>,
+    /// Cables that failed.
+    pub cuts: Vec<CutRow>,
+    /// What the books of the energy are off by, at most [J].
+    pub energy_defect_j: f64,
+    /// True if slack ropes make the history depend on the mesh, so that its peaks are statistics.
+    pub is_statistical: bool,
+    /// Difference of each column from a finer run; absent without one.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub errors: Vec<ColumnError>,
+    /// Largest tensions, and root mean squares, of this run and of the finer one.
+    pub peaks: Vec<Peak>,
+    /// Names of the cables, in the order of all lists.
+    pub cables: Vec<String>,
+    pub rows: Vec<SimulatedRow>,
+    #[serde(skip)]
+    pub warnings: Vec<String>,
+}
+
+/// Steps of a run.
+#[derive(Serialize, Clone, Copy)]
+pub struct Steps {
+    pub accepted: usize,
+    pub rejected: usize,
+    pub factored: usize,
+    pub evaluations: usize,
+}
+
+/// Slack of one cable.
+#[derive(Serialize)]
+pub struct SlackRow {
+    pub cable: String,
+    pub first_s: f64,
+    /// Time for which it was slack, over that of the simulation.
+    pub share: f64,
+}
+
+/// Cable that failed.
+#[derive(Serialize)]
+pub struct CutRow {
+    pub cable: String,
+    pub t_s: f64,
+}
+
+/// Function that receives each row of the first run when it is ready.
+pub type OnRow<'a> = &'a mut dyn FnMut(&SimulatedRow) -> Result<()>;
+
+/// Simulates a robot.
+///
+/// # Errors
+/// A scenario that cannot happen, a part of the robot that is not simulated, a tolerance that no step reaches, or
+/// [`Cancelled`] before the first row.
+pub fn run(robot: Robot, request: &SimulateRequest, watch: &mut dyn Watch) -> Result<Simulated> {
+    run_with(robot, request, watch, &mut |_| Ok(()))
+}
+
+/// Simulates a robot, and gives each row away when it is ready.
+///
+/// # Errors
+/// Those of [`run`] and of `on_row`.
+pub fn run_with(robot: Robot, request: &SimulateRequest, watch: &mut dyn Watch, on_row: OnRow) -> Result<Simulated> {
+    let at_rest = at_rest::equilibrium(robot, &request.robot, &request.state, &request.tensions)?;
+    let vibrating = at_rest.vibrating();
+    let events = Events::of(&request.scenario, &vibrating)?;
+    let settings = settings(request)?;
+    let times = times(request)?;
+
+    let first = history(&vibrating, &events, &settings, &times, watch, on_row)?;
+    let finer = if request.once || first.rows.len() < times.len() {
+        None
+    } else {
+        let settings = SimulationSettings {
+            mesh: settings.mesh.finer(),
+            tolerance: FINER * settings.tolerance,
+            ..settings.clone()
+        };
+        // A run that is stopped here still has its rows.
+        let finer = history(&vibrating, &events, &settings, &times, watch, &mut |_| Ok(()));
+        finer.ok().filter(|finer| finer.rows.len() == times.len())
+    };
+    Ok(found(&at_rest, request, first, finer.as_ref()))
+}
+
+/// Rows of one run.
+struct History {
+    rows: Vec<SimulatedRow>,
+    slack: Vec<SlackRow>,
+    cuts: Vec<CutRow>,
+    counts: StepCounts,
+}
+
+fn settings(request: &SimulateRequest) -> Result<SimulationSettings> {
+    let [least, most] = SimulationSettings::TOLERANCES;
+    if !(least..=most).contains(&request.tolerance_m) {
+        bail!("⟪tolerance_m⟫ is {} m: give {least} to {most} m", request.tolerance_m);
+    }
+    Ok(SimulationSettings {
+        mesh: Mesh { elements: request.elements, degree: request.degree },
+        tolerance: request.tolerance_m,
+        damping_frequency_hz: request.damping_frequency_hz,
+        stretch_damping_time: request.stretch_damping_time_s,
+        platform_is_held: request.hold_platform,
+    })
+}
+
+/// Times of the rows [s].
+fn times(request: &SimulateRequest) -> Result<Vec<f64>> {
+    let duration = request.duration_s;
+    let count = request.sample_time_s.map_or(PARTS, |step| (duration / step - 1e-9).ceil().max(1.0));
+    if count > MAX_ROWS {
+        bail!(
+            "⟪sample_time_s⟫ gives {count} rows in {duration} s, and at most {MAX_ROWS} are kept: give a longer time"
+        );
+    }
+    let step = request.sample_time_s.unwrap_or(duration / count);
+    Ok((0..=count as usize).map(|k| (step * k as f64).min(duration)).collect())
+}
+
+/// One run. Work that is stopped from outside keeps the rows so far.
+fn history(
+    at_rest: &AtRest,
+    events: &Events,
+    settings: &SimulationSettings,
+    times: &[f64],
+    watch: &mut dyn Watch,
+    on_row: OnRow,
+) -> Result<History> {
+    let AtRest { robot, equilibrium, .. } = at_rest;
+    let duration = times[times.len() - 1];
+    let mut simulation =
+        Simulation::new(robot, equilibrium, &events.list, duration, settings).map_err(|error| events.told(error))?;
+    let mut rows = Vec::with_capacity(times.len());
+    for (k, time) in times.iter().enumerate() {
+        if watch.is_cancelled() {
+            if rows.is_empty() {
+                return Err(Cancelled.into());
+            }
+            break;
+        }
+        let sample = simulation.at(*time).map_err(|error| events.told(error))?;
+        let row = SimulatedRow::of(&sample);
+        on_row(&row)?;
+        rows.push(row);
+        watch.progress(k + 1, times.len(), "rows");
+    }
+
+    let reached = rows.last().map_or(0.0, |row| row.t_s);
+    let name = |i: usize| robot.cables[i].name.clone();
+    let slack = simulation.slack().iter().enumerate().filter_map(|(i, of)| {
+        Some(SlackRow { cable: name(i), first_s: of.first?, share: (of.duration / reached).min(1.0) })
+    });
+    Ok(History {
+        slack: slack.collect(),
+        cuts: simulation.cuts().iter().map(|(i, t_s)| CutRow { cable: name(*i), t_s: *t_s }).collect(),
+        counts: simulation.counts(),
+        rows,
+    })
+}
+
+fn found(at_rest: &AtRest, request: &SimulateRequest, first: History, finer: Option<&History>) -> Simulated {
+    let cables: Vec<String> = at_rest.robot.cables.iter().map(|cable| cable.name.clone()).collect();
+    let is_statistical = !first.slack.is_empty();
+    let (errors, peaks) = errors(&cables, &first.rows, finer.map(|finer| &finer.rows[..]));
+    let reached = first.rows.last().map_or(0.0, |row| row.t_s);
+    let is_whole = reached >= request.duration_s * (1.0 - 1e-12);
+    let mut warnings: Vec<String> = at_rest.implausible().collect();
+    if is_statistical {
+        warnings.push(
+            "ropes go slack: from the first time on at which one is taut again the history depends on the mesh, and \
+             peaks and root mean squares of the tensions are statistics, whose spread `peaks` shows"
+                .to_owned(),
+        );
+    }
+    let StepCounts { accepted, rejected, factored, evaluations } = first.counts;
+    Simulated {
+        robot: at_rest.robot.name.clone(),
+        origin: Origin::of(at_rest),
+        duration_s: request.duration_s,
+        stopped_at_s: (!is_whole).then_some(reached),
+        elements: request.elements,
+        degree: request.degree,
+        tolerance_m: request.tolerance_m,
+        steps: Steps { accepted, rejected, factored, evaluations },
+        energy_defect_j: first.rows.iter().map(|row| row.energy_defect_j.abs()).fold(0.0, f64::max),
+        slack: first.slack,
+        cuts: first.cuts,
+        is_statistical,
+        errors,
+        peaks,
+        cables,
+        rows: first.rows,
+        warnings,
+    }
+}
+
+impl Tabled for Simulated {
+    fn tables() -> Vec<(&'static str, Vec<Column>)> {
+        vec![("", SimulatedRow::columns(&["NAME".to_owned()]).described())]
+    }
+
+    fn table(&self) -> ResultTable<'_> {
+        ResultTable::new(SimulatedRow::columns(&self.cables), &self.rows)
+    }
+}
+
+found!(Simulated, "simulate");
+
+impl Events {
+    /// Error of a simulation with the name of the event in the scenario.
+    fn told(&self, error: SimulationError) -> anyhow::Error {
+        match error {
+            SimulationError::Event { event, fault } => {
+                anyhow!("{} of ⟪scenario⟫: {fault}", self.labels.get(event).map_or("an event", String::as_str))
+            }
+            SimulationError::NoRest => NoSolution(error.to_string()).into(),
+            SimulationError::NoFrequency => anyhow!("{error} (⟪damping_frequency_hz⟫)"),
+            SimulationError::TooFast { .. } => anyhow!("{error} (⟪tolerance_m⟫, ⟪elements⟫, ⟪stretch_damping_time_s⟫)"),
+            other => anyhow!("{other}"),
+        }
+    }
+}

@@ -1,0 +1,121 @@
+//! Error of a simulation: its difference from a finer run.
+
+use super::rows::SimulatedRow;
+use crate::columns::{Columns, column};
+use funicular::math::Vec3;
+use serde::Serialize;
+
+/// Difference of one column from a finer run.
+#[derive(Serialize)]
+pub struct ColumnError {
+    /// `position_m`, `velocity_m_s`, or `tension_platform_NAME_n` and `tension_anchor_NAME_n`.
+    pub column: String,
+    pub largest: f64,
+    pub root_mean_square: f64,
+    /// Root mean square over that of the column; absent for positions, whose origin is arbitrary.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub relative: Option<f64>,
+}
+
+/// Largest tension of a cable at either end, and root mean square of that at the platform.
+#[derive(Serialize)]
+pub struct Peak {
+    pub cable: String,
+    pub peak_n: f64,
+    pub root_mean_square_n: f64,
+    /// The same of the finer run.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub finer_peak_n: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub finer_root_mean_square_n: Option<f64>,
+}
+
+fn root_mean_square(values: impl Iterator<Item = f64> + Clone) -> f64 {
+    let count = values.clone().count().max(1) as f64;
+    (values.map(|value| value * value).sum::<f64>() / count).sqrt()
+}
+
+/// Errors of the columns, and peaks of the tensions.
+pub(super) fn errors(
+    cables: &[String],
+    rows: &[SimulatedRow],
+    finer: Option<&[SimulatedRow]>,
+) -> (Vec<ColumnError>, Vec<Peak>) {
+    let peaks = (0..cables.len()).map(|i| Peak {
+        cable: cables[i].clone(),
+        peak_n: peak(rows, i),
+        root_mean_square_n: effective(rows, i),
+        finer_peak_n: finer.map(|finer| peak(finer, i)),
+        finer_root_mean_square_n: finer.map(|finer| effective(finer, i)),
+    });
+    let Some(finer) = finer else { return (Vec::new(), peaks.collect()) };
+
+    let vector = |column: &str, of: fn(&SimulatedRow) -> [f64; 3]| {
+        let off = rows.iter().zip(finer).map(move |(a, b)| (Vec3::from(of(a)) - Vec3::from(of(b))).norm());
+        error(column.to_owned(), off, None)
+    };
+    let mut errors = vec![
+        vector("position_m", |row| row.pose.position_m),
+        vector("velocity_m_s", |row| row.velocity_m_s),
+        vector("angular_velocity_rad_s", |row| row.angular_velocity_rad_s),
+    ];
+    let ends: [(&str, fn(&SimulatedRow) -> &[f64]); 2] =
+        [("platform", |row| &row.tensions_platform_n), ("anchor", |row| &row.tensions_anchor_n)];
+    for (end, of) in ends {
+        for (i, name) in cables.iter().enumerate() {
+            let off = rows.iter().zip(finer).map(|(a, b)| (of(a)[i] - of(b)[i]).abs());
+            let size = root_mean_square(finer.iter().map(|row| of(row)[i]));
+            errors.push(error(format!("tension_{end}_{name}_n"), off, Some(size)));
+        }
+    }
+    (errors, peaks.collect())
+}
+
+fn error(column: String, off: impl Iterator<Item = f64> + Clone, size: Option<f64>) -> ColumnError {
+    let root_mean_square = root_mean_square(off.clone());
+    let relative = size.filter(|size| *size > 0.0).map(|size| root_mean_square / size);
+    ColumnError { column, largest: off.fold(0.0, f64::max), root_mean_square, relative }
+}
+
+fn peak(rows: &[SimulatedRow], i: usize) -> f64 {
+    rows.iter().map(|row| row.tensions_platform_n[i].max(row.tensions_anchor_n[i])).fold(0.0, f64::max)
+}
+
+fn effective(rows: &[SimulatedRow], i: usize) -> f64 {
+    root_mean_square(rows.iter().map(|row| row.tensions_platform_n[i]))
+}
+
+impl ColumnError {
+    /// Columns of the table of errors.
+    pub fn columns() -> Columns<Self> {
+        Columns::new([
+            column("column", "", "column of the result", |row: &Self| row.column.clone()).plain("column"),
+            column("largest", "", "largest difference", |row: &Self| row.largest).significant("largest", "", 2),
+            column("root_mean_square", "", "root mean square", |row: &Self| row.root_mean_square)
+                .significant("r.m.s.", "", 2),
+            column("relative", "1", "root mean square over that of the column", |row: &Self| row.relative)
+                .significant("relative", "", 2),
+        ])
+    }
+}
+
+impl Peak {
+    /// Columns of the table of peaks.
+    pub fn columns() -> Columns<Self> {
+        Columns::new([
+            column("cable", "", "name of the cable", |row: &Self| row.cable.clone()).plain("cable"),
+            column("peak_n", "N", "largest tension", |row: &Self| row.peak_n).significant("largest tension", "N", 4),
+            column("finer_peak_n", "N", "largest tension of the finer run", |row: &Self| row.finer_peak_n).significant(
+                "finer run",
+                "N",
+                4,
+            ),
+            column("root_mean_square_n", "N", "root mean square", |row: &Self| row.root_mean_square_n)
+                .significant("r.m.s.", "N", 4),
+            column("finer_root_mean_square_n", "N", "root mean square of the finer run", |row: &Self| {
+                row.finer_root_mean_square_n
+            })
+            .significant("finer run", "N", 4),
+        ])
+    }
+}

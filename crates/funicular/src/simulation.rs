@@ -1,0 +1,28 @@
+//! Large motion of a robot in time: platform and sagging ropes, winches that pay out, payloads that are released, cables
+//! that fail or go slack.
+//!
+//! Each rope is a string without bending stiffness that stretches, weighs and has mass, as elements of a degree that the
+//! caller chooses; the platform is a rigid body, a point mass, or a body in a plane. The start is the equilibrium of this
+//! mesh. Steps are as long as a tolerance of positions allows. The equations are in docs/theory.md, section 20.
+
+mod air;
+mod basis;
+mod body;
+mod books;
+mod dense;
+mod esdirk;
+mod event;
+mod rope;
+mod run;
+mod skyline;
+mod start;
+mod sudden;
+mod system;
+mod winding;
+
+pub use books::EnergyBooks;
+pub use esdirk::StepCounts;
+pub use event::{CutAt, EventFault, SimulationEvent};
+pub use rope::WoundLength;
+pub use run::{CableSample, Sample, Simulation, SlackCable};
+pub use start::{Mesh, SimulationError, SimulationSettings};

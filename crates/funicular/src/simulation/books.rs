@@ -1,0 +1,124 @@
+//! Books of the energy: what platform and ropes hold, and what came in and went out.
+
+use super::dense::Dense;
+use super::rope::WoundLength;
+use super::system::{MotionNumbers, RopeEnd, System};
+use crate::math::Vec3;
+
+/// Energy of platform and ropes [J], and the work done on them since the start.
+///
+/// # References
+/// docs/theory.md, equation (97g).
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct EnergyBooks {
+    /// Kinetic energy.
+    pub kinetic: f64,
+    /// Energy of the stretch of the ropes.
+    pub strain: f64,
+    /// Energy of height, zero at the origin of the world.
+    pub potential: f64,
+    /// Work of the winches, with the energy of the rope that passes the anchors.
+    pub winches: f64,
+    /// Work of loads, pushes and wind.
+    pub loads: f64,
+    /// Energy lost in damping.
+    pub dissipated: f64,
+    /// Energy that payloads brought with them, less what they took away.
+    pub payloads: f64,
+    pub(super) at_start: f64,
+}
+
+impl EnergyBooks {
+    /// Energy of platform and ropes [J].
+    pub fn total(&self) -> f64 {
+        self.kinetic + self.strain + self.potential
+    }
+
+    /// Energy at the start [J].
+    pub fn at_start(&self) -> f64 {
+        self.at_start
+    }
+
+    /// What the books are off by [J]: energy that only the errors of mesh and steps explain.
+    pub fn defect(&self) -> f64 {
+        self.total() - self.at_start - self.winches - self.loads - self.payloads + self.dissipated
+    }
+}
+
+/// Powers that change the energy [W].
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Powers {
+    pub(super) winches: f64,
+    pub(super) loads: f64,
+    pub(super) dissipation: f64,
+}
+
+/// Powers at the ends and in the middle of a step, whose integral is its work.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct StepPowers {
+    pub(super) at: [Powers; 3],
+    pub(super) duration: f64,
+}
+
+impl StepPowers {
+    /// Work [J] from the beginning to the share s of the step: of winches, loads and damping.
+    pub(super) fn work(&self, s: f64) -> [f64; 3] {
+        let of = |power: fn(&Powers) -> f64| {
+            let [p0, pm, p1] = [0, 1, 2].map(|k| power(&self.at[k]));
+            let (linear, square) = (-3.0 * p0 + 4.0 * pm - p1, 2.0 * p0 - 4.0 * pm + 2.0 * p1);
+            self.duration * s * (p0 + s * (0.5 * linear + s * square / 3.0))
+        };
+        [of(|p| p.winches), of(|p| p.loads), of(|p| p.dissipation)]
+    }
+}
+
+impl System {
+    /// Energy and powers at a motion whose needed forces are known.
+    pub(super) fn energy(
+        &self,
+        time: f64,
+        lengths: &[WoundLength],
+        m: &MotionNumbers,
+        needed: &[f64],
+    ) -> (EnergyBooks, Powers) {
+        let body = self.body_motion(m);
+        let [kinetic, potential] = self.body.energy(&body);
+        let [loads, lost] = self.body.powers(time, &self.air.on_body(time), &body);
+        let mut books = EnergyBooks { kinetic, potential, ..EnergyBooks::default() };
+        let mut powers = Powers { winches: 0.0, loads, dissipation: lost };
+        for (i, rope) in self.ropes.iter().enumerate() {
+            if self.ends[i] == RopeEnd::Gone {
+                continue;
+            }
+            let range = self.of_rope(i);
+            let anchor = Vec3::from_column_slice(&needed[range.end - 3..range.end]);
+            let wind = self.air.on_rope(i, time);
+            let of = rope.energy(&lengths[i], &wind, &m.x[range.clone()], &m.v[range], &anchor);
+            books.kinetic += of.kinetic;
+            books.strain += of.strain;
+            books.potential += of.potential;
+            powers.winches += of.winch;
+            powers.loads += of.loads;
+            powers.dissipation += of.dissipation;
+        }
+        (books, powers)
+    }
+
+    /// Motion at a time of a step, with its needed forces.
+    pub(super) fn within(
+        &mut self,
+        dense: &Dense,
+        time: f64,
+        m: &mut MotionNumbers,
+        needed: &mut [f64],
+    ) -> Vec<WoundLength> {
+        let rotation = std::mem::replace(&mut self.rotation, dense.rotation);
+        dense.at(time, m);
+        let (lengths, body) = (self.lengths(time), self.body_motion(m));
+        self.fill_ends(&body, m);
+        self.needed(time, &lengths, &body, m, needed);
+        // The motion is given about the rotation that it belongs to.
+        self.rotation = rotation;
+        lengths
+    }
+}

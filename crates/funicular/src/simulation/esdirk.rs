@@ -1,0 +1,434 @@
+//! Steps in time by a singly diagonally implicit Runge-Kutta method of order 4 with an error estimate of order 3.
+//!
+//! ESDIRK4(3)6L[2]SA of C. A. Kennedy and M. H. Carpenter, Additive Runge-Kutta schemes for
+//! convection-diffusion-reaction equations, Appl. Numer. Math. 44, 2003, pages 139 to 181: six stages, the first of
+//! which is the last of the step before; L-stable, so that waves that a step does not resolve fade.
+
+use super::dense::Dense;
+use super::rope::{Newton, WoundLength};
+use super::system::{Arrow, BODY, MotionNumbers, System, turn_rate};
+use crate::math::Vec3;
+
+/// Number of stages.
+pub(super) const STAGES: usize = 6;
+/// Diagonal of the method.
+const GAMMA: f64 = 0.25;
+/// Times of the stages within a step.
+const TIMES: [f64; STAGES] = [0.0, 0.5, 83.0 / 250.0, 31.0 / 50.0, 17.0 / 20.0, 1.0];
+/// Weights of the earlier stages in each stage; the last row are those of the step.
+const WEIGHTS: [[f64; STAGES]; STAGES] = [
+    [0.0; STAGES],
+    [0.25, GAMMA, 0.0, 0.0, 0.0, 0.0],
+    [8611.0 / 62500.0, -1743.0 / 31250.0, GAMMA, 0.0, 0.0, 0.0],
+    [5012029.0 / 34652500.0, -654441.0 / 2922500.0, 174375.0 / 388108.0, GAMMA, 0.0, 0.0],
+    [
+        15267082809.0 / 155376265600.0,
+        -71443401.0 / 120774400.0,
+        730878875.0 / 902184768.0,
+        2285395.0 / 8070912.0,
+        GAMMA,
+        0.0,
+    ],
+    [82889.0 / 524892.0, 0.0, 15625.0 / 83664.0, 69875.0 / 102672.0, -2260.0 / 8211.0, GAMMA],
+];
+/// Weights of the embedded method of order 3.
+const EMBEDDED: [f64; STAGES] = [
+    4586570599.0 / 29645900160.0,
+    0.0,
+    178811875.0 / 945068544.0,
+    814220225.0 / 1159782912.0,
+    -3700637.0 / 11593932.0,
+    61727.0 / 225920.0,
+];
+
+/// Step after the start and after an event [s].
+const FIRST_STEP: f64 = 1e-4;
+/// Step below which a motion cannot be followed [s]: a tenth of the time in which a wave in steel passes a millimetre.
+const LEAST_STEP: f64 = 2e-8;
+/// Tolerated change of a velocity over that of a position [1/s].
+const VELOCITY_RATE: f64 = 100.0;
+/// Part of the tolerance to which Newton's method solves a stage. At a tenth natural frequencies drift by 5e-6.
+const NEWTON_PART: f64 = 0.03;
+/// Newton steps of a stage; more than this many with one factor are slower than a new factor.
+const NEWTON_STEPS: usize = 10;
+const NEWTON_STEPS_OF_OLD_FACTOR: usize = 4;
+/// Change of the step up to which a factor is kept.
+const FACTOR_CHANGE: f64 = 0.15;
+
+/// A motion that cannot be followed within the tolerance, at this time [s].
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct TooFast {
+    pub(super) time: f64,
+}
+
+/// Counts of a run.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct StepCounts {
+    /// Steps taken.
+    pub accepted: usize,
+    /// Steps tried in vain.
+    pub rejected: usize,
+    /// Newton matrices factored.
+    pub factored: usize,
+    /// Evaluations of all forces.
+    pub evaluations: usize,
+}
+
+/// System with its motion at one time, which goes on in steps.
+pub(super) struct Stepper {
+    pub(super) system: System,
+    pub(super) time: f64,
+    /// Motion at `time`; the turn is zero.
+    pub(super) now: MotionNumbers,
+    /// Forces that it needs.
+    pub(super) needed: Vec<f64>,
+    pub(super) counts: StepCounts,
+    tolerance: f64,
+    /// Length that makes turns comparable with translations [m].
+    length: f64,
+    step: f64,
+    error_before: f64,
+    arrow: Arrow,
+    /// Step of the factored matrix [s].
+    factored: Option<f64>,
+    contraction: f64,
+    stages: Vec<MotionNumbers>,
+    work: MotionNumbers,
+}
+
+/// A stage that Newton's method did not solve.
+struct NotSolved;
+
+impl Stepper {
+    /// Stepper at a motion; accelerations are computed.
+    pub(super) fn new(system: System, now: MotionNumbers, tolerance: f64, length: f64) -> Self {
+        let (size, arrow) = (system.size, Arrow::new(&system));
+        Self {
+            time: 0.0,
+            now,
+            needed: vec![0.0; size],
+            counts: StepCounts::default(),
+            tolerance,
+            length,
+            step: FIRST_STEP,
+            error_before: 1.0,
+            arrow,
+            factored: None,
+            contraction: 0.1,
+            stages: vec![MotionNumbers::zeros(size); STAGES],
+            work: MotionNumbers::zeros(size),
+            system,
+        }
+    }
+
+    /// Brings the motion to rest where all forces balance, from a place near it; `false` if there is no such place.
+    pub(super) fn settle(&mut self) -> bool {
+        const STEPS: usize = 50;
+        let lengths = self.system.lengths(self.time);
+        let of = Newton { mass: 0.0, damping: 0.0, stiffness: 1.0 };
+        self.now.v.fill(0.0);
+        self.now.a.fill(0.0);
+        let (mut least, mut stalled) = (f64::INFINITY, 0);
+        for _ in 0..STEPS {
+            self.evaluate(&lengths);
+            if self.arrow.factor(&self.system, self.time, &lengths, &self.now, &self.needed, of).is_err() {
+                return false;
+            }
+            let mut change = self.needed.clone();
+            self.arrow.solve(&self.system, &mut change);
+            let size = change.iter().fold(0.0_f64, |most, of| most.max(of.abs()));
+            if !size.is_finite() {
+                return false;
+            }
+            // A long way is gone in parts: the ropes must not fold.
+            let part = (0.05 * self.length.max(0.1) / size).min(1.0);
+            for (x, change) in self.now.x.iter_mut().zip(&change) {
+                *x += part * change;
+            }
+            self.absorb_turn();
+            stalled = if size < 0.5 * least { 0 } else { stalled + 1 };
+            least = least.min(size);
+            if size < 1e-13 || (stalled > 2 && least < 1e-9) {
+                self.evaluate(&lengths);
+                self.factored = None;
+                return true;
+            }
+        }
+        false
+    }
+
+    /// Takes the turn of the motion into the rotation of the system.
+    fn absorb_turn(&mut self) {
+        let turn = Vec3::from_column_slice(&self.now.x[3..BODY]);
+        self.system.rotation = self.system.rotation_at(&turn);
+        self.system.rotation.renormalize_fast();
+        self.now.x[3..BODY].fill(0.0);
+    }
+
+    /// Forces that the present motion needs.
+    pub(super) fn evaluate(&mut self, lengths: &[WoundLength]) {
+        let body = self.system.body_motion(&self.now);
+        self.system.fill_ends(&body, &mut self.now);
+        self.system.needed(self.time, lengths, &body, &self.now, &mut self.needed);
+    }
+
+    /// Begins anew after an event: accelerations from the forces at the present places and velocities.
+    pub(super) fn restart(&mut self) -> Result<(), TooFast> {
+        let lengths = self.system.lengths(self.time);
+        let of = Newton { mass: 1.0, damping: 0.0, stiffness: 0.0 };
+        self.now.a.fill(0.0);
+        self.evaluate(&lengths);
+        let too_fast = TooFast { time: self.time };
+        self.arrow.factor(&self.system, self.time, &lengths, &self.now, &self.needed, of).map_err(|_| too_fast)?;
+        let mut change = self.needed.clone();
+        self.arrow.solve(&self.system, &mut change);
+        self.now.a.copy_from_slice(&change);
+        self.evaluate(&lengths);
+        self.step = FIRST_STEP;
+        self.factored = None;
+        self.error_before = 1.0;
+        Ok(())
+    }
+
+    /// One step, at most to `until`; returns how the motion went in between.
+    pub(super) fn advance(&mut self, until: f64) -> Result<Dense, TooFast> {
+        loop {
+            let left = until - self.time;
+            // The rest is gone in one step, or in two of one length.
+            let ends = self.step >= 0.999_999 * left;
+            let h = if ends {
+                left
+            } else if 2.0 * self.step > left {
+                0.5 * left
+            } else {
+                self.step
+            };
+            if h < LEAST_STEP && !ends {
+                return Err(TooFast { time: self.time });
+            }
+            match self.attempt(h) {
+                Ok(error) if error <= 1.0 => return Ok(self.accept(h, until, error, ends)),
+                Ok(error) => {
+                    self.counts.rejected += 1;
+                    self.step = h * (0.9 * error.powf(-0.25)).clamp(0.2, 0.9);
+                }
+                Err(NotSolved) => {
+                    self.counts.rejected += 1;
+                    self.factored = None;
+                    self.step = 0.4 * h;
+                }
+            }
+            if !(self.step >= LEAST_STEP) {
+                return Err(TooFast { time: self.time });
+            }
+        }
+    }
+
+    fn accept(&mut self, h: f64, until: f64, error: f64, ends: bool) -> Dense {
+        self.counts.accepted += 1;
+        let error = error.max(1e-6);
+        let factor = (0.9 * error.powf(-0.175) * self.error_before.powf(0.075)).clamp(0.3, 3.0);
+        // A step near the right one is kept, and with it the factored matrix.
+        let keeps = (0.9..=1.25).contains(&(0.9 * error.powf(-0.25)));
+        let next = if keeps { h } else { h * factor };
+        // A step that was cut short does not shorten the next one.
+        self.step = if factor >= 1.0 { next.max(self.step) } else { next };
+        self.error_before = error;
+
+        let rotation = self.system.rotation;
+        let before = std::mem::replace(&mut self.now, self.stages[STAGES - 1].clone());
+        let time = self.time;
+        self.time = if ends { until } else { self.time + h };
+        let lengths = self.system.lengths(self.time);
+        let dense = Dense::new(time, self.time, rotation, before, self.now.clone());
+        self.absorb_turn();
+        self.evaluate(&lengths);
+        self.counts.evaluations = self.system.evaluations;
+        dense
+    }
+
+    /// Tries a step; its error over the tolerance.
+    fn attempt(&mut self, h: f64) -> Result<f64, NotSolved> {
+        if self.factored.is_none_or(|of| (h / of - 1.0).abs() > FACTOR_CHANGE) {
+            self.factored = None;
+        }
+        // Rates of the position are kept in the place of the positions; those of the turn differ from the velocity.
+        self.stages[0].v.copy_from_slice(&self.now.v);
+        self.stages[0].a.copy_from_slice(&self.now.a);
+        for stage in 1..STAGES {
+            self.solve_stage(stage, h)?;
+        }
+        let error = self.error(h);
+        if error.is_finite() { Ok(error) } else { Err(NotSolved) }
+    }
+
+    /// Rates of the turn at the stages before `stage`, weighted.
+    fn turn_base(&self, weights: &[f64; STAGES], count: usize) -> Vec3 {
+        (0..count).map(|j| self.stage_turn_rate(j) * weights[j]).sum()
+    }
+
+    fn stage_turn_rate(&self, j: usize) -> Vec3 {
+        let omega = Vec3::from_column_slice(&self.stages[j].v[3..BODY]);
+        if j == 0 { omega } else { turn_rate(&Vec3::from_column_slice(&self.stages[j].x[3..BODY]), &omega) }
+    }
+
+    fn solve_stage(&mut self, stage: usize, h: f64) -> Result<(), NotSolved> {
+        let (weights, hg) = (&WEIGHTS[stage], h * GAMMA);
+        let time = self.time + TIMES[stage] * h;
+        let lengths = self.system.lengths(time);
+        let turn_base = self.turn_base(weights, stage) * h;
+        let (past, rest) = self.stages.split_at_mut(stage);
+        let current = &mut rest[0];
+        bases(&self.now, past, weights, h, &mut self.work);
+        predict(past, stage, h, &mut current.v);
+
+        let (mut last, mut is_fresh) = (f64::INFINITY, false);
+        for round in 0..NEWTON_STEPS {
+            place(&self.work, &turn_base, hg, current);
+            let body = self.system.body_motion(current);
+            self.system.fill_ends(&body, current);
+            self.system.needed(time, &lengths, &body, current, &mut self.needed);
+            if self.factored.is_none() {
+                let of = Newton { mass: 1.0 / hg, damping: 1.0, stiffness: hg };
+                self.counts.factored += 1;
+                self.arrow.factor(&self.system, time, &lengths, current, &self.needed, of).map_err(|_| NotSolved)?;
+                self.factored = Some(h);
+                is_fresh = true;
+            }
+            self.arrow.solve(&self.system, &mut self.needed);
+            let scale = self.factored.map_or(1.0, |of| 2.0 / (1.0 + h / of));
+            for (v, change) in current.v.iter_mut().zip(&self.needed) {
+                *v += scale * change;
+            }
+
+            let weight = hg.max(1.0 / VELOCITY_RATE) * scale / self.tolerance;
+            let size = norm(&self.needed, self.length) * weight;
+            if !size.is_finite() {
+                return Err(NotSolved);
+            }
+            if round > 0 {
+                self.contraction = size / last;
+            }
+            let rate = self.contraction.min(0.95);
+            if (round > 0 || size < NEWTON_PART) && self.contraction < 1.0 && rate / (1.0 - rate) * size < NEWTON_PART {
+                place(&self.work, &turn_base, hg, current);
+                return Ok(());
+            }
+            if round > 1 && self.contraction > 1.5 && is_fresh {
+                return Err(NotSolved);
+            }
+            if round >= NEWTON_STEPS_OF_OLD_FACTOR && !is_fresh {
+                self.factored = None;
+            }
+            last = size;
+        }
+        self.factored = None;
+        Err(NotSolved)
+    }
+
+    /// Error of the tried step over the tolerance.
+    fn error(&mut self, h: f64) -> f64 {
+        let differences: [f64; STAGES] = std::array::from_fn(|j| WEIGHTS[STAGES - 1][j] - EMBEDDED[j]);
+        let turn = self.turn_base(&differences, STAGES);
+        let (of_x, of_v) = (&mut self.work.x, &mut self.work.v);
+        of_x.fill(0.0);
+        of_v.fill(0.0);
+        for (stage, difference) in self.stages.iter().zip(differences) {
+            if difference == 0.0 {
+                continue;
+            }
+            for (sum, value) in of_x.iter_mut().zip(&stage.v) {
+                *sum += difference * value;
+            }
+            for (sum, value) in of_v.iter_mut().zip(&stage.a) {
+                *sum += difference * value;
+            }
+        }
+        of_x[3..BODY].copy_from_slice(turn.as_slice());
+        let position = norm(of_x, self.length);
+        let velocity = norm(of_v, self.length) / VELOCITY_RATE;
+        position.max(velocity) * h / self.tolerance
+    }
+}
+
+/// Position and velocity that the stages before give, in `x` and `v` of `out`.
+fn bases(now: &MotionNumbers, past: &[MotionNumbers], weights: &[f64; STAGES], h: f64, out: &mut MotionNumbers) {
+    out.x.copy_from_slice(&now.x);
+    out.v.copy_from_slice(&now.v);
+    for (stage, weight) in past.iter().zip(weights) {
+        let weight = weight * h;
+        if weight == 0.0 {
+            continue;
+        }
+        for (sum, value) in out.x.iter_mut().zip(&stage.v) {
+            *sum += weight * value;
+        }
+        for (sum, value) in out.v.iter_mut().zip(&stage.a) {
+            *sum += weight * value;
+        }
+    }
+}
+
+/// First velocity of a stage: on the line through the two stages nearest in time.
+fn predict(past: &[MotionNumbers], stage: usize, h: f64, v: &mut [f64]) {
+    let time = TIMES[stage];
+    if stage == 1 {
+        for ((v, before), a) in v.iter_mut().zip(&past[0].v).zip(&past[0].a) {
+            *v = before + time * h * a;
+        }
+        return;
+    }
+    let mut nearest: Vec<usize> = (0..stage).collect();
+    nearest.sort_by(|a, b| (TIMES[*a] - time).abs().total_cmp(&(TIMES[*b] - time).abs()));
+    let (a, b) = (nearest[0], nearest[1]);
+    let part = (time - TIMES[a]) / (TIMES[b] - TIMES[a]);
+    for ((v, of_a), of_b) in v.iter_mut().zip(&past[a].v).zip(&past[b].v) {
+        *v = of_a + part * (of_b - of_a);
+    }
+}
+
+/// Position and acceleration of a stage from its velocity.
+fn place(base: &MotionNumbers, turn_base: &Vec3, hg: f64, current: &mut MotionNumbers) {
+    for (k, v) in current.v.iter().enumerate() {
+        current.x[k] = base.x[k] + hg * v;
+        current.a[k] = (v - base.v[k]) / hg;
+    }
+    let omega = Vec3::from_column_slice(&current.v[3..BODY]);
+    let mut turn = turn_base + omega * hg;
+    for _ in 0..3 {
+        turn = turn_base + turn_rate(&turn, &omega) * hg;
+    }
+    current.x[3..BODY].copy_from_slice(turn.as_slice());
+}
+
+/// The larger of the root mean squares over the platform and over the nodes of the ropes.
+fn norm(numbers: &[f64], length: f64) -> f64 {
+    let square = |of: &[f64]| of.iter().map(|x| x * x).sum::<f64>();
+    let platform = (square(&numbers[..3]) + length * length * square(&numbers[3..BODY])) / BODY as f64;
+    let nodes = &numbers[BODY..];
+    platform.max(square(nodes) / nodes.len().max(1) as f64).sqrt()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Conditions of order 4 of the method, of order 3 of the embedded one, and stage order 2.
+    #[test]
+    fn weights_meet_the_conditions_of_their_order() {
+        let sum = |f: &dyn Fn(usize) -> f64| (0..STAGES).map(f).sum::<f64>();
+        for stage in 1..STAGES {
+            assert!((sum(&|j| WEIGHTS[stage][j]) - TIMES[stage]).abs() < 1e-14);
+            assert!((sum(&|j| WEIGHTS[stage][j] * TIMES[j]) - 0.5 * TIMES[stage].powi(2)).abs() < 1e-14);
+        }
+        let squares = |i: usize| sum(&|j| WEIGHTS[i][j] * TIMES[j].powi(2));
+        for (weights, order) in [(WEIGHTS[STAGES - 1], 4), (EMBEDDED, 3)] {
+            for power in 0..order {
+                assert!((sum(&|j| weights[j] * TIMES[j].powi(power)) - 1.0 / f64::from(power + 1)).abs() < 1e-14);
+            }
+            if order == 4 {
+                assert!((sum(&|j| weights[j] * squares(j)) - 1.0 / 12.0).abs() < 1e-14);
+            }
+        }
+    }
+}

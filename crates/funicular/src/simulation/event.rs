@@ -1,0 +1,351 @@
+//! What happens to a robot while it is simulated: releases, pick-ups, changes of length, stops, pushes and cuts.
+
+use super::body::Push;
+use super::winding::Winding;
+use crate::math::Vec3;
+use crate::robot::Robot;
+use thiserror::Error;
+
+/// What happens to a robot at or from a time on [s].
+#[derive(Debug, Clone, PartialEq)]
+pub enum SimulationEvent {
+    /// The platform lets a payload go, which takes its momentum with it.
+    Release {
+        /// Time [s].
+        time: f64,
+        /// Mass of the payload [kg], a part of the platform's mass.
+        mass: f64,
+        /// Place of the payload as a point mass, platform frame [m]; `None` for the centre of mass.
+        point_p: Option<Vec3>,
+    },
+    /// The platform takes a payload up, a point mass that sticks to it.
+    Pick {
+        /// Time [s].
+        time: f64,
+        /// Mass of the payload [kg].
+        mass: f64,
+        /// Its place, platform frame [m]; `None` for the centre of mass.
+        point_p: Option<Vec3>,
+        /// Its velocity before, world axes [m/s]; `None` if it moves with the platform.
+        velocity_w: Option<Vec3>,
+    },
+    /// Winches change the unstrained lengths, each by a polynomial of the fifth degree from rest to rest.
+    Ramp {
+        /// Beginning [s].
+        time: f64,
+        /// Duration [s].
+        duration: f64,
+        /// Change of the unstrained length of each cable [m]; zero leaves a winch at rest.
+        changes: Vec<f64>,
+    },
+    /// Winches follow unstrained lengths at given times by a cubic spline, at rest at both ends.
+    Follow {
+        /// Beginning [s].
+        time: f64,
+        /// Times since the beginning, from zero on, rising [s].
+        times: Vec<f64>,
+        /// Unstrained lengths at these times [m] of each cable; none for a winch that stays at rest.
+        lengths: Vec<Option<Vec<f64>>>,
+    },
+    /// Brakes bring winches to rest, with a continuous acceleration.
+    Stop {
+        /// Beginning [s].
+        time: f64,
+        /// Duration [s].
+        duration: f64,
+        /// Cables whose winches brake.
+        cables: Vec<usize>,
+    },
+    /// Force and moment on the platform for a while.
+    Push {
+        /// Beginning [s].
+        time: f64,
+        /// Duration [s].
+        duration: f64,
+        /// Time in which it grows at the beginning and fades at the end [s]; zero for a step.
+        rise: f64,
+        /// Force, world axes [N].
+        force_w: Vec3,
+        /// Moment, world axes [N m].
+        moment_w: Vec3,
+        /// Point at which the force acts, platform frame [m].
+        point_p: Vec3,
+    },
+    /// A cable fails at the platform.
+    Cut {
+        /// Index of the cable.
+        cable: usize,
+        /// When it fails.
+        at: CutAt,
+    },
+}
+
+/// When a cable fails.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum CutAt {
+    /// At a time [s].
+    Time(f64),
+    /// When its tension at either end reaches this value [N].
+    Tension(f64),
+}
+
+/// Reason why an event cannot happen. The caller names the event.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum EventFault {
+    /// The event lies outside the simulated time.
+    #[error(
+        "its time {time} s is not within the simulated time, 0 to {end} s: simulate longer, or give an earlier time"
+    )]
+    Outside {
+        /// Time of the event [s].
+        time: f64,
+        /// End of the simulation [s].
+        end: f64,
+    },
+    /// A duration that is not positive.
+    #[error("its duration is {duration} s: it must be positive, because lengths cannot jump")]
+    Duration {
+        /// Given duration [s].
+        duration: f64,
+    },
+    /// The rise of a push is longer than half of it.
+    #[error("its rise takes {rise} s at each end: give at most half of its duration of {duration} s")]
+    Rise {
+        /// Given time [s].
+        rise: f64,
+        /// Duration [s].
+        duration: f64,
+    },
+    /// A payload without mass.
+    #[error("the payload's mass is {mass} kg: it must be positive")]
+    NoMass {
+        /// Given mass [kg].
+        mass: f64,
+    },
+    /// The payload is as heavy as the platform or heavier.
+    #[error(
+        "the payload's {mass} kg leave nothing of the platform's {of} kg at this time: the robot file's mass includes \
+         the payload before its release"
+    )]
+    NegativeMass {
+        /// Mass of the payload [kg].
+        mass: f64,
+        /// Mass of the platform before [kg].
+        of: f64,
+    },
+    /// The inertia of the platform cannot contain the payload.
+    #[error(
+        "a payload of {mass} kg at this point is not part of the platform's inertia, of which something negative \
+         would be left: move the point towards the centre of mass, or raise `inertia_kg_m2` in [platform]"
+    )]
+    NegativeInertia {
+        /// Mass of the payload [kg].
+        mass: f64,
+    },
+    /// Changes of length of one cable overlap.
+    #[error("it begins at {time} s, before the last change of length of cable \"{cable}\" ends at {until} s")]
+    Overlap {
+        /// Name of the cable.
+        cable: String,
+        /// Beginning [s].
+        time: f64,
+        /// End of the change before [s].
+        until: f64,
+    },
+    /// The first length of a table is not the length at that time.
+    #[error(
+        "the length of cable \"{cable}\" jumps from {before} m to {first} m at {time} s: begin the table with the \
+         length at that time"
+    )]
+    Jump {
+        /// Name of the cable.
+        cable: String,
+        /// Length before [m].
+        before: f64,
+        /// First length of the table [m].
+        first: f64,
+        /// Time [s].
+        time: f64,
+    },
+    /// Times of a table that do not rise.
+    #[error("row {row} of its table has the time {time} s, after {before} s: times rise from row to row")]
+    TimesFall {
+        /// Number of the row, from 1.
+        row: usize,
+        /// Time [s].
+        time: f64,
+        /// Time of the row before [s].
+        before: f64,
+    },
+    /// A table that is too short.
+    #[error("its table has {}: give at least two, the first at the beginning", crate::counted(*rows, "row"))]
+    FewRows {
+        /// Rows given.
+        rows: usize,
+    },
+    /// A cable would become too short.
+    #[error(
+        "cable \"{cable}\" would be {length} m long at {time} s: its unstrained length must stay above {least} m, a \
+         hundredth of that at the start"
+    )]
+    TooShort {
+        /// Name of the cable.
+        cable: String,
+        /// Length [m].
+        length: f64,
+        /// Time [s].
+        time: f64,
+        /// Limit [m].
+        least: f64,
+    },
+    /// The last cable is cut.
+    #[error("cable \"{cable}\" is the last one that holds the platform: without it the platform only falls")]
+    LastCable {
+        /// Name of the cable.
+        cable: String,
+    },
+    /// A cable is cut twice.
+    #[error("cable \"{cable}\" has been cut before")]
+    CutTwice {
+        /// Name of the cable.
+        cable: String,
+    },
+    /// A cable that would fail from the beginning.
+    #[error("cable \"{cable}\" has a tension of {tension} N at the start: give a larger tension at which it fails")]
+    CutAtStart {
+        /// Name of the cable.
+        cable: String,
+        /// Tension [N].
+        tension: f64,
+    },
+    /// A load that a point mass cannot carry.
+    #[error("{0}")]
+    Load(#[from] crate::robot::LoadError),
+}
+
+/// An event that cannot happen.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Faulty {
+    pub(super) event: usize,
+    pub(super) fault: EventFault,
+}
+
+/// Least length of a cable over that at the start.
+const LEAST_LENGTH: f64 = 0.01;
+/// Difference of lengths that counts as a jump, over the length: above the rounding of tables in micrometres.
+const JUMP: f64 = 1e-5;
+
+impl SimulationEvent {
+    /// Time at which it begins; none for a cut at a tension.
+    pub(super) fn time(&self) -> Option<f64> {
+        match self {
+            Self::Release { time, .. }
+            | Self::Pick { time, .. }
+            | Self::Ramp { time, .. }
+            | Self::Follow { time, .. }
+            | Self::Stop { time, .. }
+            | Self::Push { time, .. }
+            | Self::Cut { at: CutAt::Time(time), .. } => Some(*time),
+            Self::Cut { at: CutAt::Tension(_), .. } => None,
+        }
+    }
+
+    /// True if it happens at once and changes platform or cables.
+    pub(super) fn is_sudden(&self) -> bool {
+        matches!(self, Self::Release { .. } | Self::Pick { .. } | Self::Cut { at: CutAt::Time(_), .. })
+    }
+
+    /// Checks what the event says by itself.
+    pub(super) fn check(&self, robot: &Robot, end: f64) -> Result<(), EventFault> {
+        if let Some(time) = self.time()
+            && !(0.0..=end).contains(&time)
+        {
+            return Err(EventFault::Outside { time, end });
+        }
+        match self {
+            Self::Ramp { duration, .. } | Self::Stop { duration, .. } | Self::Push { duration, .. }
+                if !(*duration > 0.0 && duration.is_finite()) =>
+            {
+                Err(EventFault::Duration { duration: *duration })
+            }
+            Self::Release { mass, .. } | Self::Pick { mass, .. } if !(*mass > 0.0 && mass.is_finite()) => {
+                Err(EventFault::NoMass { mass: *mass })
+            }
+            Self::Push { duration, rise, .. } if !(0.0..=0.5 * duration).contains(rise) => {
+                Err(EventFault::Rise { rise: *rise, duration: *duration })
+            }
+            Self::Push { force_w, moment_w, point_p, .. } => {
+                let load = crate::robot::Load { force_w: *force_w, moment_w: *moment_w, point_p: *point_p };
+                Ok(load.check(&robot.platform.motion)?)
+            }
+            Self::Follow { times, .. } => check_times(times),
+            _ => Ok(()),
+        }
+    }
+
+    pub(super) fn push(&self) -> Option<Push> {
+        let Self::Push { time, duration, rise, force_w, moment_w, point_p } = *self else { return None };
+        Some(Push { from: time, until: time + duration, rise, force_w, moment_w, point_p })
+    }
+}
+
+fn check_times(times: &[f64]) -> Result<(), EventFault> {
+    if times.len() < 2 {
+        return Err(EventFault::FewRows { rows: times.len() });
+    }
+    for (row, pair) in (2..).zip(times.windows(2)) {
+        if !(pair[1] > pair[0]) {
+            return Err(EventFault::TimesFall { row, time: pair[1], before: pair[0] });
+        }
+    }
+    Ok(())
+}
+
+/// Unstrained lengths over time of all cables. `order` has the events by their time.
+pub(super) fn windings(
+    robot: &Robot,
+    initial: &[f64],
+    events: &[SimulationEvent],
+    order: &[usize],
+) -> Result<Vec<Winding>, Faulty> {
+    let mut windings: Vec<Winding> = initial.iter().map(|length| Winding::constant(*length)).collect();
+    for &event in order {
+        for (i, winding) in windings.iter_mut().enumerate() {
+            let name = &robot.cables[i].name;
+            let faulty = |fault| Faulty { event, fault };
+            wind(winding, i, name, &events[event]).map_err(faulty)?;
+            let (least, limit) = (winding.least(1e-3), LEAST_LENGTH * initial[i]);
+            if !(least.0 >= limit) {
+                let (length, time) = least;
+                return Err(faulty(EventFault::TooShort { cable: name.clone(), length, time, least: limit }));
+            }
+        }
+    }
+    Ok(windings)
+}
+
+/// Adds what an event asks of one winch.
+fn wind(winding: &mut Winding, i: usize, name: &str, event: &SimulationEvent) -> Result<(), EventFault> {
+    let overlap = |time: f64| {
+        move |of: super::winding::Overlap| EventFault::Overlap { cable: name.to_owned(), time, until: of.until }
+    };
+    match event {
+        SimulationEvent::Ramp { time, duration, changes } if changes[i] != 0.0 => {
+            winding.ramp(*time, *duration, changes[i]).map_err(overlap(*time))
+        }
+        SimulationEvent::Follow { time, times, lengths } => {
+            let Some(lengths) = &lengths[i] else { return Ok(()) };
+            let before = winding.at(*time).value;
+            if (lengths[0] - before).abs() > JUMP * before {
+                let (cable, first) = (name.to_owned(), lengths[0]);
+                return Err(EventFault::Jump { cable, before, first, time: *time });
+            }
+            winding.follow(*time, times, lengths).map_err(overlap(*time))
+        }
+        SimulationEvent::Stop { time, duration, cables } if cables.contains(&i) => {
+            winding.brake(*time, *duration);
+            Ok(())
+        }
+        _ => Ok(()),
+    }
+}

@@ -1,0 +1,458 @@
+//! A simulation from its start to its end: events in their order, samples at the times that the caller asks for.
+
+use super::books::{EnergyBooks, StepPowers};
+use super::dense::Dense;
+use super::esdirk::{StepCounts, Stepper};
+use super::event::{CutAt, EventFault, Faulty, SimulationEvent, windings};
+use super::rope::WoundLength;
+use super::start::{SimulationError, SimulationSettings, at_rest};
+use super::system::{BODY, MotionNumbers, RopeEnd};
+use crate::math::{Rotation, Vec3, Vec6};
+use crate::robot::{Pose, Robot};
+use crate::statics::Equilibrium;
+
+/// Tension below which a cable counts as slack [N].
+const SLACK: f64 = 0.5;
+
+/// One cable at one time.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CableSample {
+    /// Tension at the platform [N]: the size of the force between them.
+    pub tension_platform: f64,
+    /// Tension at the anchor [N].
+    pub tension_anchor: f64,
+    /// Unstrained length.
+    pub length: WoundLength,
+    /// True after the cable has been cut.
+    pub is_cut: bool,
+}
+
+/// Robot at one time.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Sample {
+    /// Time [s].
+    pub time: f64,
+    /// Pose of the platform.
+    pub pose: Pose,
+    /// Velocity of the platform's origin and angular velocity, world axes [m/s, rad/s].
+    pub velocity_w: Vec6,
+    /// Acceleration of the platform's origin and angular acceleration, world axes [m/s², rad/s²].
+    pub acceleration_w: Vec6,
+    /// The cables, in file order.
+    pub cables: Vec<CableSample>,
+    /// Energy and work since the start.
+    pub energy: EnergyBooks,
+}
+
+/// How long a cable has been slack.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct SlackCable {
+    /// Time at which its tension at the platform first fell below half a newton [s].
+    pub first: Option<f64>,
+    /// Time for which it was below [s].
+    pub duration: f64,
+    /// Tension at the end of the last step [N].
+    last: Option<f64>,
+}
+
+/// Simulation of a robot.
+///
+/// # Example
+/// ```
+/// use funicular::robot::Robot;
+/// use funicular::simulation::{Simulation, SimulationEvent, SimulationSettings};
+/// use funicular::statics::{self, StaticModel};
+///
+/// let mut robot = Robot::from_toml(funicular_robots::YUAN2014_4MM)?;
+/// robot.platform.mass = 12.5; // kg
+/// let rest = statics::solve(&robot, StaticModel::Catenary, None)?.equilibrium;
+/// let release = SimulationEvent::Release { time: 0.0, mass: 1.95, point_p: None };
+/// let mut simulation = Simulation::new(&robot, &rest, &[release], 0.05, &SimulationSettings::default())?;
+/// let sample = simulation.at(0.05)?;
+/// assert!(sample.pose.position_w.z > rest.pose.position_w.z); // the lighter platform goes up
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub struct Simulation {
+    stepper: Stepper,
+    settings: SimulationSettings,
+    names: Vec<String>,
+    /// Sudden events that are to come, by time: index and event.
+    sudden: Vec<(usize, SimulationEvent)>,
+    /// Cables that fail at a tension: index of the event, cable, tension [N].
+    fuses: Vec<(usize, usize, f64)>,
+    /// Cables that failed, with the time [s].
+    cuts: Vec<(usize, f64)>,
+    /// Times at which steps end, rising.
+    breaks: Vec<f64>,
+    books: EnergyBooks,
+    last: Option<(Dense, StepPowers, EnergyBooks)>,
+    slack: Vec<SlackCable>,
+    work: MotionNumbers,
+    needed: Vec<f64>,
+}
+
+impl Simulation {
+    /// Simulation that begins at `rest`, for `duration` [s].
+    ///
+    /// # Errors
+    /// [`SimulationError`]: a part of the robot that is not simulated, an event that cannot happen, or a start without
+    /// a stable equilibrium of the mesh.
+    pub fn new(
+        robot: &Robot,
+        rest: &Equilibrium,
+        events: &[SimulationEvent],
+        duration: f64,
+        settings: &SimulationSettings,
+    ) -> Result<Self, SimulationError> {
+        for (event, of) in events.iter().enumerate() {
+            of.check(robot, duration).map_err(|fault| SimulationError::Event { event, fault })?;
+        }
+        let mut order: Vec<usize> = (0..events.len()).filter(|k| events[*k].time().is_some()).collect();
+        let time = |k: usize| events[k].time().unwrap_or_default();
+        order.sort_by(|a, b| time(*a).total_cmp(&time(*b)));
+
+        let initial: Vec<f64> = rest.cables.iter().map(|cable| cable.unstrained_length).collect();
+        let windings = windings(robot, &initial, events, &order).map_err(of_event)?;
+        let mut breaks: Vec<f64> = windings.iter().flat_map(|winding| winding.breaks()).collect();
+        let stepper = at_rest(robot, rest, settings, windings)?;
+
+        let (count, size) = (robot.cables.len(), stepper.system.size);
+        let mut simulation = Self {
+            stepper,
+            settings: settings.clone(),
+            names: robot.cables.iter().map(|cable| cable.name.clone()).collect(),
+            sudden: Vec::new(),
+            fuses: Vec::new(),
+            cuts: Vec::new(),
+            breaks: Vec::new(),
+            books: EnergyBooks::default(),
+            last: None,
+            slack: vec![SlackCable::default(); count],
+            work: MotionNumbers::zeros(size),
+            needed: vec![0.0; size],
+        };
+        for event in order.iter().map(|k| &events[*k]) {
+            breaks.extend(event.time());
+            if let Some(push) = event.push() {
+                breaks.extend([push.from + push.rise, push.until - push.rise, push.until]);
+                simulation.stepper.system.body.pushes.push(push);
+            }
+        }
+        breaks.push(duration);
+        breaks.sort_by(f64::total_cmp);
+        breaks.dedup();
+        simulation.breaks = breaks;
+        simulation.sudden =
+            order.into_iter().filter(|k| events[*k].is_sudden()).map(|k| (k, events[k].clone())).collect();
+        simulation.set_fuses(events)?;
+        simulation.check_cuts(events).map_err(of_event)?;
+
+        simulation.begin()?;
+        simulation.books.at_start = simulation.books.total();
+        Ok(simulation)
+    }
+
+    /// Cables that fail at a tension.
+    fn set_fuses(&mut self, events: &[SimulationEvent]) -> Result<(), SimulationError> {
+        for (event, of) in events.iter().enumerate() {
+            if let SimulationEvent::Cut { cable, at: CutAt::Tension(limit) } = *of {
+                let lengths = self.stepper.system.lengths(0.0);
+                let tension = self.tensions(cable, &lengths, &self.stepper.needed).into_iter().fold(0.0, f64::max);
+                if tension >= limit {
+                    let fault = EventFault::CutAtStart { cable: self.names[cable].clone(), tension };
+                    return Err(SimulationError::Event { event, fault });
+                }
+                self.fuses.push((event, cable, limit));
+            }
+        }
+        Ok(())
+    }
+
+    /// Refuses cuts of the last cable and second cuts, as far as their times are known.
+    fn check_cuts(&self, events: &[SimulationEvent]) -> Result<(), Faulty> {
+        let mut cut = vec![false; self.names.len()];
+        for (event, of) in &self.sudden {
+            let SimulationEvent::Cut { cable, .. } = of else { continue };
+            let name = || self.names[*cable].clone();
+            if std::mem::replace(&mut cut[*cable], true) {
+                return Err(Faulty { event: *event, fault: EventFault::CutTwice { cable: name() } });
+            }
+            if cut.iter().all(|is_cut| *is_cut) {
+                return Err(Faulty { event: *event, fault: EventFault::LastCable { cable: name() } });
+            }
+        }
+        let fuse = |event: &usize| matches!(events[*event], SimulationEvent::Cut { at: CutAt::Tension(_), .. });
+        debug_assert!(self.fuses.iter().all(|of| fuse(&of.0)), "fuses are cuts at a tension");
+        Ok(())
+    }
+
+    /// Accelerations and energies at the present time, after the start or an event.
+    fn begin(&mut self) -> Result<(), SimulationError> {
+        self.stepper.restart().map_err(|of| self.too_fast(of.time))?;
+        self.last = None;
+        let stepper = &self.stepper;
+        let lengths = stepper.system.lengths(stepper.time);
+        let (energy, _) = stepper.system.energy(stepper.time, &lengths, &stepper.now, &stepper.needed);
+        self.books = EnergyBooks { ..with_energy(&self.books, &energy) };
+        Ok(())
+    }
+
+    fn too_fast(&self, time: f64) -> SimulationError {
+        SimulationError::TooFast { time, tolerance: self.settings.tolerance }
+    }
+
+    /// Robot at a time [s], not before the last one that was asked for by more than a step.
+    ///
+    /// # Errors
+    /// [`SimulationError::TooFast`]; [`SimulationError::Event`] for an event that turns out to be impossible.
+    pub fn at(&mut self, time: f64) -> Result<Sample, SimulationError> {
+        loop {
+            let is_due = self.sudden.first().is_some_and(|(_, event)| event.time() <= Some(self.stepper.time));
+            if time < self.stepper.time || (time == self.stepper.time && !is_due) {
+                return Ok(self.sample(time));
+            }
+            if is_due {
+                self.happen()?;
+            } else {
+                self.advance()?;
+            }
+        }
+    }
+
+    /// Lets the next sudden event happen.
+    fn happen(&mut self) -> Result<(), SimulationError> {
+        let (event, of) = self.sudden.remove(0);
+        let before = self.books.total();
+        match of {
+            SimulationEvent::Release { mass, point_p, .. } => {
+                self.stepper.release(mass, point_p).map_err(|fault| SimulationError::Event { event, fault })?
+            }
+            SimulationEvent::Pick { mass, point_p, velocity_w, .. } => self.stepper.pick(mass, point_p, velocity_w),
+            SimulationEvent::Cut { cable, .. } => self.cut(event, cable)?,
+            _ => {}
+        }
+        self.begin()?;
+        self.books.payloads += self.books.total() - before;
+        Ok(())
+    }
+
+    fn cut(&mut self, event: usize, cable: usize) -> Result<(), SimulationError> {
+        let ends = &self.stepper.system.ends;
+        if ends[cable] != RopeEnd::Attached {
+            // It failed by its tension before.
+            return Ok(());
+        }
+        if ends.iter().filter(|end| **end == RopeEnd::Attached).count() == 1 {
+            let fault = EventFault::LastCable { cable: self.names[cable].clone() };
+            return Err(SimulationError::Event { event, fault });
+        }
+        self.stepper.cut(cable);
+        self.cuts.push((cable, self.stepper.time));
+        Ok(())
+    }
+
+    /// One step.
+    fn advance(&mut self) -> Result<(), SimulationError> {
+        let now = self.stepper.time;
+        let next = self.breaks.partition_point(|at| *at <= now);
+        let until = self.breaks.get(next).copied().unwrap_or(now + 1.0);
+        let start = self.stepper.system.lengths(now);
+        let first = self.stepper.system.energy(now, &start, &self.stepper.now, &self.stepper.needed).1;
+        let dense = self.stepper.advance(until).map_err(|of| self.too_fast(of.time))?;
+        if let Some((event, cable, time)) = self.blown(&dense) {
+            // Back to the time at which the cable fails.
+            self.rewind(&dense, time);
+            let end = self.powers_between(&dense, first, time);
+            self.book(dense, end);
+            self.cut(event, cable)?;
+            self.fuses.retain(|fuse| fuse.0 != event);
+            return self.begin();
+        }
+        let end = self.powers_between(&dense, first, dense.until);
+        self.book(dense, end);
+        Ok(())
+    }
+
+    /// Powers of a step up to a time at which the stepper is.
+    fn powers_between(&mut self, dense: &Dense, first: super::books::Powers, until: f64) -> StepPowers {
+        let middle = 0.5 * (dense.from + until);
+        let stepper = &mut self.stepper;
+        let rotation = std::mem::replace(&mut stepper.system.rotation, dense.rotation);
+        let lengths = stepper.system.within(dense, middle, &mut self.work, &mut self.needed);
+        let halfway = stepper.system.energy(middle, &lengths, &self.work, &self.needed).1;
+        stepper.system.rotation = rotation;
+        let lengths = stepper.system.lengths(stepper.time);
+        let last = stepper.system.energy(stepper.time, &lengths, &stepper.now, &stepper.needed).1;
+        StepPowers { at: [first, halfway, last], duration: until - dense.from }
+    }
+
+    /// Enters a step into the books.
+    fn book(&mut self, dense: Dense, powers: StepPowers) {
+        let before = self.books;
+        let stepper = &self.stepper;
+        let lengths = stepper.system.lengths(stepper.time);
+        let (energy, _) = stepper.system.energy(stepper.time, &lengths, &stepper.now, &stepper.needed);
+        self.books = with_work(&with_energy(&before, &energy), powers.work(1.0));
+        self.note_slack(dense.from, &lengths);
+        self.last = Some((dense, powers, before));
+    }
+
+    fn note_slack(&mut self, from: f64, lengths: &[WoundLength]) {
+        let until = self.stepper.time;
+        for i in 0..self.slack.len() {
+            if self.stepper.system.ends[i] != RopeEnd::Attached {
+                continue;
+            }
+            let [tension, _] = self.tensions(i, lengths, &self.stepper.needed);
+            let slack = &mut self.slack[i];
+            let before = slack.last.replace(tension).unwrap_or(tension);
+            // The tension counts as straight over the step.
+            let share = match (before < SLACK, tension < SLACK) {
+                (false, false) => 0.0,
+                (true, true) => 1.0,
+                (false, true) => (SLACK - tension) / (before - tension),
+                (true, false) => (SLACK - before) / (tension - before),
+            };
+            slack.duration += share * (until - from);
+            if slack.first.is_none() && share > 0.0 {
+                slack.first = Some(if before < SLACK { from } else { until - share * (until - from) });
+            }
+        }
+    }
+
+    /// A cable that reached its tension within a step, and the time.
+    fn blown(&mut self, dense: &Dense) -> Option<(usize, usize, f64)> {
+        let lengths = self.stepper.system.lengths(self.stepper.time);
+        let over = |of: &Self, cable: usize, lengths: &[WoundLength], needed: &[f64]| {
+            of.tensions(cable, lengths, needed).into_iter().fold(0.0, f64::max)
+        };
+        let reached = |fuse: &&(usize, usize, f64)| {
+            self.stepper.system.ends[fuse.1] == RopeEnd::Attached
+                && over(self, fuse.1, &lengths, &self.stepper.needed) >= fuse.2
+        };
+        let (event, cable, limit) = *self.fuses.iter().find(reached)?;
+        let (mut below, mut above) = (dense.from, dense.until);
+        let mut needed = std::mem::take(&mut self.needed);
+        for _ in 0..40 {
+            let middle = 0.5 * (below + above);
+            let lengths = self.stepper.system.within(dense, middle, &mut self.work, &mut needed);
+            if over(self, cable, &lengths, &needed) >= limit { above = middle } else { below = middle }
+        }
+        self.needed = needed;
+        Some((event, cable, above))
+    }
+
+    /// Takes the stepper back to a time within its last step.
+    fn rewind(&mut self, dense: &Dense, time: f64) {
+        let stepper = &mut self.stepper;
+        stepper.system.rotation = dense.rotation;
+        dense.at(time, &mut stepper.now);
+        let turn = Vec3::from_column_slice(&stepper.now.x[3..BODY]);
+        stepper.system.rotation = stepper.system.rotation_at(&turn);
+        stepper.now.x[3..BODY].fill(0.0);
+        stepper.time = time;
+        let lengths = stepper.system.lengths(time);
+        stepper.evaluate(&lengths);
+    }
+
+    /// Tensions of a cable at the platform and at its anchor [N].
+    fn tensions(&self, i: usize, lengths: &[WoundLength], needed: &[f64]) -> [f64; 2] {
+        let system = &self.stepper.system;
+        let range = system.of_rope(i);
+        let at = |from: usize| Vec3::from_column_slice(&needed[from..from + 3]);
+        if system.ends[i] == RopeEnd::Gone {
+            return [0.0; 2];
+        }
+        let platform = if system.ends[i] == RopeEnd::Attached { at(range.start).norm() } else { 0.0 };
+        [platform, system.ropes[i].anchor_tension(&lengths[i], &at(range.end - 3))]
+    }
+
+    /// Robot at a time of the last step, or now.
+    fn sample(&mut self, time: f64) -> Sample {
+        let Some((dense, powers, before)) = self.last.take().filter(|_| time < self.stepper.time) else {
+            let (now, needed) = (self.stepper.now.clone(), self.stepper.needed.clone());
+            let lengths = self.stepper.system.lengths(time);
+            return self.of_motion(time, self.stepper.system.rotation, &now, &lengths, &needed, self.books);
+        };
+        let (mut motion, mut needed) = (std::mem::take(&mut self.work), std::mem::take(&mut self.needed));
+        let lengths = self.stepper.system.within(&dense, time, &mut motion, &mut needed);
+        let rotation = std::mem::replace(&mut self.stepper.system.rotation, dense.rotation);
+        let energy = self.stepper.system.energy(time, &lengths, &motion, &needed).0;
+        let part = (time - dense.from) / powers.duration;
+        let books = with_work(&with_energy(&before, &energy), powers.work(part));
+        let at = self.stepper.system.rotation_at(&Vec3::from_column_slice(&motion.x[3..BODY]));
+        self.stepper.system.rotation = rotation;
+        let sample = self.of_motion(time, at, &motion, &lengths, &needed, books);
+        (self.work, self.needed, self.last) = (motion, needed, Some((dense, powers, before)));
+        sample
+    }
+
+    fn of_motion(
+        &self,
+        time: f64,
+        rot_wp: Rotation,
+        m: &MotionNumbers,
+        lengths: &[WoundLength],
+        needed: &[f64],
+        energy: EnergyBooks,
+    ) -> Sample {
+        let body = &self.stepper.system.body;
+        let three = |of: &[f64], from: usize| Vec3::from_column_slice(&of[from..from + 3]);
+        let origin = -body.center_p;
+        let motion = super::body::BodyMotion {
+            center_w: three(&m.x, 0),
+            rot_wp: rot_wp.to_rotation_matrix().into_inner(),
+            velocity: super::system::six(&m.v),
+            acceleration: super::system::six(&m.a),
+        };
+        let [_, velocity, acceleration] = body.point(&motion, &origin);
+        let joined = super::body::joined;
+        let cable = |i: usize| {
+            let [tension_platform, tension_anchor] = self.tensions(i, lengths, needed);
+            let is_cut = self.stepper.system.ends[i] != RopeEnd::Attached;
+            CableSample { tension_platform, tension_anchor, length: lengths[i], is_cut }
+        };
+        Sample {
+            time,
+            pose: body.pose(&motion.center_w, &rot_wp),
+            velocity_w: joined(&velocity, &(rot_wp * three(&m.v, 3))),
+            acceleration_w: joined(&acceleration, &(rot_wp * three(&m.a, 3))),
+            cables: (0..lengths.len()).map(cable).collect(),
+            energy,
+        }
+    }
+
+    /// How long each cable has been slack.
+    pub fn slack(&self) -> &[SlackCable] {
+        &self.slack
+    }
+
+    /// Cables that failed so far: index and time [s].
+    pub fn cuts(&self) -> &[(usize, f64)] {
+        &self.cuts
+    }
+
+    /// Steps so far.
+    pub fn counts(&self) -> StepCounts {
+        self.stepper.counts
+    }
+}
+
+fn of_event(faulty: Faulty) -> SimulationError {
+    SimulationError::Event { event: faulty.event, fault: faulty.fault }
+}
+
+/// Books with the present energy.
+fn with_energy(books: &EnergyBooks, energy: &EnergyBooks) -> EnergyBooks {
+    EnergyBooks { kinetic: energy.kinetic, strain: energy.strain, potential: energy.potential, ..*books }
+}
+
+/// Books with more work.
+fn with_work(books: &EnergyBooks, [winches, loads, dissipated]: [f64; 3]) -> EnergyBooks {
+    EnergyBooks {
+        winches: books.winches + winches,
+        loads: books.loads + loads,
+        dissipated: books.dissipated + dissipated,
+        ..*books
+    }
+}

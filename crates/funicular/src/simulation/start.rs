@@ -1,0 +1,252 @@
+//! Beginning of a simulation: the robot at rest as a mesh.
+
+use super::air::Air;
+use super::basis::Basis;
+use super::body::MovingBody;
+use super::esdirk::Stepper;
+use super::event::EventFault;
+use super::rope::RopeMesh;
+use super::system::{BODY, MotionNumbers, RopeEnd, System};
+use super::winding::Winding;
+use crate::math::Vec3;
+use crate::modes;
+use crate::robot::{Damping, Robot};
+use crate::statics::Equilibrium;
+use std::f64::consts::TAU;
+use std::rc::Rc;
+use thiserror::Error;
+
+/// Elements of each rope.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Mesh {
+    /// Number of elements of each rope, at least 1.
+    pub elements: usize,
+    /// Degree of their polynomials, 1 to [`Mesh::MAX_DEGREE`].
+    pub degree: usize,
+}
+
+impl Mesh {
+    /// Three elements of degree eight: the tension after a release is right to 1 % (root mean square).
+    pub const STANDARD: Self = Self { elements: 3, degree: 8 };
+    /// Highest degree: beyond it the blocks of the elements cost more than they gain.
+    pub const MAX_DEGREE: usize = 10;
+    /// Largest number of elements.
+    pub const MAX_ELEMENTS: usize = 1000;
+
+    /// Mesh with half as many nodes again, against which a result shows its error.
+    #[must_use]
+    pub fn finer(self) -> Self {
+        Self { elements: self.elements + self.elements.div_ceil(2), ..self }
+    }
+}
+
+impl Default for Mesh {
+    fn default() -> Self {
+        Self::STANDARD
+    }
+}
+
+/// Settings of a simulation.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SimulationSettings {
+    /// Mesh of the ropes.
+    pub mesh: Mesh,
+    /// Error of a position that one step may have [m].
+    pub tolerance: f64,
+    /// Frequency at which the constant damping ratio of a rope holds [Hz]; `None` for the robot's first natural
+    /// frequency.
+    pub damping_frequency_hz: Option<f64>,
+    /// Damping time of the stretch of all ropes [s] in place of that of the robot file.
+    pub stretch_damping_time: Option<f64>,
+    /// The platform is held where it is.
+    pub platform_is_held: bool,
+}
+
+impl SimulationSettings {
+    /// Default tolerance [m]: tensions to about 1 %.
+    pub const TOLERANCE: f64 = 1e-7;
+    /// Range of tolerances [m]; below it rounding decides, above it no tension is right.
+    pub const TOLERANCES: [f64; 2] = [1e-12, 1e-3];
+}
+
+impl Default for SimulationSettings {
+    fn default() -> Self {
+        Self {
+            mesh: Mesh::default(),
+            tolerance: Self::TOLERANCE,
+            damping_frequency_hz: None,
+            stretch_damping_time: None,
+            platform_is_held: false,
+        }
+    }
+}
+
+/// Reason why a simulation cannot begin or go on.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum SimulationError {
+    /// A part of the robot that a simulation does not know.
+    #[error("cable \"{cable}\" has {what}, which a simulation does not have yet: {remedy}")]
+    Unsupported {
+        /// Name of the cable.
+        cable: String,
+        /// The part.
+        what: &'static str,
+        /// Way out.
+        remedy: &'static str,
+    },
+    /// The equilibrium has no hanging cables.
+    #[error("a simulation begins at an equilibrium of elastic cables: choose the static model `catenary`")]
+    NotElastic,
+    /// The start is no stable equilibrium of the mesh.
+    #[error(
+        "the equilibrium at the start is not stable, or a cable carries nothing there: begin at a pose that the cables \
+         hold with tension"
+    )]
+    NoRest,
+    /// The damping ratio of ropes has no frequency.
+    #[error(
+        "the damping ratio of the ropes holds at one frequency, and the robot has no first natural frequency at the \
+         start: give that frequency, or `viscous_damping_n_s_m2` in [materials.*]"
+    )]
+    NoFrequency,
+    /// An event that cannot happen.
+    #[error("event {}: {fault}", event + 1)]
+    Event {
+        /// Index of the event.
+        event: usize,
+        /// Reason.
+        fault: EventFault,
+    },
+    /// The motion cannot be followed.
+    #[error(
+        "from {time} s on no step is short enough for the tolerance of {tolerance} m: give a larger tolerance, more \
+         elements, or `axial_damping_time_s` in [materials.*]"
+    )]
+    TooFast {
+        /// Time reached [s].
+        time: f64,
+        /// Tolerance [m].
+        tolerance: f64,
+    },
+}
+
+/// Refuses parts of a robot that are not simulated.
+fn check_parts(robot: &Robot) -> Result<(), SimulationError> {
+    for cable in &robot.cables {
+        let unsupported = |what, remedy| Err(SimulationError::Unsupported { cable: cable.name.clone(), what, remedy });
+        let anchor = &cable.anchor;
+        let rope = &cable.material;
+        if anchor.pulley.is_some() {
+            return unsupported("a pulley", "leave its pulley out, and give the exit point as `anchor_m`");
+        }
+        if anchor.winch.is_some() {
+            return unsupported("a winch with a drive", "leave out its winch; lengths are commanded at the anchor");
+        }
+        if anchor.support.is_some() {
+            return unsupported("a flexible support", "leave out its support");
+        }
+        let is_loaded = cable.load_per_length_w.norm() > 0.0 || rope.drag_width.is_some_and(|width| width > 0.0);
+        if rope.mass_per_length == 0.0 && is_loaded {
+            return unsupported("a load or drag but no mass", "give `mass_kg_per_m` in [materials.*]");
+        }
+    }
+    Ok(())
+}
+
+/// Viscous damping per length of each rope [N s/m²].
+fn viscous(robot: &Robot, rest: &Equilibrium, settings: &SimulationSettings) -> Result<Vec<f64>, SimulationError> {
+    let needs_frequency = |rope: &crate::robot::Material| {
+        matches!(rope.damping, Damping::Ratio(ratio) if ratio > 0.0 && rope.mass_per_length > 0.0)
+            || rope.stretch_loss.factor > 0.0
+    };
+    let mut omega = 0.0;
+    if robot.cables.iter().any(|cable| needs_frequency(&cable.material)) {
+        let frequency_hz = match settings.damping_frequency_hz {
+            Some(frequency_hz) => frequency_hz,
+            None => modes::first(robot, rest).map_err(|_| SimulationError::NoFrequency)?.frequency_hz,
+        };
+        omega = TAU * frequency_hz;
+    }
+    let of = |cable: &crate::robot::Cable| match cable.material.damping {
+        Damping::Ratio(ratio) => 2.0 * ratio * cable.material.mass_per_length * omega,
+        Damping::Viscous(viscous) => viscous,
+    };
+    Ok(robot.cables.iter().map(of).collect())
+}
+
+/// Stepper at the equilibrium of the mesh near `rest`, with unstrained lengths over time.
+pub(super) fn at_rest(
+    robot: &Robot,
+    rest: &Equilibrium,
+    settings: &SimulationSettings,
+    windings: Vec<Winding>,
+) -> Result<Stepper, SimulationError> {
+    check_parts(robot)?;
+    let viscous = viscous(robot, rest, settings)?;
+    let basis = Rc::new(Basis::new(settings.mesh.degree));
+    let bar = Rc::new(Basis::new(1));
+
+    let mesh = |i: usize| {
+        let cable = &robot.cables[i];
+        let rope = &cable.material;
+        let mass = rope.mass_per_length;
+        // A rope without mass is one straight bar.
+        let (elements, basis) = if mass > 0.0 { (settings.mesh.elements, &basis) } else { (1, &bar) };
+        let has_air = robot.wind.air_density > 0.0;
+        RopeMesh {
+            basis: Rc::clone(basis),
+            elements,
+            mass,
+            stiffness: rope.axial_stiffness,
+            damping_time: settings.stretch_damping_time.unwrap_or(rope.stretch_loss.time),
+            viscous: if mass > 0.0 { viscous[i] } else { 0.0 },
+            load_w: robot.gravity_w * mass + cable.load_per_length_w,
+            gravity_w: robot.gravity_w,
+            drag_width: if has_air { rope.drag_width.unwrap_or(0.0) } else { 0.0 },
+        }
+    };
+    let ropes: Vec<RopeMesh> = (0..robot.cables.len()).map(mesh).collect();
+    let mut size = BODY;
+    let mut offset = |rope: &RopeMesh| {
+        size += rope.size();
+        size - rope.size()
+    };
+    let offsets: Vec<usize> = ropes.iter().map(&mut offset).collect();
+
+    let system = System {
+        body: MovingBody::of(robot, settings.platform_is_held),
+        ends: vec![RopeEnd::Attached; ropes.len()],
+        ropes,
+        windings,
+        offsets,
+        size,
+        air: Air::steady(robot.wind),
+        rotation: rest.pose.rot_wp,
+        evaluations: 0,
+    };
+    let now = hanging(&system, rest)?;
+    let mut stepper = Stepper::new(system, now, settings.tolerance, robot.platform_length());
+    if !stepper.settle() {
+        return Err(SimulationError::NoRest);
+    }
+    Ok(stepper)
+}
+
+/// Nodes on the curves of the cables at rest.
+fn hanging(system: &System, rest: &Equilibrium) -> Result<MotionNumbers, SimulationError> {
+    let mut motion = MotionNumbers::zeros(system.size);
+    let mut put = |from: usize, at: &Vec3| motion.x[from..from + 3].copy_from_slice(at.as_slice());
+    put(0, &rest.pose.point_w(&system.body.center_p));
+    for (i, rope) in system.ropes.iter().enumerate() {
+        let hanging = rest.cables[i].hanging.as_ref().ok_or(SimulationError::NotElastic)?;
+        let length = hanging.catenary.rope().unstrained_length;
+        let degree = rope.basis.degree;
+        for node in 0..=rope.last() {
+            let (e, q) = (node / degree, node % degree);
+            let sigma = (e as f64 + rope.basis.nodes[q]) / rope.elements as f64;
+            let at = if node == rope.last() { hanging.end_w } else { hanging.point_w(sigma * length) };
+            put(system.offsets[i] + 3 * node, &at);
+        }
+    }
+    Ok(motion)
+}

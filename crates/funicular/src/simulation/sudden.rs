@@ -1,0 +1,117 @@
+//! Changes of platform and cables that happen at once.
+
+use super::body::{BodyMotion, MovingBody, halves, joined};
+use super::esdirk::Stepper;
+use super::event::EventFault;
+use super::system::{RopeEnd, six};
+use crate::math::{Mat3, Mat6, Vec3, Vec6, inverse6, skew};
+
+/// Inertia of a point mass about a point at distance `lever`.
+fn of_point(mass: f64, lever: &Vec3) -> Mat3 {
+    (Mat3::identity() * lever.norm_squared() - lever * lever.transpose()) * mass
+}
+
+impl MovingBody {
+    /// Body without a payload that is a part of it.
+    pub(super) fn without(&self, mass: f64, point_p: &Vec3) -> Result<Self, EventFault> {
+        if mass >= self.mass {
+            return Err(EventFault::NegativeMass { mass, of: self.mass });
+        }
+        let (left, lever) = (self.mass - mass, point_p - self.center_p);
+        let inertia_p = self.inertia_p - of_point(mass * self.mass / left, &lever);
+        let is_possible = !self.turns() || is_positive(&inertia_p) || lever.norm() == 0.0;
+        if !is_possible {
+            return Err(EventFault::NegativeInertia { mass });
+        }
+        Ok(Self { mass: left, inertia_p, center_p: self.center_p - lever * (mass / left), ..self.clone() })
+    }
+
+    /// Body with a point mass more.
+    pub(super) fn with(&self, mass: f64, point_p: &Vec3) -> Self {
+        let (sum, lever) = (self.mass + mass, point_p - self.center_p);
+        let inertia_p = self.inertia_p + of_point(mass * self.mass / sum, &lever);
+        Self { mass: sum, inertia_p, center_p: self.center_p + lever * (mass / sum), ..self.clone() }
+    }
+
+    fn turns(&self) -> bool {
+        self.motion.is_some_and(|motion| motion.can_turn())
+    }
+}
+
+/// True if a symmetric matrix has no eigenvalue below zero but for rounding.
+fn is_positive(inertia: &Mat3) -> bool {
+    let least = inertia.symmetric_eigenvalues().min();
+    least > -1e-12 * inertia.norm()
+}
+
+impl Stepper {
+    /// Takes a body in place of the present one, at the same place and with the same velocities of its points.
+    fn take_body(&mut self, body: MovingBody) {
+        let motion = self.system.body_motion(&self.now);
+        let shift = body.center_p - self.system.body.center_p;
+        let [center, velocity, _] = self.system.body.point(&motion, &shift);
+        self.now.x[..3].copy_from_slice(center.as_slice());
+        self.now.v[..3].copy_from_slice(velocity.as_slice());
+        self.system.body = body;
+    }
+
+    /// Lets a payload go.
+    pub(super) fn release(&mut self, mass: f64, point_p: Option<Vec3>) -> Result<(), EventFault> {
+        let body = &self.system.body;
+        let without = body.without(mass, &point_p.unwrap_or(body.center_p))?;
+        self.take_body(without);
+        Ok(())
+    }
+
+    /// Takes a payload up: the momentum of payload, platform and the ends of the ropes on it stays.
+    ///
+    /// # References
+    /// docs/theory.md, equation (97k).
+    pub(super) fn pick(&mut self, mass: f64, point_p: Option<Vec3>, velocity_w: Option<Vec3>) {
+        let point_p = point_p.unwrap_or(self.system.body.center_p);
+        let with = self.system.body.with(mass, &point_p);
+        let before = self.system.body_motion(&self.now);
+        let lever = point_p - self.system.body.center_p;
+        let own = self.system.body.point(&before, &lever)[1];
+        self.take_body(with);
+
+        // Change of the momentum of the payload, which the others take over.
+        let impulse_w = (velocity_w.unwrap_or(own) - own) * mass;
+        let motion = self.system.body_motion(&self.now);
+        let body = &self.system.body;
+        let impulse = MovingBody::wrench(&motion, &(point_p - body.center_p), &impulse_w);
+        let change = self
+            .impulse_matrix(&motion)
+            .map_or_else(Vec6::zeros, |inverse| body.expanded(&(inverse * body.reduced(&impulse))));
+        let velocity = six(&self.now.v) + change;
+        self.now.v[..6].copy_from_slice(velocity.as_slice());
+    }
+
+    /// Inverse of the mass of the platform with the masses of the ropes' ends on it, in its coordinates.
+    fn impulse_matrix(&self, motion: &BodyMotion) -> Option<Mat6> {
+        let body = &self.system.body;
+        let lengths = self.system.lengths(self.time);
+        let mut matrix = body.matrix(motion, 1.0, 0.0, 0.0);
+        for (i, rope) in self.system.ropes.iter().enumerate() {
+            if self.system.ends[i] != RopeEnd::Attached {
+                continue;
+            }
+            let turn = -motion.rot_wp * skew(&body.lever_p(i));
+            let mass = rope.end_mass(lengths[i].value);
+            for k in 0..6 {
+                let (translation, of_turn) = halves(&Vec6::ith(k, 1.0));
+                let end = (translation + turn * of_turn) * mass;
+                let column = joined(&end, &turn.tr_mul(&end));
+                let mut view = matrix.column_mut(k);
+                view += column;
+            }
+        }
+        inverse6(&body.reduced_matrix(&matrix))
+    }
+
+    /// Frees the end of a cable.
+    pub(super) fn cut(&mut self, cable: usize) {
+        let has_mass = self.system.ropes[cable].mass > 0.0;
+        self.system.ends[cable] = if has_mass { RopeEnd::Free } else { RopeEnd::Gone };
+    }
+}
