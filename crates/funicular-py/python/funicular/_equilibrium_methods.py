@@ -260,7 +260,8 @@ def state_space(of: Any, given: Given) -> StateSpaceModel:
         No choice of modes keeps the tolerance, a mode has no damping, or the equilibrium is unstable.
     """
     robot = of if isinstance(of, Robot) else of.robot
-    return _results.state_space(*of._reduced({**given, "form": "state-space"}), robot.to_toml())
+    found, matrices = of._reduced({**given, "form": "state-space"})
+    return _results.state_space(found, matrices, robot.to_toml())
 
 
 @declared(Analyses, "reduce", positional=("below_hz", "input", "output"), headings=REST, without=("form", "order"), others=_AS_MODES)
