@@ -31,31 +31,36 @@ pub(super) struct CableSpring {
     pub(super) tension: f64,
 }
 
-impl<'a> StraightRobot<'a> {
-    /// The equilibrium with straight cables: at the lengths of the state, or else at its pose.
-    ///
-    /// # Errors
-    /// No such equilibrium, or one with ideal cables, which have no stiffness.
-    pub(super) fn of(at_rest: &'a AtRest) -> Result<Self> {
-        let AtRest { robot, equilibrium, rule, held_pose, .. } = at_rest;
-        let straight = match equilibrium.model {
-            StaticModel::Spring => equilibrium.clone(),
-            StaticModel::Ideal => bail!("ideal cables have no stiffness: give ⟪static_model⟫ `spring` or `catenary`"),
-            StaticModel::Catenary if held_pose.is_some() || matches!(robot.state, State::Lengths(_)) => {
-                let lengths: Vec<f64> = equilibrium.cables.iter().map(|cable| cable.unstrained_length).collect();
-                statics::forward(robot, &lengths, StaticModel::Spring, Some(&equilibrium.pose))?
-            }
-            StaticModel::Catenary => {
-                let rule = rule.clone().unwrap_or_default();
-                statics::solve_at(robot, &robot.state, StaticModel::Spring, &rule)?.equilibrium
-            }
-        };
+/// The robot at rest with straight cables: at the lengths of the state, or else at its pose.
+///
+/// # Errors
+/// No such equilibrium, or one with ideal cables, which have no stiffness.
+pub(super) fn at_rest(given: &AtRest) -> Result<AtRest> {
+    let AtRest { robot, equilibrium, rule, held_pose, .. } = given;
+    let straight = match equilibrium.model {
+        StaticModel::Spring => equilibrium.clone(),
+        StaticModel::Ideal => bail!("ideal cables have no stiffness: give ⟪static_model⟫ `spring` or `catenary`"),
+        StaticModel::Catenary if held_pose.is_some() || matches!(robot.state, State::Lengths(_)) => {
+            let lengths: Vec<f64> = equilibrium.cables.iter().map(|cable| cable.unstrained_length).collect();
+            statics::forward(robot, &lengths, StaticModel::Spring, Some(&equilibrium.pose))?
+        }
+        StaticModel::Catenary => {
+            let rule = rule.clone().unwrap_or_default();
+            statics::solve_at(robot, &robot.state, StaticModel::Spring, &rule)?.equilibrium
+        }
+    };
+    Ok(AtRest { equilibrium: straight, ..given.clone() })
+}
 
-        let mut found = Self { robot, equilibrium: straight, lost: Vec::new() };
-        found.tell_sag(equilibrium);
+impl<'a> StraightRobot<'a> {
+    /// The robot at rest on straight cables. `given` is the equilibrium that it was made of, `lost` what the file has lost
+    /// already.
+    pub(super) fn of(at_rest: &'a AtRest, given: &Equilibrium, lost: &[String]) -> Self {
+        let mut found = Self { robot: &at_rest.robot, equilibrium: at_rest.equilibrium.clone(), lost: lost.to_vec() };
+        found.tell_sag(given);
         found.tell_drives();
         found.tell_ropes_and_platform();
-        Ok(found)
+        found
     }
 
     /// Reports what straight cables without mass change.
