@@ -431,6 +431,15 @@ def check_mujoco(robot, folder, table):
     if not supported:
         table.row(robot.name, "MuJoCo", f"{len(theirs)} frequencies of the platform, relative", off, STIFFNESS_RATIO)
 
+    # The tensions at rest as commands, with the springs switched off.
+    held = mujoco.MjData(simulated.model)
+    mujoco.mj_resetDataKeyframe(simulated.model, held, simulated.model.key("forces").id)
+    simulated.model.opt.disableactuator = 1 << 1
+    mujoco.mj_forward(simulated.model, held)
+    simulated.model.opt.disableactuator = 0
+    off = np.abs(held.qacc[simulated.dofs]).max()
+    table.row(robot.name, "MuJoCo", "acceleration under commanded tensions [m/s2, rad/s2]", off, 1e-6)
+
     start = np.zeros(simulated.model.nv)
     start[simulated.dofs] = 1e-3 * (-1.0) ** np.arange(len(simulated.dofs))
     mujoco.mj_integratePos(simulated.model, simulated.data.qpos, start, 1.0)
