@@ -43,8 +43,13 @@ const MAX_SEGMENTS: usize = 1000;
 pub fn run(at_rest: &AtRest, request: &request::ExportRequest) -> Result<Exported> {
     let request::ExportRequest { to, segments, modes_below_hz, .. } = *request;
     refuse(request)?;
-    let mut warnings = Vec::new();
+    let given = &at_rest.equilibrium;
+    let straight = to.has_straight_cables().then(|| straight::at_rest(at_rest)).transpose()?;
+    let at_rest = straight.as_ref().unwrap_or(at_rest);
+
+    // Supports settle under the cables that the file has.
     let rigid = at_rest.with_rigid_supports();
+    let mut warnings = Vec::new();
     if rigid.is_some() {
         warnings.push(format!(
             "files of {} have no flexible supports: anchors are fixed where they are at rest",
@@ -55,9 +60,9 @@ pub fn run(at_rest: &AtRest, request: &request::ExportRequest) -> Result<Exporte
     let text = match to {
         ExportFormat::Opensees => opensees::script(at_rest, segments, modes_below_hz, &mut warnings)?,
         ExportFormat::Moordyn => moordyn::input(at_rest, segments, &mut warnings)?,
-        ExportFormat::Mujoco => mujoco::model(at_rest, &mut warnings)?,
-        ExportFormat::Sdf => links::sdf(at_rest, &mut warnings)?,
-        ExportFormat::Urdf => links::urdf(at_rest, &mut warnings)?,
+        ExportFormat::Mujoco => mujoco::model(at_rest, given, &mut warnings)?,
+        ExportFormat::Sdf => links::sdf(at_rest, given, &mut warnings)?,
+        ExportFormat::Urdf => links::urdf(at_rest, given, &mut warnings)?,
         ExportFormat::Vtk => vtk::poly_data(at_rest, segments, modes_below_hz, &mut warnings)?,
     };
     warnings.extend(at_rest.warnings(None));

@@ -63,6 +63,8 @@ mod _funicular {
     use crate::vibration::peaks;
     #[pymodule_export]
     use crate::written::matlab_file;
+    #[pymodule_export]
+    use crate::written::write_unit;
 
     #[pymodule_export]
     #[expect(non_upper_case_globals, reason = "Python's name of a version")]

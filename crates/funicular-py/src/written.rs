@@ -9,9 +9,11 @@ use crate::request::joined;
 use crate::vibration::{PROMINENCE_DB, pairs};
 use funicular::math::DMat;
 use funicular::reduced_model::StateSpace;
+use funicular::robot::Robot;
 use funicular_files::endings::{self, Kind};
 use funicular_files::mat::{self, Value, Variable};
 use funicular_formats::export;
+use funicular_formats::fmu::{self, UnitModel};
 use funicular_formats::uff_writing::{frf_file, modes_file};
 use funicular_pages::pages::report;
 use funicular_study::analyses;
@@ -94,6 +96,36 @@ pub(crate) fn matlab_file(
         errors::input("the matrices are too large for a file of MATLAB: write an .npz file".to_owned())
     })?;
     Ok(PyBytes::new(py, &bytes))
+}
+
+/// Writes a state space of the robot of a file as a Functional Mock-up Unit, and returns the caveats. `limits` are the
+/// highest frequency [Hz] and the error, `signals` names and units of inputs and outputs, `matrices` A, B, C, D with their
+/// numbers of rows and entries by columns.
+#[pyfunction]
+pub(crate) fn write_unit(
+    py: Python<'_>,
+    path: PathBuf,
+    limits: (f64, f64),
+    signals: [Vec<(String, String)>; 2],
+    matrices: [(usize, Vec<f64>); 4],
+    robot_file: &str,
+    description: &str,
+) -> PyResult<Vec<String>> {
+    let robot = Robot::from_toml(robot_file).map_err(|error| errors::input(error.to_string()))?.name;
+    let [a, b, c, d] = matrices.map(|(rows, entries)| DMat::from_vec(rows, entries.len() / rows.max(1), entries));
+    let (space, (below_hz, error), [inputs, outputs]) = (StateSpace { a, b, c, d }, limits, signals);
+
+    let packed = py.detach(|| -> anyhow::Result<_> {
+        let unit = UnitModel { robot: &robot, below_hz, error, inputs, outputs, space: &space };
+        let texts = fmu::texts(&unit)?;
+        let resources = [("robot.toml", robot_file.as_bytes()), ("description.json", description.as_bytes())];
+        let (bytes, not_compiled) =
+            funicular_files::fmu::pack(fmu::IDENTIFIER, &texts.description, &texts.source, &resources)?;
+        Ok((bytes, [texts.warnings, not_compiled.into_iter().collect()].concat()))
+    });
+    let (bytes, caveats) = packed.map_err(|error| errors::study(&error))?;
+    answers::write_bytes(path, &bytes)?;
+    Ok(in_words(&caveats))
 }
 
 /// Writes an equilibrium as a file of another program.

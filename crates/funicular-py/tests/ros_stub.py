@@ -54,7 +54,7 @@ class Node:
 
 def install(patch: Callable[[dict[str, Any], str, Any], None]) -> None:
     """Puts the stub in the place of the modules; `patch` sets an entry of a dictionary and undoes it after the test."""
-    kinds = {
+    kinds: dict[str, dict[str, Any]] = {
         "geometry_msgs.msg": {"PoseStamped": type("PoseStamped", (Message,), {})},
         "sensor_msgs.msg": {"JointState": type("JointState", (Message,), {"nested": ("header",)})},
         "std_srvs.srv": {"Trigger": types.SimpleNamespace(Request=types.SimpleNamespace, Response=types.SimpleNamespace)},

@@ -3,12 +3,14 @@
 import json
 import os
 import re
+import subprocess
+import zipfile
 from pathlib import Path
 
 import funicular
 import numpy as np
 import pytest
-from conftest import ROOT, plain_grid
+from conftest import ROBOTS, ROOT, plain_grid
 
 DOCUMENT = ROOT / "docs/control.md"
 
@@ -144,3 +146,17 @@ def test_the_code_of_the_document_runs(tmp_path: Path, monkeypatch: pytest.Monke
     space: dict[str, object] = {}
     for block in blocks:
         exec(compile(block, str(DOCUMENT), "exec"), space)  # noqa: S102
+
+
+def test_a_unit_is_that_of_the_program(executable: str, tmp_path: Path) -> None:
+    rest = funicular.Robot.from_file(ROBOTS / "yuan2014-4mm.toml").equilibrium()
+    model = rest.state_space(["fz"], ["z"], below_hz=3, order=6)
+    model.save(tmp_path / "ours.fmu")
+    line = ["reduce", str(ROBOTS / "yuan2014-4mm.toml"), "--below-hz", "3", "--input", "fz", "--output", "z", "--order", "6"]
+    subprocess.run([executable, *line, "--to", "fmu", "-o", str(tmp_path / "theirs.fmu")], check=True, capture_output=True)
+    with zipfile.ZipFile(tmp_path / "ours.fmu") as ours, zipfile.ZipFile(tmp_path / "theirs.fmu") as theirs:
+        assert sorted(ours.namelist()) == sorted(theirs.namelist())
+        for name in ("modelDescription.xml", "sources/funicular_model.c"):
+            assert ours.read(name) == theirs.read(name)
+        assert funicular.Robot.from_toml(ours.read("resources/robot.toml").decode()).name == rest.robot.name
+        assert json.loads(ours.read("resources/description.json"))["error"] == model.error

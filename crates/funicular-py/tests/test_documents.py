@@ -17,7 +17,7 @@ import pytest
 import ros_stub
 from conftest import ROOT
 
-PAGES = ["quick-start", "workspace", "measuring", "matlab", "python", "tutorials/controller"]
+PAGES = ["quick-start", "workspace", "measuring", "matlab", "python", "export", "tutorials/controller"]
 
 
 @pytest.mark.parametrize("page", PAGES)

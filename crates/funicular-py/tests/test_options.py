@@ -101,7 +101,7 @@ OTHERS: dict[tuple[str | None, str], tuple[str, Callable[..., Any]]] = {
     (None, "--quantity"): ("`quantities=` of `Robot.map`, `Robot.sweep`", Robot.map),
     (None, "--form"): ("`state_space(…)` or `reduce(…)` of the equilibrium", Equilibrium.reduce),
     (None, "--matrices"): ("`model.save(path)`; `model.A`, …, `to_scipy()`, `to_control()`", funicular.StateSpaceModel.save),
-    ("reduce", "--to"): ("the program writes units; `model.save(path)` writes matrices", funicular.StateSpaceModel.save),
+    ("reduce", "--to"): ("`model.save(path)` with a path that ends in .fmu", funicular.StateSpaceModel.save),
     (None, "--figure-width-mm"): ("`width=` of `funicular.plot.bode`, `funicular.plot.map`, `funicular.plot.shape`", funicular.plot.bode),
     (None, "--font-size-pt"): ("`font_size_pt=` of these functions of `funicular.plot`", funicular.plot.bode),
     (None, "--figure-mode"): ("`mode=` of `funicular.plot.shape`, from 0", funicular.plot.shape),

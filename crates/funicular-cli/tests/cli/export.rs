@@ -176,6 +176,21 @@ fn links_of_gazebo_and_of_viewers_are_where_the_robot_rests() {
 }
 
 #[test]
+fn flexible_supports_are_fixed_where_springs_leave_them_and_the_file_says_so() {
+    let posts = yuan().replacen("[[cables]]", "[[cables]]\nsupport = \"post\"", 2)
+        + "\n[supports.post]\nstiffness_n_per_m = 50000\n";
+    let output = run_with(&["statics", "-", "--static-model", "spring", "--format", "json"], &posts);
+    let found: serde_json::Value = serde_json::from_str(stdout(&output)).unwrap();
+    let expected = found["pose"]["position_m"][2].as_f64().unwrap();
+    let file = run_with(&["export", "-", "--to", "mujoco"], &posts);
+    let document = roxmltree::Document::parse(stdout(&file)).unwrap();
+    let platform = document.descendants().find(|node| node.attribute("name") == Some("platform")).unwrap();
+    assert!((numbers(platform, "pos")[2] - expected).abs() < 1e-9, "{expected}");
+    let says = "have no flexible supports: anchors are fixed where they are at rest";
+    assert!(stdout(&file).contains(says) && stderr(&file).contains(says), "{}", stderr(&file));
+}
+
+#[test]
 fn a_model_of_mujoco_says_what_it_leaves_out_and_holds_any_name() {
     let awkward = yuan()
         .replace("name = \"1\"", "name = \"<&\\uFFFE --\\\"\"")

@@ -15,6 +15,7 @@ use anyhow::{Result, bail};
 use askama::Template;
 use funicular::math::{Mat3, Vec3};
 use funicular::robot::PlatformMotion;
+use funicular::statics::Equilibrium;
 use funicular_study::at_rest::AtRest;
 
 /// Sizes of drawn anchors and cables, in sizes of the platform.
@@ -74,15 +75,15 @@ struct CableLink {
 /// Writes the world of Gazebo.
 ///
 /// # Errors
-/// No equilibrium with straight cables, or a planar platform, whose guide SDF does not have.
-pub(super) fn sdf(at_rest: &AtRest, warnings: &mut Vec<String>) -> Result<String> {
+/// A planar platform, whose guide SDF does not have.
+pub(super) fn sdf(at_rest: &AtRest, given: &Equilibrium, warnings: &mut Vec<String>) -> Result<String> {
     if matches!(at_rest.robot.platform.motion, PlatformMotion::Planar(_)) {
         bail!(
             "the platform is planar: SDF has no joint that guides a body in a plane; export it to MuJoCo, or to URDF for \
              viewers"
         );
     }
-    let mut straight = StraightRobot::of(at_rest)?;
+    let mut straight = StraightRobot::of(at_rest, given, warnings);
     straight.lost.push(
         "Gazebo has no cables: it draws them where they are at rest, and a constant wrench holds the platform until a \
          node publishes the forces of the cables; Drake reads them as springs, which also push"
@@ -94,16 +95,16 @@ pub(super) fn sdf(at_rest: &AtRest, warnings: &mut Vec<String>) -> Result<String
     let robot = straight.robot;
     let (gravity, held) = (vector(&robot.gravity_w), vector(&(-robot.gravity_w * robot.platform.mass)));
     let text = SdfWorld { parts: Links::of(&mut straight)?, gravity, held }.render()?;
-    warnings.append(&mut straight.lost);
+    *warnings = straight.lost;
     Ok(text + "\n")
 }
 
 /// Writes the robot for viewers.
 ///
 /// # Errors
-/// No equilibrium with straight cables.
-pub(super) fn urdf(at_rest: &AtRest, warnings: &mut Vec<String>) -> Result<String> {
-    let mut straight = StraightRobot::of(at_rest)?;
+/// A cable without stiffness.
+pub(super) fn urdf(at_rest: &AtRest, given: &Equilibrium, warnings: &mut Vec<String>) -> Result<String> {
+    let mut straight = StraightRobot::of(at_rest, given, warnings);
     straight.lost.push("URDF has no cables and no forces: it draws the cables where they are at rest".to_owned());
     let (joint, axis) = match straight.robot.platform.motion {
         PlatformMotion::Rigid | PlatformMotion::PointMass => ("floating", None),
@@ -113,7 +114,7 @@ pub(super) fn urdf(at_rest: &AtRest, warnings: &mut Vec<String>) -> Result<Strin
     };
     let name = names("robot", std::iter::once(straight.robot.name.as_str()), &[], &mut Vec::new()).remove(0);
     let text = UrdfRobot { parts: Links::of(&mut straight)?, name, joint, axis }.render()?;
-    warnings.append(&mut straight.lost);
+    *warnings = straight.lost;
     Ok(text + "\n")
 }
 

@@ -18,7 +18,7 @@ use anyhow::{Result, bail};
 use askama::Template;
 use funicular::math::Vec3;
 use funicular::robot::{PlatformMotion, PulleyContact, Robot};
-use funicular::statics::Stability;
+use funicular::statics::{Equilibrium, Stability};
 use funicular_study::at_rest::AtRest;
 use std::f64::consts::{PI, TAU};
 
@@ -114,12 +114,12 @@ struct DeadForce {
     force: String,
 }
 
-/// Writes the model.
+/// Writes the model of a robot at rest on straight cables; `given` is the equilibrium that it was made of.
 ///
 /// # Errors
-/// No equilibrium with straight cables, or a cable that wraps half of its wheel or more.
-pub(super) fn model(at_rest: &AtRest, warnings: &mut Vec<String>) -> Result<String> {
-    let mut straight = StraightRobot::of(at_rest)?;
+/// A cable that wraps half of its wheel or more.
+pub(super) fn model(at_rest: &AtRest, given: &Equilibrium, warnings: &mut Vec<String>) -> Result<String> {
+    let mut straight = StraightRobot::of(at_rest, given, warnings);
     if let Stability::Unstable { directions, .. } = straight.equilibrium.stability {
         let text = format!("the equilibrium is not stable in {directions} direction(s): the simulation leaves it");
         straight.lost.push(text);
@@ -158,7 +158,7 @@ pub(super) fn model(at_rest: &AtRest, warnings: &mut Vec<String>) -> Result<Stri
         loads,
     }
     .render()?;
-    warnings.append(&mut straight.lost);
+    *warnings = straight.lost;
     Ok(text + "\n")
 }
 

@@ -6,7 +6,7 @@ use funicular::cable::CableModel;
 use funicular::dynamics::Linearisation;
 use funicular::math::Vec3;
 use funicular::modes;
-use funicular::robot::{Damping, Load, PlatformMotion, Robot, State};
+use funicular::robot::{Cable, Damping, Load, Material, PlatformMotion, Robot, State, Winch};
 use funicular::statics::{self, CableState, Equilibrium, StaticModel};
 use funicular_study::at_rest::AtRest;
 
@@ -31,30 +31,36 @@ pub(super) struct CableSpring {
     pub(super) tension: f64,
 }
 
-impl<'a> StraightRobot<'a> {
-    /// The equilibrium with straight cables: at the lengths of the state, or else at its pose.
-    ///
-    /// # Errors
-    /// No such equilibrium, or one with ideal cables, which have no stiffness.
-    pub(super) fn of(at_rest: &'a AtRest) -> Result<Self> {
-        let AtRest { robot, equilibrium, rule, held_pose, .. } = at_rest;
-        let straight = match equilibrium.model {
-            StaticModel::Spring => equilibrium.clone(),
-            StaticModel::Ideal => bail!("ideal cables have no stiffness: give ⟪static_model⟫ `spring` or `catenary`"),
-            StaticModel::Catenary if held_pose.is_some() || matches!(robot.state, State::Lengths(_)) => {
-                let lengths: Vec<f64> = equilibrium.cables.iter().map(|cable| cable.unstrained_length).collect();
-                statics::forward(robot, &lengths, StaticModel::Spring, Some(&equilibrium.pose))?
-            }
-            StaticModel::Catenary => {
-                let rule = rule.clone().unwrap_or_default();
-                statics::solve_at(robot, &robot.state, StaticModel::Spring, &rule)?.equilibrium
-            }
-        };
+/// The robot at rest with straight cables: at the lengths of the state, or else at its pose.
+///
+/// # Errors
+/// No such equilibrium, or one with ideal cables, which have no stiffness.
+pub(super) fn at_rest(given: &AtRest) -> Result<AtRest> {
+    let AtRest { robot, equilibrium, rule, held_pose, .. } = given;
+    let straight = match equilibrium.model {
+        StaticModel::Spring => equilibrium.clone(),
+        StaticModel::Ideal => bail!("ideal cables have no stiffness: give ⟪static_model⟫ `spring` or `catenary`"),
+        StaticModel::Catenary if held_pose.is_some() || matches!(robot.state, State::Lengths(_)) => {
+            let lengths: Vec<f64> = equilibrium.cables.iter().map(|cable| cable.unstrained_length).collect();
+            statics::forward(robot, &lengths, StaticModel::Spring, Some(&equilibrium.pose))?
+        }
+        StaticModel::Catenary => {
+            let rule = rule.clone().unwrap_or_default();
+            statics::solve_at(robot, &robot.state, StaticModel::Spring, &rule)?.equilibrium
+        }
+    };
+    Ok(AtRest { equilibrium: straight, ..given.clone() })
+}
 
-        let mut found = Self { robot, equilibrium: straight, lost: Vec::new() };
-        found.tell_sag(equilibrium);
-        found.tell_losses();
-        Ok(found)
+impl<'a> StraightRobot<'a> {
+    /// The robot at rest on straight cables. `given` is the equilibrium that it was made of, `lost` what the file has lost
+    /// already.
+    pub(super) fn of(at_rest: &'a AtRest, given: &Equilibrium, lost: &[String]) -> Self {
+        let mut found = Self { robot: &at_rest.robot, equilibrium: at_rest.equilibrium.clone(), lost: lost.to_vec() };
+        found.tell_sag(given);
+        found.tell_drives();
+        found.tell_ropes_and_platform();
+        found
     }
 
     /// Reports what straight cables without mass change.
@@ -65,65 +71,69 @@ impl<'a> StraightRobot<'a> {
             return;
         }
 
-        let mut text = format!(
-            "the cables are straight and have no mass: {rope:.3} kg of rope beside {} kg of the platform, their sag and \
-             their vibration are left out",
-            self.robot.platform.mass
-        );
-        if given.model == StaticModel::Catenary {
+        let compared = if given.model == StaticModel::Catenary {
             let pairs = || self.equilibrium.cables.iter().zip(&given.cables);
             let moved = pairs().map(|(a, b)| (a.attachment_w - b.attachment_w).norm()).fold(0.0, f64::max);
             let length = pairs().map(|(a, b)| (a.unstrained_length - b.unstrained_length).abs()).fold(0.0, f64::max);
             let tension = pairs().map(|(a, b)| (a.tension_platform - b.tension_platform).abs()).fold(0.0, f64::max);
-            text += &format!(
+            format!(
                 ". With sagging cables the attachments rest up to {moved:.2e} m from here, unstrained lengths differ by \
                  up to {length:.2e} m and tensions by up to {tension:.2e} N"
-            );
-        }
-        self.lost.push(text);
+            )
+        } else {
+            String::new()
+        };
+        self.lost.push(format!(
+            "the cables are straight and have no mass: {rope:.3} kg of rope beside {} kg of the platform, their sag and \
+             their vibration are left out{compared}",
+            self.robot.platform.mass
+        ));
     }
 
-    /// Reports everything else that a robot may have and springs do not.
-    fn tell_losses(&mut self) {
-        let robot = self.robot;
-        let named = |has: &dyn Fn(&funicular::robot::Cable) -> bool| {
-            let names: Vec<&str> = robot.cables.iter().filter(|c| has(c)).map(|c| c.name.as_str()).collect();
-            (!names.is_empty()).then(|| names.join(", "))
-        };
-        let mut lose = |cables: Option<String>, what: &str| {
-            self.lost.extend(cables.map(|names| format!("cables {names}: {what}")));
-        };
+    /// Reports what cables with a property lose.
+    fn lose(&mut self, has: impl Fn(&Cable) -> bool, what: &str) {
+        let cables = self.robot.cables.iter().filter(|cable| has(cable));
+        let names: Vec<&str> = cables.map(|cable| cable.name.as_str()).collect();
+        if !names.is_empty() {
+            self.lost.push(format!("cables {}: {what}", names.join(", ")));
+        }
+    }
 
-        lose(
-            named(&|c| c.anchor.pulley.as_ref().is_some_and(|pulley| pulley.friction.is_some())),
+    /// Reports what pulleys and winches have and springs do not.
+    fn tell_drives(&mut self) {
+        self.lose(
+            |cable| cable.anchor.pulley.as_ref().is_some_and(|pulley| pulley.friction.is_some()),
             "the friction of their pulleys is left out: the state is that without friction",
         );
-        lose(
-            named(&|c| c.anchor.pulley.as_ref().is_some_and(|pulley| pulley.inertia > 0.0)),
+        self.lose(
+            |cable| cable.anchor.pulley.as_ref().is_some_and(|pulley| pulley.inertia > 0.0),
             "the inertia of the wheel about its axle is left out",
         );
-        lose(
-            named(&|c| {
-                c.anchor.winch.as_ref().is_some_and(|winch| {
-                    winch.drum_mass + winch.motor_mass + winch.damping > 0.0 || !winch.guide_wheels.is_empty()
-                })
-            }),
+        let moves = |winch: &Winch| winch.drum_mass + winch.motor_mass + winch.damping > 0.0;
+        self.lose(
+            |cable| cable.anchor.winch.as_ref().is_some_and(|winch| moves(winch) || !winch.guide_wheels.is_empty()),
             "inertia, damping and guide wheels of their winches are left out; a winch has the stiffness that it has at \
              rest, and follows its command at once",
         );
-        lose(
-            named(&|c| c.material.dynamic_axial_stiffness.is_some()),
+    }
+
+    /// Reports what ropes and platform have and the file does not.
+    fn tell_ropes_and_platform(&mut self) {
+        let robot = self.robot;
+        self.lose(
+            |cable| cable.material.dynamic_axial_stiffness.is_some(),
             "`dynamic_axial_stiffness_n` is left out: the ropes have their stiffness under a slow load",
         );
-        lose(
-            named(&|c| c.load_per_length_w != Vec3::zeros() || drags(robot, c)),
+        self.lose(
+            |cable| cable.load_per_length_w != Vec3::zeros() || drags(robot, cable),
             "wind and other loads along the cables are left out",
         );
-        lose(
-            named(&|c| {
-                let (Damping::Ratio(by) | Damping::Viscous(by)) = c.material.damping;
-                by > 0.0 && c.material.mass_per_length > 0.0
-            }),
+        let damped = |rope: &Material| {
+            let (Damping::Ratio(by) | Damping::Viscous(by)) = rope.damping;
+            by > 0.0 && rope.mass_per_length > 0.0
+        };
+        self.lose(
+            |cable| damped(&cable.material),
             "the damping of the motion of their ropes is left out, as this motion is; the loss of their stretch is kept",
         );
         if robot.platform.translational_damping_p.norm() + robot.platform.rotational_damping_p.norm() > 0.0 {
@@ -156,7 +166,7 @@ impl<'a> StraightRobot<'a> {
     /// Spring of cable `i`; `first_hz` [Hz] is the frequency at which a loss factor becomes a viscous damping.
     pub(super) fn spring(&self, i: usize, first_hz: Option<f64>) -> CableSpring {
         let (cable, state) = (&self.robot.cables[i], &self.equilibrium.cables[i]);
-        let yields = cable.anchor.winch.as_ref().map_or(0.0, |winch| winch.compliance());
+        let yields = cable.anchor.winch.as_ref().map_or(0.0, Winch::compliance);
         let stiffness = 1.0 / (state.unstrained_length / cable.material.axial_stiffness + yields);
         let loss = cable.material.stretch_loss;
         let time = loss.time + first_hz.map_or(0.0, |hz| loss.factor / (std::f64::consts::TAU * hz));
@@ -216,7 +226,7 @@ impl<'a> StraightRobot<'a> {
 }
 
 /// True if the wind pulls at a cable.
-fn drags(robot: &Robot, cable: &funicular::robot::Cable) -> bool {
+fn drags(robot: &Robot, cable: &Cable) -> bool {
     robot.wind.velocity_w != Vec3::zeros() && cable.material.drag_width.is_some_and(|width| width > 0.0)
 }
 

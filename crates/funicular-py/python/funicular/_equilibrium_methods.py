@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from funicular import _results
 from funicular._declared import REST, Given, declared
-from funicular._funicular import Analyses
+from funicular._funicular import Analyses, Robot
 from funicular._live import Live, live as live_page
 from funicular._pages import Page, page
 from funicular._reading import File
@@ -259,7 +259,9 @@ def state_space(of: Any, given: Given) -> StateSpaceModel:
     funicular.NoSolutionError
         No choice of modes keeps the tolerance, a mode has no damping, or the equilibrium is unstable.
     """
-    return _results.state_space(*of._reduced({**given, "form": "state-space"}))
+    robot = of if isinstance(of, Robot) else of.robot
+    found, matrices = of._reduced({**given, "form": "state-space"})
+    return _results.state_space(found, matrices, robot.to_toml())
 
 
 @declared(Analyses, "reduce", positional=("below_hz", "input", "output"), headings=REST, without=("form", "order"), others=_AS_MODES)

@@ -23,7 +23,7 @@ from funicular._uncertainty import Uncertainty
 from funicular._words import StaticModel, TensionRule, CableModel, Assembly, Winches, Hold, Per, Method, Goal, ExportFormat, Result
 from typing import Literal, overload
 
-__all__ = ["__version__", "Analyses", "Answered", "Catenary", "Equilibrium", "Pose", "Robot", "SweepPlan", "SweepTable", "SweepWork", "answer", "argument", "complete_request", "complex_numbers", "declarations", "figure_sizes", "imported", "interval", "matlab_file", "measurements_of_file", "merge_parts", "peaks", "plot_page", "real_numbers", "robot_of_source", "shown", "source_file", "suggested", "text_of", "write_file"]
+__all__ = ["__version__", "Analyses", "Answered", "Catenary", "Equilibrium", "Pose", "Robot", "SweepPlan", "SweepTable", "SweepWork", "answer", "argument", "complete_request", "complex_numbers", "declarations", "figure_sizes", "imported", "interval", "matlab_file", "measurements_of_file", "merge_parts", "peaks", "plot_page", "real_numbers", "robot_of_source", "shown", "source_file", "suggested", "text_of", "write_file", "write_unit"]
 
 __version__: Final[str]
 
@@ -1950,4 +1950,11 @@ def text_of(request: str, call: str) -> tuple[str, list[str]]:
 def write_file(path: str | PathLike[str], text: str) -> None:
     """
     Writes a text to a file, which is complete or absent.
+    """
+
+def write_unit(path: str | PathLike[str], limits: tuple[SupportsFloat | SupportsIndex, SupportsFloat | SupportsIndex], signals: SupportsGetItem[int, SupportsGetItem[int, tuple[str, str]]], matrices: SupportsGetItem[int, tuple[SupportsIndex, SupportsGetItem[int, SupportsFloat | SupportsIndex]]], robot_file: str, description: str) -> list[str]:
+    """
+    Writes a state space of the robot of a file as a Functional Mock-up Unit, and returns the caveats. `limits` are the
+    highest frequency [Hz] and the error, `signals` names and units of inputs and outputs, `matrices` A, B, C, D with their
+    numbers of rows and entries by columns.
     """

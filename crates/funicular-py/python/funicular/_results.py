@@ -3,6 +3,7 @@
 import copy
 import dataclasses
 import json
+import warnings
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from os import PathLike
@@ -14,7 +15,7 @@ from numpy.typing import NDArray
 
 from funicular import _show
 from funicular._errors import InputError, needs
-from funicular._funicular import answer, matlab_file
+from funicular._funicular import answer, matlab_file, write_unit
 from funicular._reading import read
 
 
@@ -453,7 +454,7 @@ def _save(
         columns = [(name, len(matrix), matrix.T.ravel().tolist()) for name, matrix in matrices.items()]
         Path(path).write_bytes(matlab_file(columns, list(texts.items())))
     else:
-        raise InputError(f"`path` is {path}: it must end in .npz or .mat")
+        raise InputError(f"`path` is {path}: it must end in .npz or .mat, that of a state space also in .fmu")
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
@@ -498,6 +499,8 @@ class StateSpaceModel(ArrayFields):
     """Maximum part of each mode in a response, relative to the peak of the response."""
     found: dict[str, Any]
     """Results with the keys of the program's JSON."""
+    robot_file: str
+    """Robot file (TOML) of the model."""
 
     @property
     def warnings(self) -> tuple[str, ...]:
@@ -513,8 +516,26 @@ class StateSpaceModel(ArrayFields):
         return _to_control((self.A, self.B, self.C, self.D), self.inputs, self.outputs)
 
     def save(self, path: str | PathLike[str]) -> None:
-        """Writes A, B, C, D: to a file `.npz` for NumPy, or `.mat` for MATLAB."""
+        """Writes A, B, C, D: to a file `.npz` for NumPy, or `.mat` for MATLAB, or as a Functional Mock-up Unit `.fmu`.
+
+        The unit is that of the program's `reduce --to fmu`: with C source, and compiled where a C compiler is.
+
+        Warns
+        -----
+        UserWarning
+            The unit has no library, because it was not compiled, or a name in it is not that of the model.
+        """
+        if Path(path).suffix.lower() == ".fmu":
+            self._save_unit(Path(path))
+            return
         _save(path, {"A": self.A, "B": self.B, "C": self.C, "D": self.D}, self.inputs, self.outputs, self.found)
+
+    def _save_unit(self, path: Path) -> None:
+        signals = [[(of["name"], of["unit"]) for of in self.found[key]] for key in ("inputs", "outputs")]
+        matrices = [(len(matrix), matrix.T.ravel().tolist()) for matrix in (self.A, self.B, self.C, self.D)]
+        limits = (self.below_hz, self.error)
+        for caveat in write_unit(path, limits, signals, matrices, self.robot_file, json.dumps(self.found)):
+            warnings.warn(caveat, stacklevel=3)
 
     def to_dict(self) -> dict[str, Any]:
         """Returns a dictionary with the keys of the program's JSON."""
@@ -525,7 +546,7 @@ class StateSpaceModel(ArrayFields):
         return f"<StateSpaceModel: {size}, below {self.below_hz:g} Hz, error {self.error:.2g} of the peaks>"
 
 
-def state_space(found: dict[str, Any], matrices: dict[str, NDArray[np.float64]]) -> StateSpaceModel:
+def state_space(found: dict[str, Any], matrices: dict[str, NDArray[np.float64]], robot_file: str) -> StateSpaceModel:
     """Makes a state space from the results of the program and its matrices."""
     modes, responses = found["states"], found["responses"]
     shape = (len(found["inputs"]), len(found["outputs"]))
@@ -551,6 +572,7 @@ def state_space(found: dict[str, Any], matrices: dict[str, NDArray[np.float64]])
         first=np.array([row["first"] for row in modes], dtype=np.int64),
         contribution=of_modes("contribution"),
         found=found,
+        robot_file=robot_file,
         **matrices,
     )
 
