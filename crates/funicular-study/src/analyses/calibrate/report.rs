@@ -437,7 +437,7 @@ fn is_nearly_held(row: &CalibratedValue) -> bool {
 }
 
 /// Deviation relative to that with inner conditions below which the frame holds a value.
-const NEARLY_HELD: f64 = 0.02;
+const NEARLY_HELD: f64 = 0.05;
 
 /// Part of a lost direction from which on a value counts as not determined.
 const LOST_PART: f64 = 1e-3;
