@@ -88,7 +88,7 @@
 
   function table(found) {
     const rows = data.values.map(function (value, k) {
-      const moved = found ? linear.free[k].reduce(function (sum, of, a) { return sum + of * found.step[a]; }, 0) * linear.units[k] : null;
+      const moved = found && value.held ? 0 : found ? linear.free[k].reduce(function (sum, of, a) { return sum + of * found.step[a]; }, 0) * linear.units[k] : null;
       const deviation = found && found.factor !== null && !value.held ? found.factor * Math.sqrt(product(linear.free[k], found.covariance, linear.free[k])) * Math.abs(linear.units[k]) : null;
       return [value.path, value.unit, text(moved === null ? null : value.value + moved, 6), text(moved, 3), text(deviation, 3)];
     });

@@ -87,20 +87,20 @@ fn profiles_are_the_intervals_of_the_deviations_where_chi_squared_is_a_parabola(
 fn profiles_hold_the_truth_where_chi_squared_is_curved() {
     // Noise of 2 cm leaves up to 20 cm: the linear intervals are not symmetric any more.
     let mut draws = Draws(17);
-    let (mut held, mut count) = (0, 0);
+    let (mut held, mut count) = (0_u32, 0_u32);
     for _ in 0..60 {
         let readings = readings(0.02, &mut draws);
         let found = calibrated(&readings, &json!({ "length_std_m": 0.02, "profile": ["anchors"] }));
         for row in found.values.iter().filter(|row| !row.held) {
-            // Another frame than the truth's would compare other numbers: the second anchor is above the first.
+            // The frame is that of the truth: the second anchor is on the x axis through the first.
             let profile = row.profile.as_ref().unwrap();
             let is_within = profile.from.is_none_or(|from| from <= truth(&row.path))
                 && profile.to.is_none_or(|to| truth(&row.path) <= to);
-            held += usize::from(is_within);
+            held += u32::from(is_within);
             count += 1;
         }
     }
-    let share = held as f64 / count as f64;
+    let share = f64::from(held) / f64::from(count);
     // 300 intervals of correlated values: 95 % ± 3 deviations.
     assert!((0.90..=0.985).contains(&share), "{held} of {count}");
 }

@@ -105,7 +105,7 @@ fn commands_that_the_pages_show_without_output_run() {
 fn commands_of_the_tutorials_run_in_their_order() {
     let pages = ["first-result", "coming-from", "tutorials/drawing", "tutorials/good-enough", "tutorials/cluster"];
     let more = ["tutorials/measurement", "tutorials/controller", "tutorials/paper"];
-    let calibrated = ["tutorials/anchors-of-a-plotter", "tutorials/anchors-of-a-stage"];
+    let calibrated = ["tutorials/anchors-of-a-plotter", "tutorials/anchors-of-eight-cables"];
     let mut count = 0;
     for page in pages.into_iter().chain(more).chain(calibrated) {
         let folder = tempfile::tempdir().unwrap();

@@ -15,6 +15,7 @@ impl Calibration {
     /// The same calibration with values that are known beforehand: index of the unknown, value and standard deviation, in
     /// the units of [`Calibration::meaning`]. A scale or a factor is positive. An anchor with a prior has a place in the
     /// world, so that priors fix the frame where they are.
+    #[must_use]
     pub fn with_priors(mut self, priors: &[(usize, f64, f64)]) -> Self {
         let prior = |&(unknown, known, deviation): &(usize, f64, f64)| {
             let value = self.value_of(unknown, known);

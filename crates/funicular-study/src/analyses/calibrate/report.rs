@@ -389,8 +389,11 @@ impl<'a> CalibrationReport<'a> {
         if let Some(lost) = weak.first().filter(|row| row.deviation_m.is_none()) {
             return format!("These rows do not determine {}", lost.words);
         }
-        let deviations: Vec<f64> =
-            values.iter().filter(|row| row.unit == "m").filter_map(|row| row.deviation).collect();
+        let deviations: Vec<f64> = values
+            .iter()
+            .filter(|row| row.unit == "m" && !is_nearly_held(row))
+            .filter_map(|row| row.deviation)
+            .collect();
         let weakest = weak.first().map_or_else(String::new, |row| {
             format!("; weakest: {} (±{} together)", row.words, in_mm(row.deviation_m.unwrap_or_default()))
         });
@@ -427,6 +430,14 @@ impl<'a> CalibrationReport<'a> {
         Ok(set_values::apply(&self.source.changed_text()?, &assignments)?)
     }
 }
+
+/// True for a value that the frame holds but for its direction, as one across a direction that is nearly an axis.
+fn is_nearly_held(row: &CalibratedValue) -> bool {
+    row.deviation.zip(row.inner_deviation).is_some_and(|(here, inner)| here < NEARLY_HELD * inner)
+}
+
+/// Deviation relative to that with inner conditions below which the frame holds a value.
+const NEARLY_HELD: f64 = 0.05;
 
 /// Part of a lost direction from which on a value counts as not determined.
 const LOST_PART: f64 = 1e-3;
