@@ -14,7 +14,7 @@ OUTPUT |= {"--figure-width-mm", "--font-size-pt", "--figure-mode", "--fitted", "
 # Options without a value.
 SWITCHES = {
     *("--log", "--adaptive", "--all", "--in-plane-only", "--print-request", "--resume", "--discard"),
-    *("--platform", "--hold-lengths-of-pose", "--friction-interval", "--rigid-cables", "--rope-inertia", "--fastest"),
+    *("--platform", "--hold-lengths-of-pose", "--friction-interval", "--rigid-cables", "--rope-inertia", "--fastest", "--once", "--hold-platform"),
 }
 # Options that may be given several times.
 LISTS = {"reduce": {"--input", "--output"}, "gust": {"--output"}, "identify": {"--profile"}}

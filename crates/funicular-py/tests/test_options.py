@@ -33,6 +33,7 @@ COMMANDS: dict[str, tuple[str, list[Callable[..., Any]]]] = {
     "loads": ("`robot.loads(…)`", [Robot.loads]),
     "speeds": ("`robot.speeds(…)`", [Robot.speeds]),
     "trajectory": ("`robot.trajectory(path, …)`", [Robot.trajectory]),
+    "simulate": ("`robot.simulate(scenario, …)`", [Robot.simulate]),
     "clearance": ("`robot.clearance(…)`", [Robot.clearance]),
     "workspace": ("`robot.workspace(…)`", [Robot.workspace]),
     "pose-error": ("`robot.pose_error(…)`", [Robot.pose_error]),

@@ -74,6 +74,8 @@ MORE = [
     f"funicular gust {ROBOT} --set platform.drag_area_m2=0.1 --wind-m-s 8,0,0 --spectrum gusts.csv --below-hz 1 --output z",
     f"funicular modes {ROBOT} --below-hz 2 --decay-percent 10",
     "funicular clearance windy.toml --in-gusts",
+    f"funicular simulate {ROBOT} --mass-kg 12.5 --scenario docs/simulation/release.toml --duration-s 0.05 --sample-time-s 0.01 --tolerance-m 1e-6 --elements 2 --degree 6 --damping-frequency-hz 1.2",
+    f"funicular simulate {ROBOT} --duration-s 0.02 --once --stretch-damping-time-s 1e-4 --hold-platform",
     f"funicular calibrate {MACHINE} --unknowns anchors --hold-anchors bl,br --starts 3 --position-std-m 0.01 --tension-std-n 2",
     f"funicular calibrate {MACHINE} --prior cables.tl.anchor_m=±0.05 --prior cables.tr.anchor_m.y=3.8±0.1 --profile anchors",
     f"funicular calibrate {MACHINE} --static-model spring --position-std-m 0.001 --tension-range-n 20:120",
@@ -315,7 +317,7 @@ def test_a_command_line_and_a_call_are_one_request(line: str, executable: str) -
 
 # Commands whose results are compared; the others make pages, files or rows, which have their own tests.
 COMPUTED = (
-    *("check", "parameters", "statics", "stiffness", "modes", "frf", "compare", "gradient", "payload", "loads", "speeds", "trajectory", "clearance", "workspace", "pose-error", "cable"),
+    *("check", "parameters", "statics", "stiffness", "modes", "frf", "compare", "gradient", "payload", "loads", "speeds", "trajectory", "simulate", "clearance", "workspace", "pose-error", "cable"),
     *("settle", "gust", "reduce", "identify", "calibrate", "uncertainty"),
 )
 
@@ -352,7 +354,7 @@ def test_a_call_and_a_request_have_the_results_of_the_program(line: str, executa
     if command == "uncertainty":
         assert robot.uncertainty(**keywords).details == theirs
         return
-    if command in ("pose-error", "payload", "loads", "speeds", "trajectory", "clearance", "workspace", "calibrate"):
+    if command in ("pose-error", "payload", "loads", "speeds", "trajectory", "simulate", "clearance", "workspace", "calibrate"):
         method = getattr(robot, command.replace("-", "_"))
         assert plain(method(**keywords)) == theirs
         return

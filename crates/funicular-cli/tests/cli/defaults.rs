@@ -20,7 +20,7 @@ fn shortest() -> Vec<Vec<String>> {
     let cogiro = robot("cogiro.toml");
     let imported = project("docs/import/tripod.wcrfx");
     let range = ["--from-hz", "1", "--to-hz", "2", "--points", "9"];
-    let with_robot: [(&str, &[&str]); 20] = [
+    let with_robot: [(&str, &[&str]); 21] = [
         ("check", &[]),
         ("parameters", &[]),
         ("statics", &[]),
@@ -31,6 +31,7 @@ fn shortest() -> Vec<Vec<String>> {
         ("gradient", &["--below-hz", "2"]),
         ("uncertainty", &["--deviations", "platform.mass_kg=1%"]),
         ("payload", &[]),
+        ("simulate", &[]),
         ("pose-error", &["--mass-kg", "10:20:3"]),
         ("cable", &["--name", "1"]),
         ("reduce", &["--below-hz", "2"]),

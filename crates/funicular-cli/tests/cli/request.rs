@@ -155,8 +155,9 @@ fn the_request_of_every_command_runs_again() {
     succeed(&[&sweep[..], &["--part", "1/1", "-o", &part]].concat());
 
     let machine = super::project("docs/calibration/machine.toml");
+    let release = super::project("docs/simulation/release.toml");
     let belts = super::project("docs/calibration/belts.csv");
-    let lines: [(&[&str], &[&str]); 11] = [
+    let lines: [(&[&str], &[&str]); 12] = [
         (&["reduce", "ROBOT", "--below-hz", "1.3", "--input", "fz", "--output", "z", "--order", "4"], &[]),
         (&["reduce", "ROBOT", "--below-hz", "1.3", "--form", "second-order"], &[]),
         (&["payload", &cogiro, "--pose", "1,2,1.5"], &[]),
@@ -166,6 +167,7 @@ fn the_request_of_every_command_runs_again() {
             &[],
         ),
         (&["calibrate", &machine, "--readings", &belts, "--propose", "1", "--grid", "x=1:4:4"], &[]),
+        (&["simulate", "ROBOT", "--mass-kg", "12.5", "--scenario", &release, "--for", "0.05"], &[]),
         (&["import", &tripod], &[]),
         (&["report", "ROBOT", "--below-hz", "1.3"], &["-o", "-"]),
         (&["validate"], &[]),

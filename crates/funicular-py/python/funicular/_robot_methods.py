@@ -184,6 +184,35 @@ def _sampled(path: Callable[[float], ArrayLike], given: Given) -> dict[str, Arra
     return {"t_s": times, **dict(zip(names, asarray(rows).T, strict=True))}
 
 
+@declared(Robot, "simulate", positional=("scenario", "duration_s"))
+def simulate(of: Any, given: Given) -> Results:
+    """Simulates large motion in time of platform and sagging ropes.
+
+    Parameters
+    ----------
+    scenario
+        What happens: a mapping from `release`, `pick`, `lengths`, `stop`, `push` and `cut` to lists of events, each a
+        mapping with the keys of docs/simulation.md.
+
+    Returns
+    -------
+    The keys of the program's JSON: `rows` with pose, velocities, tensions, lengths and energies at every time, `errors`
+    with the difference of each column from a finer run, `peaks`, `slack`, `cuts` and `steps`.
+
+    Raises
+    ------
+    InputError
+        An event cannot happen, or the robot has a part that is not simulated.
+    NoSolutionError
+        The start is not a stable equilibrium.
+
+    References
+    ----------
+    docs/theory.md, equations (97a) to (97k).
+    """
+    return _results.results(of._answer("simulate", given))
+
+
 @declared(Robot, "clearance", positional=("pose", "static_model"), others=_AS_REST)
 def clearance(of: Any, given: Given) -> Results:
     """Computes the distances between the sagging cables, the platform and obstacles: what is nearest, where, and what is
