@@ -10,7 +10,7 @@ use super::system::{BODY, MotionNumbers, RopeEnd, System};
 use super::winding::Winding;
 use crate::math::Vec3;
 use crate::modes;
-use crate::robot::{Damping, Robot};
+use crate::robot::{Damping, Material, Robot};
 use crate::statics::Equilibrium;
 use std::f64::consts::TAU;
 use std::rc::Rc;
@@ -153,11 +153,24 @@ fn check_parts(robot: &Robot) -> Result<(), SimulationError> {
     Ok(())
 }
 
-/// Viscous damping per length of each rope [N s/m²].
-fn viscous(robot: &Robot, rest: &Equilibrium, settings: &SimulationSettings) -> Result<Vec<f64>, SimulationError> {
-    let needs_frequency = |rope: &crate::robot::Material| {
+/// Damping of one rope in time.
+struct RopeDamping {
+    /// Viscous damping per length [N s/m²].
+    viscous: f64,
+    /// Damping time of the stretch [s]: force over the stiffness and the rate of the strain.
+    stretch_time: f64,
+}
+
+/// Damping of each rope. A damping ratio and a loss factor are the same at all frequencies, and a motion in time has them at
+/// one frequency.
+fn damping(
+    robot: &Robot,
+    rest: &Equilibrium,
+    settings: &SimulationSettings,
+) -> Result<Vec<RopeDamping>, SimulationError> {
+    let needs_frequency = |rope: &Material| {
         matches!(rope.damping, Damping::Ratio(ratio) if ratio > 0.0 && rope.mass_per_length > 0.0)
-            || rope.stretch_loss.factor > 0.0
+            || (rope.stretch_loss.factor > 0.0 && settings.stretch_damping_time.is_none())
     };
     let mut omega = 0.0;
     if robot.cables.iter().any(|cable| needs_frequency(&cable.material)) {
@@ -167,9 +180,16 @@ fn viscous(robot: &Robot, rest: &Equilibrium, settings: &SimulationSettings) -> 
         };
         omega = TAU * frequency_hz;
     }
-    let of = |cable: &crate::robot::Cable| match cable.material.damping {
-        Damping::Ratio(ratio) => 2.0 * ratio * cable.material.mass_per_length * omega,
-        Damping::Viscous(viscous) => viscous,
+    let of = |cable: &crate::robot::Cable| {
+        let Material { damping, mass_per_length, stretch_loss, .. } = &cable.material;
+        let of_factor = if stretch_loss.factor > 0.0 { stretch_loss.factor / omega } else { 0.0 };
+        RopeDamping {
+            viscous: match *damping {
+                Damping::Ratio(ratio) => 2.0 * ratio * mass_per_length * omega,
+                Damping::Viscous(viscous) => viscous,
+            },
+            stretch_time: settings.stretch_damping_time.unwrap_or(stretch_loss.time + of_factor),
+        }
     };
     Ok(robot.cables.iter().map(of).collect())
 }
@@ -182,7 +202,7 @@ pub(super) fn at_rest(
     windings: Vec<Winding>,
 ) -> Result<Stepper, SimulationError> {
     check_parts(robot)?;
-    let viscous = viscous(robot, rest, settings)?;
+    let damping = damping(robot, rest, settings)?;
     let basis = Rc::new(Basis::new(settings.mesh.degree));
     let bar = Rc::new(Basis::new(1));
 
@@ -198,8 +218,8 @@ pub(super) fn at_rest(
             elements,
             mass,
             stiffness: rope.axial_stiffness,
-            damping_time: settings.stretch_damping_time.unwrap_or(rope.stretch_loss.time),
-            viscous: if mass > 0.0 { viscous[i] } else { 0.0 },
+            damping_time: damping[i].stretch_time,
+            viscous: if mass > 0.0 { damping[i].viscous } else { 0.0 },
             load_w: robot.gravity_w * mass + cable.load_per_length_w,
             gravity_w: robot.gravity_w,
             drag_width: if has_air { rope.drag_width.unwrap_or(0.0) } else { 0.0 },

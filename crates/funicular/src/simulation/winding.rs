@@ -78,11 +78,9 @@ impl Winding {
     /// Brings the winch to rest within `duration`; what it was to do later in its present change is left out.
     pub(super) fn brake(&mut self, from: f64, duration: f64) {
         let now = self.at(from);
+        let is_winding = self.ends_at() > from;
         self.changes.retain(|change| change.from < from);
-        if let Some(last) = self.changes.last_mut() {
-            last.until = last.until.min(from);
-        }
-        if now.rate != 0.0 || now.acceleration != 0.0 {
+        if is_winding {
             let course = Course::Brake { rate: now.rate, acceleration: now.acceleration };
             self.changes.push(Change { from, until: from + duration, length: now.value, course });
         }
@@ -96,10 +94,12 @@ impl Winding {
     /// Least length of all times, at steps of `step` [m], and its time [s].
     pub(super) fn least(&self, step: f64) -> (f64, f64) {
         let mut least = (self.initial, 0.0);
-        for change in &self.changes {
-            let count = ((change.until - change.from) / step).ceil().clamp(1.0, 1e5) as usize;
+        for (i, change) in self.changes.iter().enumerate() {
+            // A brake ends the change before it.
+            let until = self.changes.get(i + 1).map_or(change.until, |next| change.until.min(next.from));
+            let count = ((until - change.from) / step).ceil().clamp(1.0, 1e5) as usize;
             for k in 0..=count {
-                let time = change.from + (change.until - change.from) * k as f64 / count as f64;
+                let time = change.from + (until - change.from) * k as f64 / count as f64;
                 let length = change.at(time).value;
                 if length < least.0 {
                     least = (length, time);
@@ -225,7 +225,15 @@ mod tests {
         assert!((winding.at(9.0).value - 5.0).abs() < 1e-13);
         assert_eq!(winding.ramp(2.0, 1.0, 1.0), Err(Overlap { until: 2.5 }));
 
+        // Until the brake begins, nothing is different.
+        let before = winding.clone();
         winding.brake(0.4, 0.2);
+        for k in 0..=100 {
+            let time = 0.4 * f64::from(k) / 100.0;
+            let [with, without] = [&winding, &before].map(|of| of.at(time));
+            assert!((with.value - without.value).abs() < 1e-14 && (with.rate - without.rate).abs() < 1e-13, "{time}");
+            assert!((with.acceleration - without.acceleration).abs() < 1e-12, "{time}");
+        }
         assert_smooth(&winding, 1.0);
         let rest = winding.at(0.6);
         assert!(rest.rate == 0.0 && rest.acceleration == 0.0 && rest.value < winding.at(0.4).value);
