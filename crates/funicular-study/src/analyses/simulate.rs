@@ -212,6 +212,9 @@ fn found(at_rest: &AtRest, request: &SimulateRequest, first: History, finer: Opt
     let reached = first.rows.last().map_or(0.0, |row| row.t_s);
     let is_whole = reached >= request.duration_s * (1.0 - 1e-12);
     let mut warnings: Vec<String> = at_rest.implausible().collect();
+    if at_rest.robot.turbulence.is_some() {
+        warnings.push("a simulation has the mean wind alone: the gusts of [wind] are left out".to_owned());
+    }
     if is_statistical {
         warnings.push(
             "ropes go slack: from the first time on at which one is taut again the history depends on the mesh, and \
