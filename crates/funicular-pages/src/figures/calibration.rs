@@ -16,17 +16,17 @@ const POINTS: u32 = 72;
 const LARGEST: f64 = 0.08;
 
 /// View along a world axis.
-pub(crate) struct View {
+pub(crate) struct AxisView {
     /// World axes to the right and upwards.
     pub(crate) axes: [usize; 2],
     pub(crate) name: &'static str,
 }
 
 /// Views of a calibration: one of a planar platform, two of others.
-pub(crate) fn views(found: &Calibrated) -> Vec<View> {
+pub(crate) fn views(found: &Calibrated) -> Vec<AxisView> {
     match found.axes[..] {
-        [a, b] => vec![View { axes: [a, b], name: "in the plane of the platform" }],
-        _ => vec![View { axes: [0, 1], name: "along z" }, View { axes: [0, 2], name: "along y" }],
+        [a, b] => vec![AxisView { axes: [a, b], name: "in the plane of the platform" }],
+        _ => vec![AxisView { axes: [0, 1], name: "along z" }, AxisView { axes: [0, 2], name: "along y" }],
     }
 }
 
@@ -114,7 +114,7 @@ fn range(found: &Calibrated, axis: usize) -> (f64, f64) {
     (low - beside, high + beside)
 }
 
-fn panel(found: &Calibrated, view: &View, scale: f64) -> Panel {
+fn panel(found: &Calibrated, view: &AxisView, scale: f64) -> Panel {
     let [a, b] = view.axes;
     let at = |point: [f64; 3]| (point[a], point[b]);
     let symbols = |points: Vec<(f64, f64)>, shape, colour| Layer::Symbols {

@@ -3,7 +3,7 @@
 use super::Shell;
 use super::figure::{PageFigure, axis, cable_line_style, colour, line, plain, points, with};
 use super::table::PageTable;
-use crate::figures::calibration::{View, ellipse, magnification, views};
+use crate::figures::calibration::{AxisView, ellipse, magnification, views};
 use anyhow::Context as _;
 use askama::Template;
 use funicular_study::analyses::calibrate::{Calibrated, CalibratedValue, DistanceRow, ProposalRow, ReadingRow};
@@ -68,7 +68,7 @@ pub fn page(found: &Calibrated, command_line: String) -> anyhow::Result<String> 
 }
 
 /// Anchors, ellipses, poses and proposals in one view.
-fn figure(found: &Calibrated, view: &View, number: usize) -> PageFigure {
+fn figure(found: &Calibrated, view: &AxisView, number: usize) -> PageFigure {
     let [a, b] = view.axes;
     let of =
         |points: &mut dyn Iterator<Item = [f64; 3]>| -> (Vec<f64>, Vec<f64>) { points.map(|p| (p[a], p[b])).unzip() };

@@ -4,7 +4,7 @@ use crate::math::legendre::gauss;
 
 /// Lagrange polynomials through the p + 1 Gauss-Lobatto points of [0, 1], and their derivatives.
 #[derive(Debug, Clone)]
-pub(super) struct Basis {
+pub(super) struct ElementBasis {
     /// Degree p of the polynomials.
     pub(super) degree: usize,
     /// Nodes in [0, 1], ascending.
@@ -19,7 +19,7 @@ pub(super) struct Basis {
     pub(super) slopes_at_nodes: Vec<f64>,
 }
 
-impl Basis {
+impl ElementBasis {
     /// Polynomials of degree `degree`, at least 1.
     pub(super) fn new(degree: usize) -> Self {
         let nodes = lobatto_nodes(degree);
@@ -118,7 +118,7 @@ mod tests {
     #[test]
     fn polynomials_are_exact_up_to_their_degree() {
         for degree in 1..=10 {
-            let basis = Basis::new(degree);
+            let basis = ElementBasis::new(degree);
             let power = degree as i32;
             for q in 0..=degree {
                 let slope: f64 = (0..=degree).map(|j| basis.at_node(q)[j] * basis.nodes[j].powi(power)).sum();

@@ -3,7 +3,7 @@
 //! σ in [0, 1] runs from the platform to the anchor and stands for the share of the unstrained length, which the winch
 //! changes. Nodes are stored one after the other, three numbers each, with the anchor last.
 
-use super::basis::Basis;
+use super::basis::ElementBasis;
 use super::skyline::Skyline;
 use crate::math::{Mat3, Vec3};
 use crate::robot::Wind;
@@ -23,7 +23,7 @@ pub struct WoundLength {
 /// Rope as a mesh; its state is kept by the system.
 #[derive(Debug, Clone)]
 pub(super) struct RopeMesh {
-    pub(super) basis: Rc<Basis>,
+    pub(super) basis: Rc<ElementBasis>,
     pub(super) elements: usize,
     /// Mass per unstrained length [kg/m].
     pub(super) mass: f64,

@@ -1,7 +1,7 @@
 //! Beginning of a simulation: the robot at rest as a mesh.
 
 use super::air::Air;
-use super::basis::Basis;
+use super::basis::ElementBasis;
 use super::body::MovingBody;
 use super::esdirk::Stepper;
 use super::event::EventFault;
@@ -203,8 +203,8 @@ pub(super) fn at_rest(
 ) -> Result<Stepper, SimulationError> {
     check_parts(robot)?;
     let damping = damping(robot, rest, settings)?;
-    let basis = Rc::new(Basis::new(settings.mesh.degree));
-    let bar = Rc::new(Basis::new(1));
+    let basis = Rc::new(ElementBasis::new(settings.mesh.degree));
+    let bar = Rc::new(ElementBasis::new(1));
 
     let mesh = |i: usize| {
         let cable = &robot.cables[i];

@@ -4,7 +4,7 @@ use super::rope::WoundLength;
 
 /// Course of one change of length.
 #[derive(Debug, Clone, PartialEq)]
-enum Course {
+enum LengthCourse {
     /// Change by a polynomial of the fifth degree, from rest to rest [m].
     Ramp { change: f64 },
     /// Spline through changes since its beginning, from rest to rest.
@@ -20,7 +20,7 @@ struct Change {
     until: f64,
     /// Length at the beginning [m].
     length: f64,
-    course: Course,
+    course: LengthCourse,
 }
 
 /// Unstrained length of one rope over time.
@@ -55,7 +55,7 @@ impl Winding {
         self.changes.last().map_or(0.0, |change| change.until)
     }
 
-    fn push(&mut self, from: f64, until: f64, course: Course) -> Result<(), Overlap> {
+    fn push(&mut self, from: f64, until: f64, course: LengthCourse) -> Result<(), Overlap> {
         if from < self.ends_at() {
             return Err(Overlap { until: self.ends_at() });
         }
@@ -66,13 +66,13 @@ impl Winding {
 
     /// Changes the length by `change` [m] within `duration` [s].
     pub(super) fn ramp(&mut self, from: f64, duration: f64, change: f64) -> Result<(), Overlap> {
-        self.push(from, from + duration, Course::Ramp { change })
+        self.push(from, from + duration, LengthCourse::Ramp { change })
     }
 
     /// Follows lengths given at times since `from`; the first is the length at that time.
     pub(super) fn follow(&mut self, from: f64, times: &[f64], lengths: &[f64]) -> Result<(), Overlap> {
         let spline = LengthSpline::new(times, lengths);
-        self.push(from, from + times[times.len() - 1], Course::Spline(spline))
+        self.push(from, from + times[times.len() - 1], LengthCourse::Spline(spline))
     }
 
     /// Brings the winch to rest within `duration`; what it was to do later in its present change is left out.
@@ -81,7 +81,7 @@ impl Winding {
         let is_winding = self.ends_at() > from;
         self.changes.retain(|change| change.from < from);
         if is_winding {
-            let course = Course::Brake { rate: now.rate, acceleration: now.acceleration };
+            let course = LengthCourse::Brake { rate: now.rate, acceleration: now.acceleration };
             self.changes.push(Change { from, until: from + duration, length: now.value, course });
         }
     }
@@ -115,12 +115,12 @@ impl Change {
         let duration = self.until - self.from;
         let s = (time - self.from).clamp(0.0, duration);
         let [value, rate, acceleration] = match &self.course {
-            Course::Ramp { change } => ramp(s / duration).map(|of| change * of),
-            Course::Spline(spline) => spline.at(s),
-            Course::Brake { rate, acceleration } => brake(*rate, *acceleration, s, duration),
+            LengthCourse::Ramp { change } => ramp(s / duration).map(|of| change * of),
+            LengthCourse::Spline(spline) => spline.at(s),
+            LengthCourse::Brake { rate, acceleration } => brake(*rate, *acceleration, s, duration),
         };
         let [rate, acceleration] = match &self.course {
-            Course::Ramp { .. } => [rate / duration, acceleration / (duration * duration)],
+            LengthCourse::Ramp { .. } => [rate / duration, acceleration / (duration * duration)],
             _ => [rate, acceleration],
         };
         // A spline or brake is at rest at its end, but for rounding.

@@ -55,43 +55,45 @@ fn lists(matrix: &DMat) -> Vec<Vec<f64>> {
     matrix.row_iter().map(|row| row.iter().copied().collect()).collect()
 }
 
-/// Anchors of a report; `weakest` is the weakest combination with its deviation.
-pub(super) fn anchors(of: &CalibrationReport, weakest: Option<(&[f64], f64)>) -> Vec<AnchorRow> {
-    let robot = of.of.robot_at(&of.found.best.values).robot;
-    let inner = of.frame.inner(&of.precision.covariance);
-    let scale = of.factor.filter(|_| of.precision.lost.is_empty()).map(|factor| factor * factor);
-    let row = |(i, cable): (usize, &funicular::robot::Cable)| {
-        let places = [0, 1, 2].map(|axis| of.of.position_of(&CalibrationUnknown::Anchor { cable: i, axis }));
-        let entry = |a: Option<usize>, b: Option<usize>| a.zip(b).map_or(0.0, |(a, b)| inner[(a, b)]);
-        AnchorRow {
-            cable: cable.name.clone(),
-            start_m: of.of.robot.cables[i].anchor.point_w.into(),
-            position_m: cable.anchor.point_w.into(),
-            places,
-            covariance_m2: scale.map(|scale| places.map(|a| places.map(|b| scale * entry(a, b)))),
-            weakest_m: weakest
-                .map(|(direction, deviation)| places.map(|place| place.map_or(0.0, |k| deviation * direction[k]))),
-        }
-    };
-    robot.cables.iter().enumerate().map(row).collect()
-}
-
-/// Rows of a report as linear equations; `None` where a combination is lost.
-pub(super) fn linear_rows(of: &CalibrationReport) -> Option<LinearRows> {
-    if !of.precision.lost.is_empty() {
-        return None;
+impl CalibrationReport<'_> {
+    /// Anchors of a report; `weakest` is the weakest combination with its deviation.
+    pub(super) fn anchors(&self, weakest: Option<(&[f64], f64)>) -> Vec<AnchorRow> {
+        let robot = self.of.robot_at(&self.found.best.values).robot;
+        let inner = self.frame.inner(&self.precision.covariance);
+        let scale = self.factor.filter(|_| self.precision.lost.is_empty()).map(|factor| factor * factor);
+        let row = |(i, cable): (usize, &funicular::robot::Cable)| {
+            let places = [0, 1, 2].map(|axis| self.of.position_of(&CalibrationUnknown::Anchor { cable: i, axis }));
+            let entry = |a: Option<usize>, b: Option<usize>| a.zip(b).map_or(0.0, |(a, b)| inner[(a, b)]);
+            AnchorRow {
+                cable: cable.name.clone(),
+                start_m: self.of.robot.cables[i].anchor.point_w.into(),
+                position_m: cable.anchor.point_w.into(),
+                places,
+                covariance_m2: scale.map(|scale| places.map(|a| places.map(|b| scale * entry(a, b)))),
+                weakest_m: weakest
+                    .map(|(direction, deviation)| places.map(|place| place.map_or(0.0, |k| deviation * direction[k]))),
+            }
+        };
+        robot.cables.iter().enumerate().map(row).collect()
     }
-    let free = of.frame.free_directions();
-    let rows = of.precision.net_rows();
-    let values = &of.found.best.values;
-    Some(LinearRows {
-        free: lists(free),
-        inner: lists(&(of.frame.inner_projection() * free)),
-        information: lists(&of.precision.information),
-        rows: rows.map(|(net, residuals)| NetRows { by_free: lists(net), residuals: residuals.to_vec() }).collect(),
-        units: values.iter().enumerate().map(|(k, value)| of.of.meaning(k, *value)[1]).collect(),
-        chi2: of.found.best.chi2,
-        degrees_of_freedom: of.precision.degrees,
-        factor: of.request.length_std_m.and(of.factor),
-    })
+
+    /// Rows of a report as linear equations; `None` where a combination is lost.
+    pub(super) fn linear_rows(&self) -> Option<LinearRows> {
+        if !self.precision.lost.is_empty() {
+            return None;
+        }
+        let free = self.frame.free_directions();
+        let rows = self.precision.net_rows();
+        let values = &self.found.best.values;
+        Some(LinearRows {
+            free: lists(free),
+            inner: lists(&(self.frame.inner_projection() * free)),
+            information: lists(&self.precision.information),
+            rows: rows.map(|(net, residuals)| NetRows { by_free: lists(net), residuals: residuals.to_vec() }).collect(),
+            units: values.iter().enumerate().map(|(k, value)| self.of.meaning(k, *value)[1]).collect(),
+            chi2: self.found.best.chi2,
+            degrees_of_freedom: self.precision.degrees,
+            factor: self.request.length_std_m.and(self.factor),
+        })
+    }
 }

@@ -1,7 +1,6 @@
 //! Results of a calibration from its minima.
 
 use super::choice::all_chosen;
-use super::drawn::{anchors, linear_rows};
 use super::profiles::profiles;
 use super::reachable::{LeftOut, Reachable, reachable};
 use super::rows::{CableResidual, CalibratedValue, DistanceRow, MinimumRow, ProposalRow, ReadingRow, Walk, WeakRow};
@@ -135,9 +134,9 @@ impl<'a> CalibrationReport<'a> {
             is_determined,
             frame: words::frame(&self.of.robot, &self.frame),
             distances: self.distances(),
-            anchors: anchors(self, weak.first().and_then(|row| Some((row.direction.as_slice(), row.deviation_m?)))),
+            anchors: self.anchors(weak.first().and_then(|row| Some((row.direction.as_slice(), row.deviation_m?)))),
             axes: self.of.axes(),
-            linear: linear_rows(self),
+            linear: self.linear_rows(),
             weak_combinations: weak,
             minima: self.minima(),
             chi2: self.fit().chi2,
