@@ -39,9 +39,10 @@ fn an_ending_that_means_another_format_is_refused_by_every_command() {
         (
             "modes ROBOT --below-hz 1",
             "xlsx",
-            "and .xlsx means a spreadsheet; choose a name that ends in .json, .csv, .svg, .pdf, .uff, .md or .txt",
+            "and .xlsx means a spreadsheet; choose a name that ends in .json, .csv, .parquet, .svg, .pdf, .uff, .md or \
+             .txt",
         ),
-        ("modes ROBOT --below-hz 1", "parquet", "would hold text, and .parquet means a Parquet file"),
+        ("modes ROBOT --below-hz 1 --format json", "parquet", "would hold JSON, and .parquet means a Parquet file"),
         ("stiffness ROBOT", "PDF", "would hold text, and .pdf means a figure in PDF"),
         ("frf ROBOT --from-hz 1 --to-hz 2 --points 9 --input fz --output z --format csv", "svg", "would hold CSV"),
         ("report", "svg", "would hold one figure, but the page has many: write one with `funicular statics`, `modes`"),
