@@ -2,7 +2,7 @@
 Compiled half of `funicular`; import `funicular` instead.
 """
 
-from _typeshed import SupportsGetItem
+from _typeshed import SupportsGetItem, SupportsLenAndGetItem
 from collections.abc import Callable
 from concurrent.futures import Executor
 from funicular._results import Equilibria, Results
@@ -114,9 +114,9 @@ class Analyses:
         ----------
         to
             Program that the file is for: `opensees` (python script for OpenSeesPy); `moordyn` (input file of version
-            2); `mujoco` (model in MJCF, with winches as actuators); `sdf` (world of Gazebo, whose cables Drake reads
-            as springs); `urdf` (frame and platform for viewers); `vtk` (vTK XML of polylines and polygons (.vtp),
-            for ParaView).
+            2); `mujoco` (model in MJCF, with winches as actuators); `sdf` (world of Gazebo, whose cables Drake reads as
+            springs); `urdf` (frame and platform for viewers); `vtk` (vTK XML of polylines and polygons (.vtp), for
+            ParaView).
         path
             Path of the file, which is complete or absent.
         segments
@@ -186,8 +186,8 @@ class Analyses:
         Parameters
         ----------
         of
-            Results: pose, lengths, tensions, stiffness-min, frequencies, damping, response; separated by commas;
-            frequencies if not given.
+            Results: pose, lengths, tensions, rope-length, rope-mass, stiffness-min, frequencies, damping, response;
+            separated by commas; frequencies if not given.
         by
             Paths of the numbers, as `Robot.parameters` lists them; `*` stands for any key, as in `cables.*.anchor_m`,
             and a path to a table or vector for all numbers in it. All numbers if not given.
@@ -983,9 +983,9 @@ class Robot(Analyses):
         RobotFileError
             The file has no such path, or the value is wrong there.
         """
-    def calibrate(self, /, readings: str | PathLike[str] | Mapping[str, ArrayLike], unknowns: str | Sequence[str] | None = None, *, hold_anchors: str | Sequence[str] | None = None, frame: str | Sequence[str] | None = None, length_std_m: SupportsFloat | SupportsIndex | None = None, position_std_m: SupportsFloat | SupportsIndex | None = None, tension_std_n: SupportsFloat | SupportsIndex | None = None, static_model: StaticModel = "ideal", starts: SupportsIndex | None = None, propose: SupportsIndex | None = None, grid: Mapping[str, ArrayLike] | None = None, poses: ArrayLike | None = None, propose_for: str | Sequence[str] | None = None, wanted_std_m: SupportsFloat | SupportsIndex | None = None) -> Results:
+    def calibrate(self, /, readings: str | PathLike[str] | Mapping[str, ArrayLike], unknowns: str | Sequence[str] | None = None, *, hold_anchors: str | Sequence[str] | None = None, frame: str | Sequence[str] | None = None, length_std_m: SupportsFloat | SupportsIndex | None = None, position_std_m: SupportsFloat | SupportsIndex | None = None, tension_std_n: SupportsFloat | SupportsIndex | None = None, prior: Any = None, tension_range_n: ArrayLike | None = None, static_model: StaticModel = "ideal", starts: SupportsIndex | None = None, profile: str | Sequence[str] | None = None, propose: SupportsIndex | None = None, grid: Mapping[str, ArrayLike] | None = None, poses: ArrayLike | None = None, propose_for: str | Sequence[str] | None = None, propose_by: Literal['variances', 'determinant'] = "variances", wanted_std_m: SupportsFloat | SupportsIndex | None = None, tension_rule: TensionRule | None = None, target_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, page: str | PathLike[str] | None = None, figure: str | PathLike[str] | None = None) -> Results:
         """
-        Calibrates anchors, attachments, offsets and scale from readings of lengths at poses that are not known.
+        Calibrates anchors, attachments, offsets and more from readings of lengths at poses that are not known.
 
         Parameters
         ----------
@@ -994,8 +994,8 @@ class Robot(Analyses):
             `roll_deg`, `pitch_deg`, `yaw_deg`, as a mapping, a data frame or a CSV file.
         unknowns
             Numbers to find, separated by commas: anchors, attachments, offsets (length of each cable at the reading
-            zero), scale (metres of length per metre of all readings); of elastic cables also axial-stiffness and mass,
-            as factors of those of the file; anchors if not given.
+            zero), scale (metres of length per metre of all readings), pulley-radii; of elastic cables also axial-
+            stiffness, mass and support-stiffness, as factors of those of the file; anchors if not given.
         hold_anchors
             Cables whose anchors are known, by their names, separated by commas.
         frame
@@ -1009,11 +1009,20 @@ class Robot(Analyses):
             only start the search.
         tension_std_n
             Standard deviation of the measured tensions [N]; 1 if not given.
+        prior
+            Values known beforehand: a mapping from kinds of unknowns or paths of values to a standard deviation, or to a value
+            and its deviation.
+        tension_range_n
+            Range within which the tensions at the anchors lie that were not measured [N]: a prior of its middle, with
+            the deviation of equal chances, for elastic cables.
         static_model
             Static model of the cables: ideal ones are straight and rigid: `ideal` (straight, massless, rigid); `spring`
             (straight, massless, elastic); `catenary` (elastic, sagging under its own weight).
         starts
             Maximum number of starts of the search; 10 if not given.
+        profile
+            Values with a profile, separated by commas: kinds as in `unknowns`, or paths of values. Each is held at
+            steps and everything else is fitted again, until χ² has risen to the limit of 95 %.
         propose
             Number of poses to propose that reduce the deviations most, one after the other; 0 if not given.
         grid
@@ -1022,14 +1031,33 @@ class Robot(Analyses):
         poses
             Candidates of a proposal (n, 3) or (n, 6): x, y, z [m], roll, pitch, yaw [degrees].
         propose_for
-            Numbers whose deviations the proposal reduces, as in `unknowns`; if not given: all unknowns.
+            Numbers whose deviations the proposal reduces: kinds as in `unknowns`, or paths of values; if not given: all
+            unknowns.
+        propose_by
+            Criterion of the proposal: `variances` (least sum of the variances of the chosen values); `determinant`
+            (least determinant of the covariance of all values, whatever their units).
         wanted_std_m
             Largest deviation that is wanted [m]: the least number of proposed poses that reaches it.
+        tension_rule
+            Rule that chooses the tensions at a pose if there are more cables than degrees of freedom: `lowest` (minimum
+            sum of squares of the tensions above their minimum); `closest` (minimum sum of squares of the differences
+            from `target_tension_n`); `middle` (maximum distance from the limits, relative to the distance between
+            them); `stiffest` (maximum of the minimum eigenvalue of the scaled stiffness); if not given: lowest.
+        target_tension_n
+            Target tensions [N], one for all cables or one per cable in the order of the file; the rule is then closest.
+        min_tension_n
+            Minimum tension anywhere in a cable [N]; if not given: from the robot file, or 2.5 times the cable's weight.
+        max_tension_n
+            Maximum tension anywhere in a cable [N]; if not given: from the robot file, or none.
+        page
+            HTML file of a page with the anchors and their ellipses, residuals, and rows that can be clicked away.
+        figure
+            File of a figure of the anchors, .svg or .pdf.
 
         Returns
         -------
         The keys of the program's JSON: `fit` and `determined` as sentences, `is_determined`, `values` with deviations and
-        intervals, `distances`, `rows`, `weak_combinations`, `walk`, `minima`, `proposals`, and `robot_file`.
+        intervals, `anchors` with their covariance, `distances`, `rows`, `weak_combinations`, `walk`, `minima`, `proposals`, and `robot_file`.
 
         Raises
         ------
@@ -1042,7 +1070,7 @@ class Robot(Analyses):
         ----------
         docs/theory.md, equations (96a) to (96k).
         """
-    def clearance(self, /, pose: Pose | ArrayLike | None = None, static_model: StaticModel = "catenary", *, move_to: Pose | ArrayLike | None = None, lengths_m: ArrayLike | None = None, hold_lengths_of_pose: bool = False, mass_kg: SupportsFloat | SupportsIndex | None = None, force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, wind_m_s: ArrayLike | None = None, cable_load_n_per_m: ArrayLike | None = None, tension_rule: TensionRule | None = None, target_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None) -> Results:
+    def clearance(self, /, pose: Pose | ArrayLike | None = None, static_model: StaticModel = "catenary", *, move_to: Pose | ArrayLike | None = None, find_way: bool = False, in_gusts: bool = False, lengths_m: ArrayLike | None = None, hold_lengths_of_pose: bool = False, mass_kg: SupportsFloat | SupportsIndex | None = None, force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, wind_m_s: ArrayLike | None = None, cable_load_n_per_m: ArrayLike | None = None, tension_rule: TensionRule | None = None, target_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None) -> Results:
         """
         Computes the distances between the sagging cables, the platform and obstacles: what is nearest, where, and what is
         too near.
@@ -1052,6 +1080,12 @@ class Robot(Analyses):
         move_to
             Pose x,y,z[,roll,pitch,yaw] [m, degrees] to which the platform moves, straight and with one turn; the
             distances are then the least on the way, and cables that cross each other are shown.
+        find_way
+            Search a way to the end of the move through one or two other poses if something is too near on the straight
+            one.
+        in_gusts
+            Enlarge every required distance by the expected largest motions of both within ten minutes in the gusts of
+            the robot file.
 
         The other parameters are those of `Robot.equilibrium`.
 
@@ -1065,7 +1099,7 @@ class Robot(Analyses):
         StaticsError
             The robot has no such equilibrium.
         """
-    def design(self, /, change: Any, *, goal: Goal = "first", poses: ArrayLike | None = None, weights: ArrayLike | None = None, min_frequency_hz: SupportsFloat | SupportsIndex | None = None, min_stiffness_n_per_m: SupportsFloat | SupportsIndex | None = None, avoid_hz: ArrayLike | None = None, max_iterations: SupportsIndex | None = None, pose: Pose | ArrayLike | None = None, mass_kg: SupportsFloat | SupportsIndex | None = None, static_model: StaticModel = "catenary", force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, wind_m_s: ArrayLike | None = None, cable_load_n_per_m: ArrayLike | None = None, tension_rule: TensionRule | None = None, target_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, cable_model: CableModel | None = None, assembly: Assembly = "consistent", in_plane_only: bool = False, winches: Winches = "as-given") -> Designed:
+    def design(self, /, change: Any, *, goal: Goal = "first-frequency", poses: ArrayLike | None = None, weights: ArrayLike | None = None, min_frequency_hz: SupportsFloat | SupportsIndex | None = None, min_stiffness_n_per_m: SupportsFloat | SupportsIndex | None = None, avoid_hz: ArrayLike | None = None, max_iterations: SupportsIndex | None = None, pose: Pose | ArrayLike | None = None, mass_kg: SupportsFloat | SupportsIndex | None = None, static_model: StaticModel = "catenary", force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, wind_m_s: ArrayLike | None = None, cable_load_n_per_m: ArrayLike | None = None, tension_rule: TensionRule | None = None, target_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, cable_model: CableModel | None = None, assembly: Assembly = "consistent", in_plane_only: bool = False, winches: Winches = "as-given") -> Designed:
         """
         Chooses values of the robot file with which the robot is best at several poses.
 
@@ -1079,10 +1113,10 @@ class Robot(Analyses):
             A vector without a component stands for all its numbers, and * for every name, as in
             `cables.*.attachment_m`.
         goal
-            Goal of the design: `first` (highest first natural frequency, cables included); `platform` (highest first
-            natural frequency of the platform on the static stiffness of its cables); `stiffness` (highest minimum
-            stiffness, as `statics` prints it); `rope-mass` (least mass of all ropes); `rope-length` (least length of
-            all ropes).
+            Goal of the design: `first-frequency` (highest first natural frequency, cables included); `platform`
+            (highest first natural frequency of the platform on the static stiffness of its cables); `stiffness-min`
+            (highest minimum stiffness, as `statics` prints it); `rope-mass` (least mass of all ropes); `rope-length`
+            (least length of all ropes).
         poses
             Poses (n, 3) or (n, 6): x, y, z [m], roll, pitch, yaw [degrees]; the worst one counts. If not given: `pose`,
             or the pose of the robot file.
@@ -1185,7 +1219,7 @@ class Robot(Analyses):
         InputError
             An argument is wrong; the message says which and what to give.
         """
-    def identify(self, /, fit: Any, experiments: Any, *, starts: SupportsIndex | None = None, profile: str | Sequence[str] | None = None, from_hz: SupportsFloat | SupportsIndex | None = None, to_hz: SupportsFloat | SupportsIndex | None = None, response_noise: SupportsFloat | SupportsIndex | None = None, frequency_noise: SupportsFloat | SupportsIndex | None = None, damping_noise: SupportsFloat | SupportsIndex | None = None, tension_rule: TensionRule | None = None, target_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, cable_model: CableModel | None = None, assembly: Assembly = "consistent", in_plane_only: bool = False, winches: Winches = "as-given", rigid_cables: bool = False, lengths_m: ArrayLike | None = None, pose: Pose | ArrayLike | None = None, hold_lengths_of_pose: bool = False, mass_kg: SupportsFloat | SupportsIndex | None = None, static_model: StaticModel = "catenary", force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, wind_m_s: ArrayLike | None = None, cable_load_n_per_m: ArrayLike | None = None) -> Identified:
+    def identify(self, /, fit: Any, experiments: Any, *, starts: SupportsIndex | None = None, profile: str | Sequence[str] | None = None, propose: SupportsIndex | None = None, grid: Mapping[str, ArrayLike] | None = None, poses: ArrayLike | None = None, propose_measuring: str | Sequence[str] | None = None, propose_modes: SupportsIndex | None = None, propose_for: str | Sequence[str] | None = None, propose_by: Literal['variances', 'determinant'] = "variances", wanted_percent: SupportsFloat | SupportsIndex | None = None, from_hz: SupportsFloat | SupportsIndex | None = None, to_hz: SupportsFloat | SupportsIndex | None = None, response_noise: SupportsFloat | SupportsIndex | None = None, frequency_noise: SupportsFloat | SupportsIndex | None = None, damping_noise: SupportsFloat | SupportsIndex | None = None, tension_rule: TensionRule | None = None, target_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, cable_model: CableModel | None = None, assembly: Assembly = "consistent", in_plane_only: bool = False, winches: Winches = "as-given", rigid_cables: bool = False, lengths_m: ArrayLike | None = None, pose: Pose | ArrayLike | None = None, hold_lengths_of_pose: bool = False, mass_kg: SupportsFloat | SupportsIndex | None = None, static_model: StaticModel = "catenary", force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, wind_m_s: ArrayLike | None = None, cable_load_n_per_m: ArrayLike | None = None) -> Identified:
         """
         Finds the values of the robot file that fit measurements best, with their deviations.
 
@@ -1207,6 +1241,29 @@ class Robot(Analyses):
         profile
             Paths of fitted values whose interval of 95 % is also found by holding the value and fitting the others
             again; `details["values"]` has it under `profile`. * stands for any key.
+        propose
+            Number of measurements to propose that reduce the deviations most, one after the other; 0 if not given.
+        grid
+            Axis of the poses of a proposal: x, y, z [m], roll, pitch, yaw [degrees], with N values from A to B, or with
+            listed values (repeatable); an axis that is not given stays at the pose of the first experiment.
+        poses
+            Poses of a proposal instead of a grid: position [m] and roll, pitch, yaw [degrees].
+        propose_measuring
+            What can be measured at each of these poses, separated by commas: frequencies (the lowest ones), tensions,
+            lengths, pose (at the lengths of the file's robot there). The loads are those of the first experiment;
+            frequencies if not given.
+        propose_modes
+            Number of the lowest natural frequencies that are measured at each pose of a proposal; 6 if not given.
+        propose_for
+            Values whose deviations the proposal reduces, by their paths, as in `profile`; if not given: all fitted
+            values.
+        propose_by
+            Criterion of the proposal. Variances are relative to the values, or in usual errors of values that may be
+            zero: `variances` (least sum of the variances of the chosen values); `determinant` (least determinant of the
+            covariance of all values, whatever their units).
+        wanted_percent
+            Largest relative deviation of a positive value that is wanted [%]: the least number of proposed measurements
+            that reaches it.
         from_hz
             First frequency of the responses that counts [Hz]; if not given: all.
         to_hz
@@ -1403,6 +1460,86 @@ class Robot(Analyses):
         -------
         The keys of the program's JSON: `points` with one entry for each mass.
         """
+    def simulate(self, /, scenario: Any = None, duration_s: SupportsFloat | SupportsIndex | None = None, *, sample_time_s: SupportsFloat | SupportsIndex | None = None, tolerance_m: SupportsFloat | SupportsIndex | None = None, elements: SupportsIndex | None = None, degree: SupportsIndex | None = None, once: bool = False, damping_frequency_hz: SupportsFloat | SupportsIndex | None = None, stretch_damping_time_s: SupportsFloat | SupportsIndex | None = None, hold_platform: bool = False, lengths_m: ArrayLike | None = None, pose: Pose | ArrayLike | None = None, hold_lengths_of_pose: bool = False, mass_kg: SupportsFloat | SupportsIndex | None = None, static_model: StaticModel = "catenary", force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, wind_m_s: ArrayLike | None = None, cable_load_n_per_m: ArrayLike | None = None, tension_rule: TensionRule | None = None, target_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None) -> Results:
+        """
+        Simulates large motion in time of platform and sagging ropes.
+
+        Parameters
+        ----------
+        scenario
+            What happens: a mapping from `release`, `pick`, `lengths`, `stop`, `push` and `cut` to lists of events, each a
+            mapping with the keys of docs/simulation.md.
+        duration_s
+            Simulated time [s]; 10 if not given.
+        sample_time_s
+            Time between the rows of the result [s]; if not given: a thousandth of the duration.
+        tolerance_m
+            Error of a position that one step may have [m]; 1e-07 if not given.
+        elements
+            Number of elements of each rope; 3 if not given.
+        degree
+            Degree of the polynomials of each element; 8 if not given.
+        once
+            Run once, without the finer run that shows the error.
+        damping_frequency_hz
+            Frequency at which the damping ratio of the ropes and their loss factor hold [Hz]; if not given: the first
+            natural frequency at the start.
+        stretch_damping_time_s
+            Damping time of the stretch of all ropes [s] in place of that of the robot file; if not given:
+            `axial_damping_time_s` of each rope.
+        hold_platform
+            Hold the platform where it is, so that only the ropes move.
+        lengths_m
+            Unstrained lengths [m], one per cable in the order of the file; the pose follows from them.
+        pose
+            Pose x,y,z[,roll,pitch,yaw] [m, degrees], R = Rz(yaw) Ry(pitch) Rx(roll); the lengths follow from it.
+        hold_lengths_of_pose
+            Hold the unstrained lengths with which the robot of the file rests at the pose (of the file or of `pose`);
+            all changes (`with_`, `mass_kg`, loads, wind, `vary`) then act at these lengths and move the platform.
+        mass_kg
+            Mass of the platform [kg]; inertia and centre of mass do not change.
+        static_model
+            Static model of the cables: `ideal` (straight, massless, rigid); `spring` (straight, massless, elastic);
+            `catenary` (elastic, sagging under its own weight).
+        force_n
+            Force on the platform, world axes [N].
+        moment_n_m
+            Moment on the platform, world axes [N m].
+        load_point_m
+            Point where the force acts, platform frame [m]; if not given: from the robot file, or the origin.
+        wind_m_s
+            Velocity of the steady wind, world axes [m/s]; it acts on ropes with a `drag_coefficient` and platforms with
+            a `drag_area_m2`.
+        cable_load_n_per_m
+            Load per metre of every cable besides its weight, world axes [N/m].
+        tension_rule
+            Rule that chooses the tensions at a pose if there are more cables than degrees of freedom: `lowest` (minimum
+            sum of squares of the tensions above their minimum); `closest` (minimum sum of squares of the differences
+            from `target_tension_n`); `middle` (maximum distance from the limits, relative to the distance between
+            them); `stiffest` (maximum of the minimum eigenvalue of the scaled stiffness); if not given: lowest.
+        target_tension_n
+            Target tensions [N], one for all cables or one per cable in the order of the file; the rule is then closest.
+        min_tension_n
+            Minimum tension anywhere in a cable [N]; if not given: from the robot file, or 2.5 times the cable's weight.
+        max_tension_n
+            Maximum tension anywhere in a cable [N]; if not given: from the robot file, or none.
+
+        Returns
+        -------
+        The keys of the program's JSON: `rows` with pose, velocities, tensions, lengths and energies at every time, `errors`
+        with the difference of each column from a finer run, `peaks`, `slack`, `cuts` and `steps`.
+
+        Raises
+        ------
+        InputError
+            An event cannot happen, or the robot has a part that is not simulated.
+        NoSolutionError
+            The start is not a stable equilibrium.
+
+        References
+        ----------
+        docs/theory.md, equations (97a) to (97k).
+        """
     def speeds(self, /, pose: Pose | ArrayLike | None = None, static_model: StaticModel = "catenary", *, required_velocity_m_s: ArrayLike | None = None, required_angular_velocity_rad_s: ArrayLike | None = None, lengths_m: ArrayLike | None = None, hold_lengths_of_pose: bool = False, mass_kg: SupportsFloat | SupportsIndex | None = None, force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, wind_m_s: ArrayLike | None = None, cable_load_n_per_m: ArrayLike | None = None, tension_rule: TensionRule | None = None, target_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None) -> Results:
         """
         Computes what the winches do while the platform moves, and how fast their limits let it be.
@@ -1564,8 +1701,8 @@ class Robot(Analyses):
         tolerances
             Tolerances of numbers that are anywhere within ± their tolerance, in the same form.
         of
-            Results: pose, lengths, tensions, stiffness-min, frequencies, damping, response; separated by commas; pose,
-            tensions if not given.
+            Results: pose, lengths, tensions, rope-length, rope-mass, stiffness-min, frequencies, damping, response;
+            separated by commas; pose, tensions if not given.
         hold
             Quantity that is held while the numbers deviate; with the pose held, the tensions parallel to the chords of
             more cables than degrees of freedom change least, or follow their rule: `lengths` (the unstrained lengths;
@@ -1952,7 +2089,7 @@ def write_file(path: str | PathLike[str], text: str) -> None:
     Writes a text to a file, which is complete or absent.
     """
 
-def write_unit(path: str | PathLike[str], limits: tuple[SupportsFloat | SupportsIndex, SupportsFloat | SupportsIndex], signals: SupportsGetItem[int, SupportsGetItem[int, tuple[str, str]]], matrices: SupportsGetItem[int, tuple[SupportsIndex, SupportsGetItem[int, SupportsFloat | SupportsIndex]]], robot_file: str, description: str) -> list[str]:
+def write_unit(path: str | PathLike[str], limits: tuple[SupportsFloat | SupportsIndex, SupportsFloat | SupportsIndex], signals: SupportsLenAndGetItem[SupportsGetItem[int, tuple[str, str]]], matrices: SupportsLenAndGetItem[tuple[SupportsIndex, SupportsGetItem[int, SupportsFloat | SupportsIndex]]], robot_file: str, description: str) -> list[str]:
     """
     Writes a state space of the robot of a file as a Functional Mock-up Unit, and returns the caveats. `limits` are the
     highest frequency [Hz] and the error, `signals` names and units of inputs and outputs, `matrices` A, B, C, D with their
