@@ -119,7 +119,7 @@ mod tests {
     fn polynomials_are_exact_up_to_their_degree() {
         for degree in 1..=10 {
             let basis = ElementBasis::new(degree);
-            let power = degree as i32;
+            let power = i32::try_from(degree).unwrap();
             for q in 0..=degree {
                 let slope: f64 = (0..=degree).map(|j| basis.at_node(q)[j] * basis.nodes[j].powi(power)).sum();
                 assert!((slope - f64::from(power) * basis.nodes[q].powi(power - 1)).abs() < 1e-11, "{degree} {q}");

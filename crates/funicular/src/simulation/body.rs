@@ -71,6 +71,21 @@ pub(super) fn joined(translation: &Vec3, turn: &Vec3) -> Vec6 {
     Vec6::new(translation.x, translation.y, translation.z, turn.x, turn.y, turn.z)
 }
 
+impl BodyMotion {
+    /// Place, velocity and acceleration of a point of the platform given by its lever arm from the centre of mass.
+    #[inline]
+    pub(super) fn point(&self, lever_p: &Vec3) -> [Vec3; 3] {
+        let (velocity, omega) = halves(&self.velocity);
+        let (acceleration, alpha) = halves(&self.acceleration);
+        let turn = omega.cross(lever_p);
+        [
+            self.center_w + self.rot_wp * lever_p,
+            velocity + self.rot_wp * turn,
+            acceleration + self.rot_wp * (alpha.cross(lever_p) + omega.cross(&turn)),
+        ]
+    }
+}
+
 impl MovingBody {
     pub(super) fn of(robot: &Robot, is_held: bool) -> Self {
         let Platform { mass, inertia_p, drag_area, center_of_mass_p, motion, .. } = robot.platform;
@@ -93,19 +108,6 @@ impl MovingBody {
     #[inline]
     pub(super) fn lever_p(&self, cable: usize) -> Vec3 {
         self.attachments_p[cable] - self.center_p
-    }
-
-    /// Place, velocity and acceleration of a point of the platform given by its lever arm from the centre of mass.
-    #[inline]
-    pub(super) fn point(&self, motion: &BodyMotion, lever_p: &Vec3) -> [Vec3; 3] {
-        let (velocity, omega) = halves(&motion.velocity);
-        let (acceleration, alpha) = halves(&motion.acceleration);
-        let turn = omega.cross(lever_p);
-        [
-            motion.center_w + motion.rot_wp * lever_p,
-            velocity + motion.rot_wp * turn,
-            acceleration + motion.rot_wp * (alpha.cross(lever_p) + omega.cross(&turn)),
-        ]
     }
 
     /// Force and moment about the centre of mass (platform axes) of all loads without the cables.

@@ -294,7 +294,7 @@ fn check_times(times: &[f64]) -> Result<(), EventFault> {
         return Err(EventFault::FewRows { rows: times.len() });
     }
     for (row, pair) in (2..).zip(times.windows(2)) {
-        if !(pair[1] > pair[0]) {
+        if pair[1] <= pair[0] || pair.iter().any(|time| time.is_nan()) {
             return Err(EventFault::TimesFall { row, time: pair[1], before: pair[0] });
         }
     }
@@ -315,7 +315,7 @@ pub(super) fn windings(
             let faulty = |fault| Faulty { event, fault };
             wind(winding, i, name, &events[event]).map_err(faulty)?;
             let (least, limit) = (winding.least(1e-3), LEAST_LENGTH * initial[i]);
-            if !(least.0 >= limit) {
+            if least.0 < limit || least.0.is_nan() {
                 let (length, time) = least;
                 return Err(faulty(EventFault::TooShort { cable: name.clone(), length, time, least: limit }));
             }

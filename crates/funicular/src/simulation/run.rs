@@ -7,6 +7,7 @@ use super::event::{CutAt, EventFault, Faulty, SimulationEvent, windings};
 use super::rope::WoundLength;
 use super::start::{SimulationError, SimulationSettings, at_rest};
 use super::system::{BODY, MotionNumbers, RopeEnd};
+use super::winding::Winding;
 use crate::math::{Rotation, Vec3, Vec6};
 use crate::robot::{Pose, Robot};
 use crate::statics::Equilibrium;
@@ -113,7 +114,7 @@ impl Simulation {
 
         let initial: Vec<f64> = rest.cables.iter().map(|cable| cable.unstrained_length).collect();
         let windings = windings(robot, &initial, events, &order).map_err(of_event)?;
-        let mut breaks: Vec<f64> = windings.iter().flat_map(|winding| winding.breaks()).collect();
+        let mut breaks: Vec<f64> = windings.iter().flat_map(Winding::breaks).collect();
         let stepper = at_rest(robot, rest, settings, windings)?;
 
         let (count, size) = (robot.cables.len(), stepper.system.size);
@@ -145,7 +146,7 @@ impl Simulation {
         simulation.sudden =
             order.into_iter().filter(|k| events[*k].is_sudden()).map(|k| (k, events[k].clone())).collect();
         simulation.set_fuses(events)?;
-        simulation.check_cuts(events).map_err(of_event)?;
+        simulation.check_cuts().map_err(of_event)?;
 
         simulation.begin()?;
         simulation.books.at_start = simulation.books.total();
@@ -169,7 +170,7 @@ impl Simulation {
     }
 
     /// Refuses cuts of the last cable and second cuts, as far as their times are known.
-    fn check_cuts(&self, events: &[SimulationEvent]) -> Result<(), Faulty> {
+    fn check_cuts(&self) -> Result<(), Faulty> {
         let mut cut = vec![false; self.names.len()];
         for (event, of) in &self.sudden {
             let SimulationEvent::Cut { cable, .. } = of else { continue };
@@ -181,8 +182,6 @@ impl Simulation {
                 return Err(Faulty { event: *event, fault: EventFault::LastCable { cable: name() } });
             }
         }
-        let fuse = |event: &usize| matches!(events[*event], SimulationEvent::Cut { at: CutAt::Tension(_), .. });
-        debug_assert!(self.fuses.iter().all(|of| fuse(&of.0)), "fuses are cuts at a tension");
         Ok(())
     }
 
@@ -208,7 +207,8 @@ impl Simulation {
     pub fn at(&mut self, time: f64) -> Result<Sample, SimulationError> {
         loop {
             let is_due = self.sudden.first().is_some_and(|(_, event)| event.time() <= Some(self.stepper.time));
-            if time < self.stepper.time || (time == self.stepper.time && !is_due) {
+            let now = self.stepper.time;
+            if time < now || (time <= now && !is_due) {
                 return Ok(self.sample(time));
             }
             if is_due {
@@ -225,7 +225,7 @@ impl Simulation {
         let before = self.books.total();
         match of {
             SimulationEvent::Release { mass, point_p, .. } => {
-                self.stepper.release(mass, point_p).map_err(|fault| SimulationError::Event { event, fault })?
+                self.stepper.release(mass, point_p).map_err(|fault| SimulationError::Event { event, fault })?;
             }
             SimulationEvent::Pick { mass, point_p, velocity_w, .. } => self.stepper.pick(mass, point_p, velocity_w),
             SimulationEvent::Cut { cable, .. } => self.cut(event, cable)?,
@@ -405,7 +405,7 @@ impl Simulation {
             velocity: super::system::six(&m.v),
             acceleration: super::system::six(&m.a),
         };
-        let [_, velocity, acceleration] = body.point(&motion, &origin);
+        let [_, velocity, acceleration] = motion.point(&origin);
         let joined = super::body::joined;
         let cable = |i: usize| {
             let [tension_platform, tension_anchor] = self.tensions(i, lengths, needed);

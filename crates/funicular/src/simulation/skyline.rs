@@ -95,7 +95,7 @@ impl Skyline {
                     break;
                 }
                 let from = self.shape.first[column].max(first);
-                let other = &before[self.shape.start[column] + from - self.shape.first[column]..][..column - from + 1];
+                let other = &before[self.shape.start[column] + from - self.shape.first[column]..][..=(column - from)];
                 let sum = dot(&own[from - first..column - first], &other[..column - from]);
                 own[column - first] = (own[column - first] - sum) * other[column - from];
             }

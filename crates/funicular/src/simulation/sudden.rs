@@ -49,7 +49,7 @@ impl Stepper {
     fn take_body(&mut self, body: MovingBody) {
         let motion = self.system.body_motion(&self.now);
         let shift = body.center_p - self.system.body.center_p;
-        let [center, velocity, _] = self.system.body.point(&motion, &shift);
+        let [center, velocity, _] = motion.point(&shift);
         self.now.x[..3].copy_from_slice(center.as_slice());
         self.now.v[..3].copy_from_slice(velocity.as_slice());
         self.system.body = body;
@@ -72,7 +72,7 @@ impl Stepper {
         let with = self.system.body.with(mass, &point_p);
         let before = self.system.body_motion(&self.now);
         let lever = point_p - self.system.body.center_p;
-        let own = self.system.body.point(&before, &lever)[1];
+        let own = before.point(&lever)[1];
         self.take_body(with);
 
         // Change of the momentum of the payload, which the others take over.

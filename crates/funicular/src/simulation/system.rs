@@ -111,7 +111,7 @@ impl System {
             if *end != RopeEnd::Attached {
                 continue;
             }
-            let [x, v, a] = self.body.point(body, &self.body.lever_p(i));
+            let [x, v, a] = body.point(&self.body.lever_p(i));
             let from = self.offsets[i];
             m.x[from..from + 3].copy_from_slice(x.as_slice());
             m.v[from..from + 3].copy_from_slice(v.as_slice());
