@@ -4,6 +4,8 @@ import json
 import re
 import shlex
 import subprocess
+import tomllib
+from pathlib import Path
 from typing import Any
 
 import funicular
@@ -15,6 +17,7 @@ OUTPUT |= {"--figure-width-mm", "--font-size-pt", "--figure-mode", "--fitted", "
 SWITCHES = {
     *("--log", "--adaptive", "--all", "--in-plane-only", "--print-request", "--resume", "--discard"),
     *("--platform", "--hold-lengths-of-pose", "--friction-interval", "--rigid-cables", "--rope-inertia", "--fastest", "--once", "--hold-platform"),
+    *("--find-way", "--in-gusts"),
 }
 # Options that may be given several times.
 LISTS = {"reduce": {"--input", "--output"}, "gust": {"--output"}, "identify": {"--profile"}}
@@ -85,7 +88,7 @@ def call(line: str) -> tuple[str, list[str], dict[str, Any], dict[str, Any]]:
     keywords: dict[str, Any] = {}
     rest = iter(words[1:])
     for word in rest:
-        key = word.removeprefix("--").replace("-", "_")
+        key = {"--for": "duration_s"}.get(word, word.removeprefix("--").replace("-", "_"))
         if not word.startswith("-"):
             files.append(word)
         elif word in OUTPUT:
@@ -102,6 +105,8 @@ def call(line: str) -> tuple[str, list[str], dict[str, Any], dict[str, Any]]:
         elif word in ("--grid", "--vary", "--section"):
             axis, _, text = next(rest).partition("=")
             keywords.setdefault(key, {})[axis] = steps(text)
+        elif word == "--scenario":
+            keywords[key] = tomllib.loads(Path(next(rest)).read_text())
         elif word == "--quantity":
             keywords["quantities"] = next(rest).split(",")
         elif word in ("--poses", "--via"):

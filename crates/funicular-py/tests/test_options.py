@@ -62,6 +62,7 @@ COMMANDS: dict[str, tuple[str, list[Callable[..., Any]]]] = {
 
 # Options without a keyword of their name, with the object that replaces them; entries of one command go first.
 OTHERS: dict[tuple[str | None, str], tuple[str, Callable[..., Any]]] = {
+    ("import", "--trajectory"): ("`funicular.import_trajectory`", funicular.import_trajectory),
     (None, "--set"): ("`robot.with_({path: value})`", Robot.with_),
     (None, "--all"): ("`equilibrium.all_equilibria()`", Equilibrium.all_equilibria),
     (None, "--friction-interval"): ("`equilibrium.friction_interval()`", Equilibrium.friction_interval),

@@ -132,30 +132,24 @@ impl Printed for Workspace {
         line("conditions", &conditions.join(", "));
         line("orientations", &orientation_text(self));
         let volume = self.volume();
-        match &self.plane {
-            Some(plane) => {
-                line("plane", &format!("{} = {} m", plane.axis, short(plane.at_m, 6)));
-                line("area", &format!("{} m²{}", significant(plane.area_m2, 6), change_text(self)));
-            }
-            None => {
-                line("volume", &format!("{} m³{}", significant(volume.volume_m3, 6), change_text(self)));
-                line("area", &format!("{} m²", significant(volume.area_m2.unwrap_or(0.0), 6)));
-            }
+        if let Some(plane) = &self.plane {
+            line("plane", &format!("{} = {} m", plane.axis, short(plane.at_m, 6)));
+            line("area", &format!("{} m²{}", significant(plane.area_m2, 6), change_text(self)));
+        } else {
+            line("volume", &format!("{} m³{}", significant(volume.volume_m3, 6), change_text(self)));
+            line("area", &format!("{} m²", significant(volume.area_m2.unwrap_or(0.0), 6)));
         }
         if let Some(centroid) = volume.centroid_m {
             line("centroid", &format!("({}) m", vector(&centroid, 4)));
         }
         let [low, high] = self.bounds_m;
         line("reaches from", &format!("({}) m to ({}) m", vector(&low, 4), vector(&high, 4)));
-        match &self.plane {
-            Some(plane) => {
-                line("parts", &plane.parts.to_string());
-                line("holes", &plane.holes.to_string());
-            }
-            None => {
-                line("parts", &pieces_text(&self.parts));
-                line("holes", &pieces_text(&self.holes));
-            }
+        if let Some(plane) = &self.plane {
+            line("parts", &plane.parts.to_string());
+            line("holes", &plane.holes.to_string());
+        } else {
+            line("parts", &pieces_text(&self.parts));
+            line("holes", &pieces_text(&self.holes));
         }
         line("box of the grid", &box_text(self));
         let steps: Vec<String> = self.grid.step_m.iter().map(|step| short(*step, 4)).collect();

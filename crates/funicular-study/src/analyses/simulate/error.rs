@@ -30,6 +30,9 @@ pub struct Peak {
     pub finer_root_mean_square_n: Option<f64>,
 }
 
+/// Tensions of all cables at one of their ends in a row.
+type TensionsOfRow = fn(&SimulatedRow) -> &[f64];
+
 fn root_mean_square(values: impl Iterator<Item = f64> + Clone) -> f64 {
     let count = values.clone().count().max(1) as f64;
     (values.map(|value| value * value).sum::<f64>() / count).sqrt()
@@ -59,7 +62,7 @@ pub(super) fn errors(
         vector("velocity_m_s", |row| row.velocity_m_s),
         vector("angular_velocity_rad_s", |row| row.angular_velocity_rad_s),
     ];
-    let ends: [(&str, fn(&SimulatedRow) -> &[f64]); 2] =
+    let ends: [(&str, TensionsOfRow); 2] =
         [("platform", |row| &row.tensions_platform_n), ("anchor", |row| &row.tensions_anchor_n)];
     for (end, of) in ends {
         for (i, name) in cables.iter().enumerate() {

@@ -37,7 +37,7 @@ impl PlaneOfMotion {
     fn of(robot: &Robot) -> Result<Option<Self>> {
         let PlatformMotion::Planar(plane) = &robot.platform.motion else { return Ok(None) };
         let normal = plane.normal_w();
-        let Some(axis) = (0..3).find(|k| normal[*k].abs() == 1.0) else {
+        let Some(axis) = (0..3).find(|k| normal[*k].abs() >= 1.0) else {
             bail!(
                 "the plane of the platform is at an angle to the axes of the world, along which the grid is: use \
                  `funicular map` with ⟪poses⟫ in the plane"
