@@ -82,7 +82,7 @@ MORE = [
     f"funicular calibrate {MACHINE} --unknowns anchors --hold-anchors bl,br --starts 3 --position-std-m 0.01 --tension-std-n 2",
     f"funicular calibrate {MACHINE} --prior cables.tl.anchor_m=±0.05 --prior cables.tr.anchor_m.y=3.8±0.1 --profile anchors",
     "funicular calibrate robots/ipanema2.toml --readings docs/tutorials/ipanema-lengths.csv --static-model spring --tension-range-n 200:2000",
-    f"funicular calibrate {MACHINE} --propose 1 --grid x=1:3:3 --propose-by determinant --min-tension-n 5 --max-tension-n 50",
+    f"funicular calibrate {MACHINE} --propose 1 --grid x=1:3:3 --propose-by determinant --min-tension-n 5 --max-tension-n 50 --tension-rule closest --target-tension-n 20",
     f"funicular calibrate {MACHINE} --length-std-m 0.0005 --propose 1 --poses waypoints.csv --propose-for anchors --wanted-std-m 0.05",
     f"funicular compare {ROBOT} --below-hz 2",
     f"funicular compare robots/cogiro.toml --below-hz 6 {TENSIONS} --platform --platform-share 0.6 --tolerance 0.05",
