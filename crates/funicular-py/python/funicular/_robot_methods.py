@@ -16,7 +16,7 @@ from funicular._design import Designed, designed
 from funicular._errors import InputError
 from funicular._funicular import Equilibrium, Robot
 from funicular._identify import Identified, identified
-from funicular._reading import File, keywords, read, with_state
+from funicular._reading import File, keywords, with_state
 from funicular._results import Equilibria, Results
 from funicular._sweeps import Sweep
 from funicular._uncertainty import Uncertainty, uncertainty as deviations_of
@@ -380,7 +380,7 @@ def calibrate(of: Any, given: Given, page: File | None = None, figure: File | No
     docs/theory.md, equations (96a) to (96k).
     """
     if given.get("prior") is not None:
-        given = {**given, "prior": read("calibrate", "prior", given["prior"], cables=of.cable_names)}
+        given = {**given, **keywords("calibrate", {"prior": given["prior"]}, of.cable_names)}
     return _results.results(of._calibrate(given, page, figure))
 
 
