@@ -24,5 +24,5 @@ pub use books::EnergyBooks;
 pub use esdirk::StepCounts;
 pub use event::{CutAt, EventFault, SimulationEvent};
 pub use rope::WoundLength;
-pub use run::{CableSample, Sample, Simulation, SlackCable};
-pub use start::{Mesh, SimulationError, SimulationSettings};
+pub use run::{CableSample, RobotSample, Simulation, SlackCable};
+pub use start::{ElementMesh, SimulationError, SimulationSettings};

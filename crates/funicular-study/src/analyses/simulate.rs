@@ -20,7 +20,7 @@ use anyhow::{Result, anyhow, bail};
 use error::errors;
 use events::Events;
 use funicular::robot::Robot;
-use funicular::simulation::{Mesh, Simulation, SimulationError, SimulationSettings, StepCounts};
+use funicular::simulation::{ElementMesh, Simulation, SimulationError, SimulationSettings, StepCounts};
 use serde::Serialize;
 
 /// Number of parts of the duration between its rows, if nothing says how many.
@@ -44,7 +44,7 @@ pub struct Simulated {
     pub elements: usize,
     pub degree: usize,
     pub tolerance_m: f64,
-    pub steps: Steps,
+    pub steps: StepNumbers,
     /// Cables that were slack, with the time at which their tension first fell below 0.5 N.
     pub slack: Vec<SlackRow>,
     /// Cables that failed.
@@ -65,9 +65,9 @@ pub struct Simulated {
     pub warnings: Vec<String>,
 }
 
-/// Steps of a run.
+/// StepNumbers of a run.
 #[derive(Serialize, Clone, Copy)]
-pub struct Steps {
+pub struct StepNumbers {
     pub accepted: usize,
     pub rejected: usize,
     pub factored: usize,
@@ -143,7 +143,7 @@ fn settings(request: &SimulateRequest) -> Result<SimulationSettings> {
         bail!("⟪tolerance_m⟫ is {} m: give {least} to {most} m", request.tolerance_m);
     }
     Ok(SimulationSettings {
-        mesh: Mesh { elements: request.elements, degree: request.degree },
+        mesh: ElementMesh { elements: request.elements, degree: request.degree },
         tolerance: request.tolerance_m,
         damping_frequency_hz: request.damping_frequency_hz,
         stretch_damping_time: request.stretch_damping_time_s,
@@ -231,7 +231,7 @@ fn found(at_rest: &AtRest, request: &SimulateRequest, first: History, finer: Opt
         elements: request.elements,
         degree: request.degree,
         tolerance_m: request.tolerance_m,
-        steps: Steps { accepted, rejected, factored, evaluations },
+        steps: StepNumbers { accepted, rejected, factored, evaluations },
         energy_defect_j: first.rows.iter().map(|row| row.energy_defect_j.abs()).fold(0.0, f64::max),
         slack: first.slack,
         cuts: first.cuts,

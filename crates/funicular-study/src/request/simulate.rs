@@ -2,7 +2,7 @@
 
 use super::key::declared;
 use super::parts::{NumberColumns, RobotText, State, Tensions};
-use funicular::simulation::{Mesh, SimulationSettings};
+use funicular::simulation::{ElementMesh, SimulationSettings};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
@@ -24,9 +24,9 @@ declared! {
         /// Error of a position that one step may have [m].
         tolerance_m: f64 = SimulationSettings::TOLERANCE => (Number(Positive)).under("Accuracy");
         /// Number of elements of each rope.
-        elements: usize = DEFAULT_MESH.elements => (Count(1..=Mesh::MAX_ELEMENTS as u64)).under("Accuracy");
+        elements: usize = DEFAULT_MESH.elements => (Count(1..=ElementMesh::MAX_ELEMENTS as u64)).under("Accuracy");
         /// Degree of the polynomials of each element.
-        degree: usize = DEFAULT_MESH.degree => (Count(1..=Mesh::MAX_DEGREE as u64)).under("Accuracy");
+        degree: usize = DEFAULT_MESH.degree => (Count(1..=ElementMesh::MAX_DEGREE as u64)).under("Accuracy");
         /// Run once, without the finer run that shows the error.
         once: bool = false => (Switch).under("Accuracy");
         /// Frequency at which the damping ratio of the ropes and their loss factor hold [Hz].
@@ -50,7 +50,7 @@ declared! {
     }
 }
 
-const DEFAULT_MESH: Mesh = Mesh::STANDARD;
+const DEFAULT_MESH: ElementMesh = ElementMesh::STANDARD;
 
 /// What happens to a robot: lists of events, as a TOML file has them in tables `[[release]]`, `[[lengths]]` and so on.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]

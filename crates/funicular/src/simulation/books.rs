@@ -1,6 +1,6 @@
 //! Books of the energy: what platform and ropes hold, and what came in and went out.
 
-use super::dense::Dense;
+use super::dense::DenseOutput;
 use super::rope::WoundLength;
 use super::system::{MotionNumbers, RopeEnd, System};
 use crate::math::Vec3;
@@ -107,7 +107,7 @@ impl System {
     /// Motion at a time of a step, with its needed forces.
     pub(super) fn within(
         &mut self,
-        dense: &Dense,
+        dense: &DenseOutput,
         time: f64,
         m: &mut MotionNumbers,
         needed: &mut [f64],

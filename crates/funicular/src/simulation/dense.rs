@@ -4,7 +4,7 @@ use super::system::{BODY, MotionNumbers, turn_rate};
 use crate::math::{Rotation, Vec3};
 
 /// Motion between the two ends of a step.
-pub(super) struct Dense {
+pub(super) struct DenseOutput {
     pub(super) from: f64,
     pub(super) until: f64,
     /// Rotation at the beginning, from which turns count.
@@ -25,7 +25,7 @@ fn quintic([x0, v0, a0]: [f64; 3], [x1, v1, a1]: [f64; 3], s: f64) -> [f64; 3] {
     ]
 }
 
-impl Dense {
+impl DenseOutput {
     pub(super) fn new(from: f64, until: f64, rotation: Rotation, before: MotionNumbers, after: MotionNumbers) -> Self {
         Self { from, until, rotation, before, after }
     }

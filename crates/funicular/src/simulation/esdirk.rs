@@ -4,7 +4,7 @@
 //! convection-diffusion-reaction equations, Appl. Numer. Math. 44, 2003, pages 139 to 181: six stages, the first of
 //! which is the last of the step before; L-stable, so that waves that a step does not resolve fade.
 
-use super::dense::Dense;
+use super::dense::DenseOutput;
 use super::rope::{Newton, WoundLength};
 use super::system::{Arrow, BODY, MotionNumbers, System, turn_rate};
 use crate::math::Vec3;
@@ -191,7 +191,7 @@ impl Stepper {
     }
 
     /// One step, at most to `until`; returns how the motion went in between.
-    pub(super) fn advance(&mut self, until: f64) -> Result<Dense, TooFast> {
+    pub(super) fn advance(&mut self, until: f64) -> Result<DenseOutput, TooFast> {
         loop {
             let left = until - self.time;
             // The rest is gone in one step, or in two of one length.
@@ -224,7 +224,7 @@ impl Stepper {
         }
     }
 
-    fn accept(&mut self, h: f64, until: f64, error: f64, ends: bool) -> Dense {
+    fn accept(&mut self, h: f64, until: f64, error: f64, ends: bool) -> DenseOutput {
         self.counts.accepted += 1;
         let error = error.max(1e-6);
         let factor = (0.9 * error.powf(-0.175) * self.error_before.powf(0.075)).clamp(0.3, 3.0);
@@ -240,7 +240,7 @@ impl Stepper {
         let time = self.time;
         self.time = if ends { until } else { self.time + h };
         let lengths = self.system.lengths(self.time);
-        let dense = Dense::new(time, self.time, rotation, before, self.now.clone());
+        let dense = DenseOutput::new(time, self.time, rotation, before, self.now.clone());
         self.absorb_turn();
         self.evaluate(&lengths);
         self.counts.evaluations = self.system.evaluations;

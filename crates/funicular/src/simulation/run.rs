@@ -1,7 +1,7 @@
 //! A simulation from its start to its end: events in their order, samples at the times that the caller asks for.
 
 use super::books::{EnergyBooks, StepPowers};
-use super::dense::Dense;
+use super::dense::DenseOutput;
 use super::esdirk::{StepCounts, Stepper};
 use super::event::{CutAt, EventFault, Faulty, SimulationEvent, windings};
 use super::rope::WoundLength;
@@ -30,7 +30,7 @@ pub struct CableSample {
 
 /// Robot at one time.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Sample {
+pub struct RobotSample {
     /// Time [s].
     pub time: f64,
     /// Pose of the platform.
@@ -86,7 +86,7 @@ pub struct Simulation {
     /// Times at which steps end, rising.
     breaks: Vec<f64>,
     books: EnergyBooks,
-    last: Option<(Dense, StepPowers, EnergyBooks)>,
+    last: Option<(DenseOutput, StepPowers, EnergyBooks)>,
     slack: Vec<SlackCable>,
     work: MotionNumbers,
     needed: Vec<f64>,
@@ -204,7 +204,7 @@ impl Simulation {
     ///
     /// # Errors
     /// [`SimulationError::TooFast`]; [`SimulationError::Event`] for an event that turns out to be impossible.
-    pub fn at(&mut self, time: f64) -> Result<Sample, SimulationError> {
+    pub fn at(&mut self, time: f64) -> Result<RobotSample, SimulationError> {
         loop {
             let is_due = self.sudden.first().is_some_and(|(_, event)| event.time() <= Some(self.stepper.time));
             let now = self.stepper.time;
@@ -274,7 +274,7 @@ impl Simulation {
     }
 
     /// Powers of a step up to a time at which the stepper is.
-    fn powers_between(&mut self, dense: &Dense, first: super::books::Powers, until: f64) -> StepPowers {
+    fn powers_between(&mut self, dense: &DenseOutput, first: super::books::Powers, until: f64) -> StepPowers {
         let middle = 0.5 * (dense.from + until);
         let stepper = &mut self.stepper;
         let rotation = std::mem::replace(&mut stepper.system.rotation, dense.rotation);
@@ -287,7 +287,7 @@ impl Simulation {
     }
 
     /// Enters a step into the books.
-    fn book(&mut self, dense: Dense, powers: StepPowers) {
+    fn book(&mut self, dense: DenseOutput, powers: StepPowers) {
         let before = self.books;
         let stepper = &self.stepper;
         let lengths = stepper.system.lengths(stepper.time);
@@ -321,7 +321,7 @@ impl Simulation {
     }
 
     /// A cable that reached its tension within a step, and the time.
-    fn blown(&mut self, dense: &Dense) -> Option<(usize, usize, f64)> {
+    fn blown(&mut self, dense: &DenseOutput) -> Option<(usize, usize, f64)> {
         let lengths = self.stepper.system.lengths(self.stepper.time);
         let over = |of: &Self, cable: usize, lengths: &[WoundLength], needed: &[f64]| {
             of.tensions(cable, lengths, needed).into_iter().fold(0.0, f64::max)
@@ -343,7 +343,7 @@ impl Simulation {
     }
 
     /// Takes the stepper back to a time within its last step.
-    fn rewind(&mut self, dense: &Dense, time: f64) {
+    fn rewind(&mut self, dense: &DenseOutput, time: f64) {
         let stepper = &mut self.stepper;
         stepper.system.rotation = dense.rotation;
         dense.at(time, &mut stepper.now);
@@ -368,7 +368,7 @@ impl Simulation {
     }
 
     /// Robot at a time of the last step, or now.
-    fn sample(&mut self, time: f64) -> Sample {
+    fn sample(&mut self, time: f64) -> RobotSample {
         let Some((dense, powers, before)) = self.last.take().filter(|_| time < self.stepper.time) else {
             let (now, needed) = (self.stepper.now.clone(), self.stepper.needed.clone());
             let lengths = self.stepper.system.lengths(time);
@@ -395,7 +395,7 @@ impl Simulation {
         lengths: &[WoundLength],
         needed: &[f64],
         energy: EnergyBooks,
-    ) -> Sample {
+    ) -> RobotSample {
         let body = &self.stepper.system.body;
         let three = |of: &[f64], from: usize| Vec3::from_column_slice(&of[from..from + 3]);
         let origin = -body.center_p;
@@ -412,7 +412,7 @@ impl Simulation {
             let is_cut = self.stepper.system.ends[i] != RopeEnd::Attached;
             CableSample { tension_platform, tension_anchor, length: lengths[i], is_cut }
         };
-        Sample {
+        RobotSample {
             time,
             pose: body.pose(&motion.center_w, &rot_wp),
             velocity_w: joined(&velocity, &(rot_wp * three(&m.v, 3))),

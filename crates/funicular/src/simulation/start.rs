@@ -18,14 +18,14 @@ use thiserror::Error;
 
 /// Elements of each rope.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Mesh {
+pub struct ElementMesh {
     /// Number of elements of each rope, at least 1.
     pub elements: usize,
-    /// Degree of their polynomials, 1 to [`Mesh::MAX_DEGREE`].
+    /// Degree of their polynomials, 1 to [`ElementMesh::MAX_DEGREE`].
     pub degree: usize,
 }
 
-impl Mesh {
+impl ElementMesh {
     /// Three elements of degree eight: the tension after a release is right to 1 % (root mean square).
     pub const STANDARD: Self = Self { elements: 3, degree: 8 };
     /// Highest degree: beyond it the blocks of the elements cost more than they gain.
@@ -33,14 +33,14 @@ impl Mesh {
     /// Largest number of elements.
     pub const MAX_ELEMENTS: usize = 1000;
 
-    /// Mesh with half as many nodes again, against which a result shows its error.
+    /// ElementMesh with half as many nodes again, against which a result shows its error.
     #[must_use]
     pub fn finer(self) -> Self {
         Self { elements: self.elements + self.elements.div_ceil(2), ..self }
     }
 }
 
-impl Default for Mesh {
+impl Default for ElementMesh {
     fn default() -> Self {
         Self::STANDARD
     }
@@ -49,8 +49,8 @@ impl Default for Mesh {
 /// Settings of a simulation.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SimulationSettings {
-    /// Mesh of the ropes.
-    pub mesh: Mesh,
+    /// ElementMesh of the ropes.
+    pub mesh: ElementMesh,
     /// Error of a position that one step may have [m].
     pub tolerance: f64,
     /// Frequency at which the constant damping ratio of a rope holds [Hz]; `None` for the robot's first natural
@@ -72,7 +72,7 @@ impl SimulationSettings {
 impl Default for SimulationSettings {
     fn default() -> Self {
         Self {
-            mesh: Mesh::default(),
+            mesh: ElementMesh::default(),
             tolerance: Self::TOLERANCE,
             damping_frequency_hz: None,
             stretch_damping_time: None,

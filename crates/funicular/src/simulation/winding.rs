@@ -235,7 +235,7 @@ mod tests {
             assert!((with.acceleration - without.acceleration).abs() < 1e-12, "{time}");
         }
         assert_smooth(&winding, 1.0);
-        let rest = winding.at(0.6);
+        let rest = winding.at(0.6 + 1e-9);
         assert!(rest.rate == 0.0 && rest.acceleration == 0.0 && rest.value < winding.at(0.4).value);
         assert!((winding.at(9.0).value - rest.value).abs() < 1e-15);
     }

@@ -2,7 +2,7 @@
 
 use funicular::math::{Mat3, Vec3};
 use funicular::robot::{Damping, Robot, State};
-use funicular::simulation::{CutAt, Mesh, Simulation, SimulationEvent, SimulationSettings};
+use funicular::simulation::{CutAt, ElementMesh, Simulation, SimulationEvent, SimulationSettings};
 use funicular::statics::{self, Equilibrium, StaticModel};
 use serde_json::Value;
 
@@ -79,7 +79,7 @@ fn compare(case: &Value, simulation: &mut Simulation, until: f64) -> [f64; 2] {
 fn a_taut_release_is_that_of_two_independent_methods() {
     let case = case("release-taut-4mm");
     let (robot, rest, mut settings) = robot_of(&case);
-    settings.mesh = Mesh { elements: 6, degree: 10 };
+    settings.mesh = ElementMesh { elements: 6, degree: 10 };
     settings.tolerance = 3e-10;
     let mut simulation = Simulation::new(&robot, &rest, &release_of(&case), 1.0, &settings).unwrap();
     let worst = compare(&case, &mut simulation, 1.0);
@@ -92,7 +92,7 @@ fn a_taut_release_is_that_of_two_independent_methods() {
 fn a_move_of_winches_is_that_of_a_chain_of_material_nodes() {
     let case = case("winch-4mm");
     let (robot, rest, mut settings) = robot_of(&case);
-    settings.mesh = Mesh { elements: 6, degree: 8 };
+    settings.mesh = ElementMesh { elements: 6, degree: 8 };
     settings.tolerance = 1e-8;
     let mut simulation = Simulation::new(&robot, &rest, &[ramp_of(&case)], 2.0, &settings).unwrap();
     let worst = compare(&case, &mut simulation, 2.0);
@@ -200,13 +200,13 @@ fn a_hoisted_mass_has_the_tension_of_its_acceleration() {
 fn errors_fall_with_the_order_of_the_method() {
     let case = case("release-taut-4mm");
     let (robot, rest, settings) = robot_of(&case);
-    let run = |mesh: Mesh, tolerance: f64| {
+    let run = |mesh: ElementMesh, tolerance: f64| {
         let settings = SimulationSettings { mesh, tolerance, ..settings.clone() };
         let mut simulation = Simulation::new(&robot, &rest, &release_of(&case), 0.5, &settings).unwrap();
         let position = simulation.at(0.5).unwrap().pose.position_w;
         (position, simulation.counts().accepted as f64)
     };
-    let coarse = Mesh { elements: 2, degree: 4 };
+    let coarse = ElementMesh { elements: 2, degree: 4 };
     let exact = run(coarse, 1e-12).0;
     let [(first, few), (second, many)] = [1e-7, 1e-10].map(|tolerance| run(coarse, tolerance));
     let order = ((first - exact).norm() / (second - exact).norm()).ln() / (many / few).ln();
@@ -219,7 +219,8 @@ fn errors_of_a_smooth_move_fall_fast_with_the_mesh() {
     let case = case("winch-4mm");
     let (robot, rest, settings) = robot_of(&case);
     let run = |elements, degree| {
-        let settings = SimulationSettings { mesh: Mesh { elements, degree }, tolerance: 1e-9, ..settings.clone() };
+        let settings =
+            SimulationSettings { mesh: ElementMesh { elements, degree }, tolerance: 1e-9, ..settings.clone() };
         let mut simulation = Simulation::new(&robot, &rest, &[ramp_of(&case)], 1.0, &settings).unwrap();
         simulation.at(1.0).unwrap().pose.position_w
     };

@@ -13,25 +13,27 @@ const REACH: f64 = 30.0;
 /// Step of a value that the readings do not determine, relative to the spread of the anchors.
 const UNDETERMINED_STEP: f64 = 0.01;
 
-/// Profiles of the marked values; none for a value that the frame holds, or without a deviation of the data.
-///
-/// # Errors
-/// Work that was stopped.
-pub(super) fn profiles(of: &CalibrationReport, marks: &[bool], watch: &mut dyn Watch) -> Result<Vec<Option<Profile>>> {
-    let Some((variance, limit)) = of.noise() else { return Ok(vec![None; marks.len()]) };
-    let total = marks.iter().filter(|mark| **mark).count();
-    let mut found = Vec::with_capacity(marks.len());
-    let mut done = 0;
-    for (k, mark) in marks.iter().enumerate() {
-        if !mark || of.frame.holds(k) {
-            found.push(None);
-            continue;
+impl CalibrationReport<'_> {
+    /// Profiles of the marked values; none for a value that the frame holds, or without a deviation of the data.
+    ///
+    /// # Errors
+    /// Work that was stopped.
+    pub(super) fn profiles(&self, marks: &[bool], watch: &mut dyn Watch) -> Result<Vec<Option<Profile>>> {
+        let Some((variance, limit)) = self.noise() else { return Ok(vec![None; marks.len()]) };
+        let total = marks.iter().filter(|mark| **mark).count();
+        let mut found = Vec::with_capacity(marks.len());
+        let mut done = 0;
+        for (k, mark) in marks.iter().enumerate() {
+            if !mark || self.frame.holds(k) {
+                found.push(None);
+                continue;
+            }
+            watch.progress(done, total, "profiles");
+            done += 1;
+            found.push(Some(profile(self, k, (variance, limit), watch)?));
         }
-        watch.progress(done, total, "profiles");
-        done += 1;
-        found.push(Some(profile(of, k, (variance, limit), watch)?));
+        Ok(found)
     }
-    Ok(found)
 }
 
 fn profile(

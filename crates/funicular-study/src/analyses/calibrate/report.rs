@@ -1,7 +1,6 @@
 //! Results of a calibration from its minima.
 
 use super::choice::all_chosen;
-use super::profiles::profiles;
 use super::reachable::{LeftOut, Reachable, reachable};
 use super::rows::{CableResidual, CalibratedValue, DistanceRow, MinimumRow, ProposalRow, ReadingRow, Walk, WeakRow};
 
@@ -117,7 +116,7 @@ impl<'a> CalibrationReport<'a> {
         let is_one = !self.fits_otherwise();
         let is_determined =
             is_parabola && is_one && !self.is_misfit() && self.precision.lost.is_empty() && self.factor.is_some();
-        let profiles = if self.is_misfit() { Vec::new() } else { profiles(self, &self.profiled, watch)? };
+        let profiles = if self.is_misfit() { Vec::new() } else { self.profiles(&self.profiled, watch)? };
         let values = self.values(is_parabola && is_one && !self.is_misfit(), profiles);
         let rows = self.rows();
         let weak = self.weak();

@@ -4,7 +4,7 @@ use crate::analyses::fields::{self, AXES};
 use crate::analyses::shared::PoseRow;
 use crate::columns::{Columns, column, parts};
 use funicular::math::Vec6;
-use funicular::simulation::{CableSample, Sample};
+use funicular::simulation::{CableSample, RobotSample};
 use serde::Serialize;
 
 /// Robot at one time. Lists have a number per cable.
@@ -35,7 +35,7 @@ pub struct SimulatedRow {
 }
 
 impl SimulatedRow {
-    pub(super) fn of(sample: &Sample) -> Self {
+    pub(super) fn of(sample: &RobotSample) -> Self {
         let halves = |of: &Vec6| [[of[0], of[1], of[2]], [of[3], of[4], of[5]]];
         let [velocity_m_s, angular_velocity_rad_s] = halves(&sample.velocity_w);
         let [acceleration_m_s2, angular_acceleration_rad_s2] = halves(&sample.acceleration_w);
