@@ -14,7 +14,7 @@ mod table;
 mod words;
 
 pub use drawn::{AnchorRow, LinearRows, NetRows};
-pub use reachable::LeftOut;
+pub use rows::LeftOut;
 pub use rows::{CableResidual, CalibratedValue, DistanceRow, MinimumRow, ProposalRow, ReadingRow, Walk, WeakRow};
 pub use table::check as check_readings;
 

@@ -3,6 +3,7 @@
 
 use super::Calibrated;
 use super::report::CalibrationReport;
+use super::rows::{LeftOut, Reachable};
 use crate::Watch;
 use crate::at_rest;
 use crate::error::Cancelled;
@@ -12,76 +13,60 @@ use funicular::calibration::CandidatePose;
 use funicular::clearance::Surroundings;
 use funicular::robot::{Pose, Robot, State};
 use funicular::statics::{self, Equilibrium, StaticModel, TensionRange, TensionRule};
-use serde::Serialize;
 
 /// Tension beyond its limit, relative to the limit, that is rounding of the search for tensions.
 const ROUNDING: f64 = 1e-6;
 
-/// Candidates that were left out.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
-pub struct LeftOut {
-    /// Candidates that were given.
-    pub candidates: usize,
-    /// Of these, without equilibrium or without tensions within the limits.
-    pub by_tensions: usize,
-    /// Of these, with cables, platform or obstacles too near to each other.
-    pub by_clearance: usize,
-}
+impl CalibrationReport<'_> {
+    /// Checks candidates.
+    ///
+    /// # Errors
+    /// Tension limits or a rule that contradict each other, or work that was stopped.
+    pub(super) fn reachable(&self, poses: &[Pose], watch: &mut dyn Watch) -> Result<Reachable> {
+        let request = self.request;
+        let robot = at_rest::with_limits(&self.of.robot_at(&self.found.best.values).robot, &request.tensions)?;
+        let is_elastic = self.of.is_elastic();
+        let has_bodies = robot.clearance.is_some() || !robot.obstacles.is_empty() || !robot.platform.bodies.is_empty();
+        if !is_elastic && !has_bodies && !has_limits(&robot, request) {
+            let candidates: Vec<CandidatePose> = poses.iter().copied().map(CandidatePose::from).collect();
+            return Ok(Reachable { rules: vec![None; candidates.len()], candidates, left_out: None });
+        }
 
-/// Candidates that can be reached; a pose can be there with several tensions.
-pub(super) struct Reachable {
-    pub(super) candidates: Vec<CandidatePose>,
-    /// Rule that chose the tensions of each; `None` without tensions.
-    pub(super) rules: Vec<Option<&'static str>>,
-    /// Absent if nothing had to be checked.
-    pub(super) left_out: Option<LeftOut>,
-}
-
-/// Checks candidates.
-///
-/// # Errors
-/// Tension limits or a rule that contradict each other, or work that was stopped.
-pub(super) fn reachable(of: &CalibrationReport, poses: &[Pose], watch: &mut dyn Watch) -> Result<Reachable> {
-    let request = of.request;
-    let robot = at_rest::with_limits(&of.of.robot_at(&of.found.best.values).robot, &request.tensions)?;
-    let is_elastic = of.of.is_elastic();
-    let has_bodies = robot.clearance.is_some() || !robot.obstacles.is_empty() || !robot.platform.bodies.is_empty();
-    if !is_elastic && !has_bodies && !has_limits(&robot, request) {
-        let candidates: Vec<CandidatePose> = poses.iter().copied().map(CandidatePose::from).collect();
-        return Ok(Reachable { rules: vec![None; candidates.len()], candidates, left_out: None });
+        let rules = rules(&robot, request, is_elastic)?;
+        let surroundings = has_bodies.then(|| Surroundings::of(&robot));
+        let mut found = Reachable { candidates: Vec::new(), rules: Vec::new(), left_out: None };
+        let mut left_out = LeftOut { candidates: poses.len(), ..LeftOut::default() };
+        for (number, pose) in poses.iter().enumerate() {
+            watch.progress(number, poses.len(), "candidates");
+            if watch.is_cancelled() {
+                return Err(Cancelled.into());
+            }
+            let mut rests: Vec<(Equilibrium, Option<&'static str>)> =
+                rules.iter().filter_map(|rule| at_pose(&robot, pose, request.static_model, rule)).collect();
+            if rests.is_empty() {
+                left_out.by_tensions += 1;
+            }
+            rests.dedup_by(|a, b| a.1.is_none() && b.1.is_none());
+            let is_free = |rest: &Equilibrium| {
+                surroundings
+                    .as_ref()
+                    .and_then(|around| around.least(rest, None))
+                    .is_none_or(|least| least.margin() >= 0.0)
+            };
+            let free: Vec<_> = rests.iter().filter(|(rest, _)| is_free(rest)).collect();
+            if free.is_empty() && !rests.is_empty() {
+                left_out.by_clearance += 1;
+            }
+            for (rest, rule) in free {
+                let lengths = rest.cables.iter().map(|cable| cable.unstrained_length);
+                let lengths = if is_elastic { lengths.collect() } else { Vec::new() };
+                found.candidates.push(CandidatePose { pose: rest.pose, lengths });
+                found.rules.push(*rule);
+            }
+        }
+        found.left_out = Some(left_out);
+        Ok(found)
     }
-
-    let rules = rules(&robot, request, is_elastic)?;
-    let surroundings = has_bodies.then(|| Surroundings::of(&robot));
-    let mut found = Reachable { candidates: Vec::new(), rules: Vec::new(), left_out: None };
-    let mut left_out = LeftOut { candidates: poses.len(), ..LeftOut::default() };
-    for (number, pose) in poses.iter().enumerate() {
-        watch.progress(number, poses.len(), "candidates");
-        if watch.is_cancelled() {
-            return Err(Cancelled.into());
-        }
-        let mut rests: Vec<(Equilibrium, Option<&'static str>)> =
-            rules.iter().filter_map(|rule| at_pose(&robot, pose, request.static_model, rule)).collect();
-        if rests.is_empty() {
-            left_out.by_tensions += 1;
-        }
-        rests.dedup_by(|a, b| a.1.is_none() && b.1.is_none());
-        let is_free = |rest: &Equilibrium| {
-            surroundings.as_ref().and_then(|around| around.least(rest, None)).is_none_or(|least| least.margin() >= 0.0)
-        };
-        let free: Vec<_> = rests.iter().filter(|(rest, _)| is_free(rest)).collect();
-        if free.is_empty() && !rests.is_empty() {
-            left_out.by_clearance += 1;
-        }
-        for (rest, rule) in free {
-            let lengths = rest.cables.iter().map(|cable| cable.unstrained_length);
-            let lengths = if is_elastic { lengths.collect() } else { Vec::new() };
-            found.candidates.push(CandidatePose { pose: rest.pose, lengths });
-            found.rules.push(*rule);
-        }
-    }
-    found.left_out = Some(left_out);
-    Ok(found)
 }
 
 /// True if tensions of straight rigid cables are limited.

@@ -1,8 +1,9 @@
 //! Results of a calibration from its minima.
 
 use super::choice::all_chosen;
-use super::reachable::{LeftOut, Reachable, reachable};
-use super::rows::{CableResidual, CalibratedValue, DistanceRow, MinimumRow, ProposalRow, ReadingRow, Walk, WeakRow};
+use super::rows::{
+    CableResidual, CalibratedValue, DistanceRow, LeftOut, MinimumRow, ProposalRow, Reachable, ReadingRow, Walk, WeakRow,
+};
 
 use super::{Calibrated, in_mm, words};
 use crate::Watch;
@@ -313,7 +314,7 @@ impl<'a> CalibrationReport<'a> {
     /// Proposed poses, the number of them that the wanted deviation needs, and the candidates that were left out.
     fn proposals(&self, watch: &mut dyn Watch) -> Result<(Vec<ProposalRow>, Option<usize>, Option<LeftOut>)> {
         let Some(factor) = self.factor.filter(|_| !self.poses.is_empty()) else { return Ok((Vec::new(), None, None)) };
-        let Reachable { candidates, rules, left_out } = reachable(self, &self.poses, watch)?;
+        let Reachable { candidates, rules, left_out } = self.reachable(&self.poses, watch)?;
         let weights: Vec<f64> = self.proposed_for.iter().map(|chosen| if *chosen { 1.0 } else { 0.0 }).collect();
         let count = if self.request.wanted_std_m.is_some() { MAX_PROPOSALS } else { self.request.propose };
         let by = (count, self.request.propose_by);

@@ -4,6 +4,7 @@ use crate::analyses::fields;
 use crate::analyses::profile::Profile;
 use crate::columns::{Columns, column, parts};
 use crate::text::{digits_for, significant};
+use funicular::calibration::CandidatePose;
 use serde::Serialize;
 
 /// Calibrated value.
@@ -247,4 +248,24 @@ impl ProposalRow {
                 .read_if(has_rules),
         ])
     }
+}
+
+/// Candidates that were left out.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
+pub struct LeftOut {
+    /// Candidates that were given.
+    pub candidates: usize,
+    /// Of these, without equilibrium or without tensions within the limits.
+    pub by_tensions: usize,
+    /// Of these, with cables, platform or obstacles too near to each other.
+    pub by_clearance: usize,
+}
+
+/// Candidates that can be reached; a pose can be there with several tensions.
+pub(super) struct Reachable {
+    pub(super) candidates: Vec<CandidatePose>,
+    /// Rule that chose the tensions of each; `None` without tensions.
+    pub(super) rules: Vec<Option<&'static str>>,
+    /// Absent if nothing had to be checked.
+    pub(super) left_out: Option<LeftOut>,
 }
