@@ -111,7 +111,7 @@ fn open_surface<'a>(path: &'a Path, guard: &mut Guard) -> Result<(Target, Surfac
 
 /// Finds the workspace on all cores.
 fn compute(study: &WorkspaceStudy, threads: Option<NonZeroUsize>) -> Result<Workspace> {
-    // What was found until then is the result, however long its surface takes.
+    // A stopped search keeps its positions, however long their surface takes.
     stop_at_next_row(None)?;
     let mut bar: Option<Progress> = None;
     let mut progress = |done: usize, total: usize, what: &'static str| {

@@ -10,7 +10,7 @@ use funicular::robot::{Pose, Robot};
 pub(super) const TIME: &str = "t_s";
 
 /// Columns of poses; the angles may be left out.
-const POSE: [&str; 6] = ["x_m", "y_m", "z_m", "roll_deg", "pitch_deg", "yaw_deg"];
+pub(super) const POSE: [&str; 6] = ["x_m", "y_m", "z_m", "roll_deg", "pitch_deg", "yaw_deg"];
 
 /// Maximum number of rows over time: an hour at 0.1 s, or 36 s at 1 ms.
 pub(super) const MAX_SAMPLES: f64 = 36_000.0;

@@ -15,7 +15,7 @@ declared! {
     pub struct SimulateRequest {
         /// Robot file.
         robot: RobotText = RobotText::default() => (Data(shape::robot)).required();
-        /// What happens: lists `release`, `pick`, `lengths`, `stop`, `push` and `cut` of events.
+        /// Events: lists `release`, `pick`, `lengths`, `stop`, `push` and `cut` of events.
         scenario: Scenario = Scenario::default() => (Data(shape::scenario));
         /// Simulated time [s].
         duration_s: f64 = 10.0 => (Number(Positive));

@@ -1,6 +1,7 @@
 //! Table of readings: rows of the calibration, with the faults that a table of lengths usually has.
 
 use super::KEY;
+use crate::analyses::timed_rows::POSE;
 use crate::at_rest::check_pose;
 use crate::names::suggestion;
 use crate::request::GappedColumns;
@@ -10,9 +11,6 @@ use crate::values::finite;
 use funicular::calibration::MeasuredRow;
 use funicular::math::Vec3;
 use funicular::robot::{PlatformMotion, Pose, Robot};
-
-/// Columns of a pose.
-const POSE: [&str; 6] = ["x_m", "y_m", "z_m", "roll_deg", "pitch_deg", "yaw_deg"];
 
 /// Maximum number of rows.
 const MAX_ROWS: usize = 10_000;
