@@ -31,7 +31,7 @@ const MAX_ANGLE_PER_STEP: f64 = 0.1;
 const SWIVEL_FREQUENCY: f64 = 4.0;
 /// Part of the mean tension that a cable has at least for this inertia, so that a cable that is nearly slack at rest does
 /// not get a swivel that is too fast for the time step when it is taut.
-const LEAST_TENSION: f64 = 0.1;
+const MIN_TENSION_SHARE: f64 = 0.1;
 /// Smallest inertia of a swivel [kg m²], above the 1e-15 that MuJoCo refuses.
 const MIN_SWIVEL_INERTIA: f64 = 1e-9;
 /// Distance of the point that selects the side of the wheel from its centre, in radii.
@@ -261,7 +261,7 @@ fn pulley(
     // The cable pulls the wheel into its plane with its tension times the distance of the exit point per angle.
     let mean =
         straight.equilibrium.cables.iter().map(|cable| cable.tension_platform).sum::<f64>() / cables.len() as f64;
-    let tension = straight.equilibrium.cables[i].tension_platform.max(LEAST_TENSION * mean);
+    let tension = straight.equilibrium.cables[i].tension_platform.max(MIN_TENSION_SHARE * mean);
     let righting = tension * contact.distance_from_axis();
     let fast = SWIVEL_FREQUENCY * TAU * frequencies.last().copied().unwrap_or(1.0);
     let inertia = if given > 0.0 { given } else { (righting / (fast * fast)).max(MIN_SWIVEL_INERTIA) };
