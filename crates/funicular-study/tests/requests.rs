@@ -323,6 +323,7 @@ fn requests() -> Vec<Value> {
                         "release": [{ "at_s": 0.1, "mass_kg": 1.0, "point_m": [0.0, 0.0, 0.1] }],
                         "pick": [{ "at_s": 0.2, "mass_kg": 1.0, "velocity_m_s": [0.1, 0.0, 0.0] }],
                         "lengths": [{ "at_s": 0.0, "duration_s": 1.0, "change_m": { "1": -0.1 } }],
+                        "tension": [{ "at_s": 0.4, "duration_s": 0.1, "tension_n": { "2": 300.0 } }],
                         "stop": [{ "at_s": 0.5, "duration_s": 0.1, "cables": ["1"] }],
                         "push": [{
                             "at_s": 0.0, "duration_s": 0.2, "rise_s": 0.05, "force_n": [1.0, 0.0, 0.0],
@@ -331,7 +332,7 @@ fn requests() -> Vec<Value> {
                         "cut": [{ "cable": "2", "at_tension_n": 300.0 }],
                     },
                     "duration_s": 1.0, "sample_time_s": 0.01, "tolerance_m": 1e-6, "elements": 2, "degree": 6, "once": true,
-                    "damping_frequency_hz": 1.2, "stretch_damping_time_s": 1e-4, "hold_platform": false,
+                    "damping_frequency_hz": 1.2, "stretch_damping_time_s": 1e-4, "hold_platform": false, "gust_seed": 1,
                 }),
             ],
         ),

@@ -141,7 +141,7 @@ pub(crate) struct TrajectoryArgs {
 /// Scenario of a simulation, and its result.
 #[derive(Debug, Args)]
 pub(crate) struct SimulateArgs {
-    /// Events with their times in a TOML file: [[release]], [[pick]], [[lengths]], [[stop]], [[push]] and [[cut]];
+    /// Events with their times in a TOML file: [[release]], [[pick]], [[lengths]], [[tension]], [[stop]], [[push]] and [[cut]];
     /// a `table` of [[lengths]] names a CSV file beside it
     #[arg(long, value_name = "FILE.toml")]
     pub(crate) scenario: Option<PathBuf>,

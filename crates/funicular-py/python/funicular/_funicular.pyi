@@ -1467,7 +1467,7 @@ class Robot(Analyses):
         Parameters
         ----------
         scenario
-            What happens: a mapping from `release`, `pick`, `lengths`, `stop`, `push` and `cut` to lists of events, each a
+            What happens: a mapping from `release`, `pick`, `lengths`, `tension`, `stop`, `push` and `cut` to lists of events, each a
             mapping with the keys of docs/simulation.md.
         duration_s
             Simulated time [s]; 10 if not given.

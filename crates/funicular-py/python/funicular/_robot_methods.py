@@ -191,7 +191,7 @@ def simulate(of: Any, given: Given) -> Results:
     Parameters
     ----------
     scenario
-        What happens: a mapping from `release`, `pick`, `lengths`, `stop`, `push` and `cut` to lists of events, each a
+        What happens: a mapping from `release`, `pick`, `lengths`, `tension`, `stop`, `push` and `cut` to lists of events, each a
         mapping with the keys of docs/simulation.md.
 
     Returns

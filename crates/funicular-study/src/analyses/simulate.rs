@@ -148,6 +148,7 @@ fn settings(request: &SimulateRequest) -> Result<SimulationSettings> {
         damping_frequency_hz: request.damping_frequency_hz,
         stretch_damping_time: request.stretch_damping_time_s,
         platform_is_held: request.hold_platform,
+        gust_seed: request.gust_seed.map(u64::from),
     })
 }
 
@@ -212,8 +213,11 @@ fn found(at_rest: &AtRest, request: &SimulateRequest, first: History, finer: Opt
     let reached = first.rows.last().map_or(0.0, |row| row.t_s);
     let is_whole = reached >= request.duration_s * (1.0 - 1e-12);
     let mut warnings: Vec<String> = at_rest.implausible().collect();
-    if at_rest.robot.turbulence.is_some() {
-        warnings.push("a simulation has the mean wind alone: the gusts of [wind] are left out".to_owned());
+    if at_rest.robot.turbulence.is_some() && request.gust_seed.is_none() {
+        warnings.push("the wind is its mean alone: ⟪gust_seed⟫ draws the gusts of its turbulence".to_owned());
+    }
+    if at_rest.robot.cables.iter().any(|cable| cable.anchor.pulley.as_ref().is_some_and(|of| of.friction.is_some())) {
+        warnings.push("the friction of pulleys is left out".to_owned());
     }
     if is_statistical {
         warnings.push(

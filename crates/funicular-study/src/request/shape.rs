@@ -186,7 +186,7 @@ fn bound() -> Value {
 
 /// Events of a simulation. Their keys are checked when they are read.
 pub(super) fn scenario() -> Value {
-    let kinds = ["release", "pick", "lengths", "stop", "push", "cut"];
+    let kinds = ["release", "pick", "lengths", "tension", "stop", "push", "cut"];
     let lists: Map<String, Value> = kinds.into_iter().map(|kind| (kind.to_owned(), objects())).collect();
     json!({ "type": "object", "properties": lists, "additionalProperties": false })
 }

@@ -7,15 +7,15 @@ use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
 declared! {
-    /// Large motion in time of platform and sagging ropes: released payloads, winches that change lengths, stops, pushes,
-    /// cables that fail or go slack.
+    /// Large motion in time of platform and sagging ropes: released payloads, winches that change lengths or hold tensions,
+    /// stops, pushes, gusts, cables that fail or go slack.
     ///
     /// The robot begins at rest. The result states its own error: the run is repeated with a finer mesh and a smaller
     /// tolerance unless ⟪once⟫ is given. docs/simulation.md explains the scenario and the result.
     pub struct SimulateRequest {
         /// Robot file.
         robot: RobotText = RobotText::default() => (Data(shape::robot)).required();
-        /// Events: lists `release`, `pick`, `lengths`, `stop`, `push` and `cut` of events.
+        /// Events: lists `release`, `pick`, `lengths`, `tension`, `stop`, `push` and `cut` of events.
         scenario: Scenario = Scenario::default() => (Data(shape::scenario));
         /// Simulated time [s].
         duration_s: f64 = 10.0 => (Number(Positive));
@@ -37,6 +37,8 @@ declared! {
             .otherwise("`axial_damping_time_s` of each rope");
         /// Hold the platform where it is, so that only the ropes move.
         hold_platform: bool = false => (Switch);
+        /// Draw the gusts of the wind's turbulence from this number; another number gives other gusts of the same strength.
+        gust_seed: Option<u32> = None => (Count(0..=u64::from(u32::MAX))).otherwise("the mean wind alone");
         /// State and loads.
         #[serde(flatten)]
         state: State = State::default() => group;
@@ -65,6 +67,9 @@ pub struct Scenario {
     /// Commands of lengths.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub lengths: Vec<LengthsEvent>,
+    /// Winches that hold tensions.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub tension: Vec<TensionEvent>,
     /// Brakes.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub stop: Vec<StopEvent>,
@@ -120,6 +125,18 @@ pub struct LengthsEvent {
     /// Table with t_s from the beginning on, and unstrained_length_NAME_m of every cable, or poses.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub table: Option<NumberColumns>,
+}
+
+/// Winches hold tensions by their torque from now on, instead of lengths.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct TensionEvent {
+    /// Beginning [s].
+    pub at_s: f64,
+    /// Time within which the tension goes from the present one to the given one [s].
+    pub duration_s: f64,
+    /// Tension at the drum of each cable by its name [N].
+    pub tension_n: BTreeMap<String, f64>,
 }
 
 /// Brakes bring winches to rest.

@@ -14,29 +14,29 @@ const MIN_COHERENCE: f64 = 1e-9;
 const CONSTANT_BELOW: f64 = 1e-4;
 
 /// Turbulence about the mean wind of a robot.
-pub(super) struct TurbulentField {
+pub(crate) struct TurbulentField {
     turbulence: Turbulence,
     /// Mean speed [m/s].
     speed: f64,
     /// Directions along the mean wind, lateral and up, by columns, world axes.
-    pub(super) axes: Mat3,
+    pub(crate) axes: Mat3,
 }
 
-/// GustPlace at which gusts act: a cell of a cable, or the platform.
+/// Place at which gusts act: a cell of a cable, or the platform.
 #[derive(Debug, Clone)]
-pub(super) struct GustPlace {
+pub(crate) struct GustPlace {
     /// Centre, world axes [m].
-    pub(super) center_w: Vec3,
+    pub(crate) center_w: Vec3,
     /// Extent of the cell along its cable, world axes [m]; zero for the platform.
-    pub(super) extent_w: Vec3,
+    pub(crate) extent_w: Vec3,
 }
 
 /// Weighted distances between places, a row per place with the places from itself on.
-pub(super) struct Distances(Vec<Vec<f64>>);
+pub(crate) struct Distances(Vec<Vec<f64>>);
 
 impl TurbulentField {
     /// Turbulence of a robot in its wind.
-    pub(super) fn of(robot: &Robot) -> Result<Self, GustError> {
+    pub(crate) fn of(robot: &Robot) -> Result<Self, GustError> {
         let turbulence = robot.turbulence.clone().ok_or(GustError::NoTurbulence)?;
         let (velocity_w, up_w) = (robot.wind.velocity_w, robot.up_w());
         let speed = velocity_w.norm();
@@ -53,12 +53,12 @@ impl TurbulentField {
     }
 
     /// Spectral density of each component of the gusts at a frequency [Hz], [m²/s].
-    pub(super) fn densities(&self, frequency_hz: f64) -> [f64; 3] {
+    pub(crate) fn densities(&self, frequency_hz: f64) -> [f64; 3] {
         std::array::from_fn(|component| self.turbulence.density(component, frequency_hz, self.speed))
     }
 
     /// Frequency below which the spectra are constant [Hz].
-    pub(super) fn lowest_hz(&self) -> f64 {
+    pub(crate) fn lowest_hz(&self) -> f64 {
         if let Some(measured) = &self.turbulence.measured {
             return measured.frequencies_hz()[0];
         }
@@ -67,12 +67,12 @@ impl TurbulentField {
     }
 
     /// Measured frequencies [Hz], between which the spectra are straight; none for a formula.
-    pub(super) fn measured_hz(&self) -> &[f64] {
+    pub(crate) fn measured_hz(&self) -> &[f64] {
         self.turbulence.measured.as_ref().map_or(&[], |measured| measured.frequencies_hz())
     }
 
     /// Weighted distances between all places.
-    pub(super) fn distances(&self, places: &[GustPlace]) -> Distances {
+    pub(crate) fn distances(&self, places: &[GustPlace]) -> Distances {
         let between = |a: &GustPlace, b: &GustPlace| self.weighted(&(a.center_w - b.center_w));
         Distances(
             (0..places.len()).map(|p| places[p..].iter().map(|other| between(&places[p], other)).collect()).collect(),
@@ -89,7 +89,7 @@ impl TurbulentField {
     ///
     /// # References
     /// docs/theory.md, equation (49l).
-    pub(super) fn factor(&self, place: &GustPlace, frequency_hz: f64) -> Complex {
+    pub(crate) fn factor(&self, place: &GustPlace, frequency_hz: f64) -> Complex {
         let lag = |w: &Vec3| self.turbulence.lag(self.axes.column(0).dot(w), frequency_hz, self.speed);
         let decay = self.weighted(&place.extent_w) * frequency_hz / self.speed;
         Complex::from_polar(mean_over_cell(decay, lag(&place.extent_w)).sqrt(), -lag(&place.center_w))
@@ -97,7 +97,7 @@ impl TurbulentField {
 
     /// Calls `pair` with the numbers of two places and the magnitude of the coherence between them at a frequency
     /// [Hz], for every pair of a place and itself or a later place.
-    pub(super) fn for_coherences(
+    pub(crate) fn for_coherences(
         &self,
         distances: &Distances,
         frequency_hz: f64,

@@ -47,8 +47,10 @@ struct FarBorder {
     count: usize,
     /// Numbers z of a correction.
     z: DVector<f64>,
-    /// Directions in which the last node moves per number z that is not a length: the swivel.
+    /// Direction in which the last node moves with the swivel, and its number.
     swivel: Option<(usize, Vec3)>,
+    /// True for numbers z that do not move.
+    is_held: Vec<bool>,
 }
 
 /// Numbers of end and support behind z.
@@ -246,6 +248,7 @@ impl FarBorder {
             count,
             z: DVector::zeros(count),
             swivel: None,
+            is_held: vec![false; count],
         }
     }
 
@@ -402,9 +405,12 @@ impl FarBorder {
     }
 
     /// Takes numbers that do not move out of the matrix: a station that follows its command, a swivel on its axis.
-    fn fix(&self, far: &FarEnd, core: &mut DMat, outer: &mut DMat) {
+    fn fix(&mut self, far: &FarEnd, core: &mut DMat, outer: &mut DMat) {
         let places = far.places();
+        let is_held = &mut self.is_held;
+        is_held.fill(false);
         let mut hold = |k: usize| {
+            is_held[k] = true;
             core.row_mut(k).fill(0.0);
             core.column_mut(k).fill(0.0);
             core[(k, k)] = 1.0;
@@ -426,7 +432,7 @@ impl FarBorder {
     fn forward(&mut self, rows: &[f64], needed: &[f64]) -> [Vec3; 2] {
         let inner = |a: &[f64]| rows.iter().zip(a).map(|(x, y)| x * y).sum::<f64>();
         for k in 0..self.count {
-            self.z[k] = needed[k] - inner(&self.columns[k]);
+            self.z[k] = if self.is_held[k] { 0.0 } else { needed[k] - inner(&self.columns[k]) };
         }
         let solved = &self.inverse * &self.z;
         let received = self.outer.transpose() * &solved;

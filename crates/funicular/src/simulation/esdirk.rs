@@ -57,6 +57,9 @@ const NEWTON_STEPS_OF_OLD_FACTOR: usize = 4;
 /// radius of a tenth of a metre. At rest it is rounding.
 const LEAST_WRAP: f64 = 1e-3;
 const LEAST_WRAP_AT_REST: f64 = 1e-12;
+/// Time constant with which a wheel follows its rope [s]: waves at the end of a rope are faster, the motion of a platform
+/// slower. A rope that turns with 1 rad/s is then 0.01 rad off its tangent, and 2e-8 m longer at a radius of 0.1 m.
+const ROLLING_TIME: f64 = 0.01;
 /// Change of the step up to which a factor is kept.
 const FACTOR_CHANGE: f64 = 0.15;
 
@@ -101,6 +104,15 @@ pub(super) struct Stepper {
     work: MotionNumbers,
 }
 
+/// Occasion on which wheels roll.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Rolling {
+    /// The robot is at rest.
+    AtRest,
+    /// Between two steps.
+    Between,
+}
+
 /// A stage that Newton's method did not solve.
 struct NotSolved;
 
@@ -134,7 +146,7 @@ impl Stepper {
             if !self.settle_on_wheels() {
                 return false;
             }
-            if !self.roll_wheels(LEAST_WRAP_AT_REST) {
+            if !self.roll_wheels(Rolling::AtRest) {
                 return true;
             }
         }
@@ -216,12 +228,27 @@ impl Stepper {
         Ok(())
     }
 
-    /// Rolls each wheel whose rope leaves it more than `least` [rad] off its tangent; `true` if there was one. The rope
-    /// stays where it is: its free length changes, and its nodes move along it.
+    /// Follows how far the ropes leave their wheels off their tangents, without the fast waves of their ends.
+    fn follow_tangents(&mut self, lengths: &[WoundLength], duration: f64) {
+        for (i, given) in lengths.iter().enumerate() {
+            if self.system.far_ends[i].as_ref().is_none_or(|far| far.contact.is_none()) {
+                continue;
+            }
+            let Some(forces) = self.system.far_forces(i, self.time, given, &self.now, &self.needed) else { continue };
+            let from = self.system.of_far_end(i).start;
+            let Some(far) = &mut self.system.far_ends[i] else { continue };
+            let swivel = far.places().swivel.map_or(0.0, |at| self.now.x[from + at]);
+            let missing = far.missing_wrap(swivel, &forces.exit_w);
+            far.off_tangent += (missing - far.off_tangent) * -(-duration / ROLLING_TIME).exp_m1();
+        }
+    }
+
+    /// Rolls each wheel whose rope leaves it too far off its tangent; `true` if there was one. The rope stays where it is:
+    /// its free length changes, and its nodes move along it.
     ///
     /// # References
     /// docs/theory.md, equation (97o).
-    fn roll_wheels(&mut self, least: f64) -> bool {
+    fn roll_wheels(&mut self, when: Rolling) -> bool {
         let lengths = self.system.lengths(self.time);
         let mut has_rolled = false;
         for (i, given) in lengths.iter().enumerate() {
@@ -232,11 +259,15 @@ impl Stepper {
             let places = far.places();
             let (Some(swivel), Some(length)) = (places.swivel, places.feed) else { continue };
             let turned = self.now.x[numbers.start + swivel];
-            let wrap = far.missing_wrap(turned, &forces.exit_w);
+            let (wrap, least) = match when {
+                Rolling::AtRest => (far.missing_wrap(turned, &forces.exit_w), LEAST_WRAP_AT_REST),
+                Rolling::Between => (far.off_tangent, LEAST_WRAP),
+            };
             if wrap.abs() <= least {
                 continue;
             }
             has_rolled = true;
+            far.off_tangent = 0.0;
             let after = free.value - far.roll(wrap, turned, forces.exit_w.norm(), stiffness);
             self.now.x[numbers.start + swivel] = 0.0;
             self.now.x[numbers.start + length] = after;
@@ -254,7 +285,7 @@ impl Stepper {
 
     /// One step, at most to `until`; returns how the motion went in between.
     pub(super) fn advance(&mut self, until: f64) -> Result<DenseOutput, TooFast> {
-        if self.roll_wheels(LEAST_WRAP) {
+        if self.roll_wheels(Rolling::Between) {
             self.accelerate()?;
         }
         loop {
@@ -308,6 +339,7 @@ impl Stepper {
         let dense = DenseOutput::new(time, self.time, rotation, before, self.now.clone());
         self.absorb_turn();
         self.evaluate(&lengths);
+        self.follow_tangents(&lengths, h);
         self.counts.evaluations = self.system.evaluations;
         dense
     }

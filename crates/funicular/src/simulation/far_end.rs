@@ -12,6 +12,8 @@ use crate::statics::CableState;
 
 /// Wrap angle [rad] below which the exit point is so near the swivel axis that it cannot move sideways.
 const MIN_WRAP: f64 = 1e-3;
+/// Tension below which a rope has no direction at its exit point [N].
+const SLACK: f64 = 0.1;
 /// Largest change of a wrap angle between two steps [rad], for a rope that whips.
 const MAX_ROLL: f64 = 0.05;
 
@@ -41,6 +43,8 @@ pub(super) struct FarEnd {
     swivel_inertia: f64,
     pub(super) support: Option<OnPost>,
     pub(super) feed: Option<Feed>,
+    /// Angle by which the rope leaves the wheel off its tangent, without fast waves [rad].
+    pub(super) off_tangent: f64,
 }
 
 /// Places among the coordinates of a far end: swivel (as the arc rγ), stations, integral of a servo's error.
@@ -81,6 +85,7 @@ impl FarEnd {
             swivel_inertia: pulley.as_ref().map_or(0.0, |pulley| pulley.swivel_inertia),
             support: support.map(on_post),
             feed,
+            off_tangent: 0.0,
         })
     }
 
@@ -292,7 +297,7 @@ impl FarEnd {
         let force_w = -exit_w;
         let (along, across) =
             (force_w.dot(&contact.exit_direction_w()), force_w.dot(&contact.exit_normal_w()));
-        if along <= 0.0 { 0.0 } else { across.atan2(along).clamp(-MAX_ROLL, MAX_ROLL) }
+        if along <= SLACK { 0.0 } else { across.atan2(along).clamp(-MAX_ROLL, MAX_ROLL) }
     }
 
     /// Rolls the wheel: the wrap angle grows by `wrap`, and the swivel becomes where it is. Returns by how much

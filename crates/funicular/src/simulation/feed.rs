@@ -446,7 +446,9 @@ fn content_at(ea: f64, (straight, compliance): (f64, f64), arc: Option<&ArcParts
     (sum, slope)
 }
 
-/// State of a piece of rope with a given content: ψ by Newton's method.
+/// State of a piece of rope with a given content: ψ by Newton's method. It may be negative: the free span, which cannot
+/// push, sees to it that it is not for longer than a wave takes. A piece that cannot push would be slack at an error of
+/// its content of T/k, which is 1e-6 m on a wheel.
 fn rope_piece(ea: f64, of: (f64, f64), arc: Option<&ArcParts>, content: f64) -> PieceState {
     const STEPS: usize = 12;
     let mut psi = 0.0;
@@ -459,9 +461,6 @@ fn rope_piece(ea: f64, of: (f64, f64), arc: Option<&ArcParts>, content: f64) -> 
         if step.abs() <= 1e-13 * (psi.abs() + 1.0) {
             break;
         }
-    }
-    if psi <= 0.0 || psi.is_nan() {
-        return PieceState::default();
     }
     let stretch = stretch_at(ea, psi);
     let tension = 2.0 * psi / (1.0 + stretch);

@@ -117,6 +117,12 @@ fn add(values: &mut [f64], node: usize, vector: &Vec3) {
     }
 }
 
+/// Wind at an element: one for the whole rope, or one for each element.
+#[inline]
+fn wind_at(winds: &[Wind], element: usize) -> &Wind {
+    &winds[element.min(winds.len() - 1)]
+}
+
 /// Σ slopes · values over the nodes of an element.
 #[inline]
 fn along(slopes: &[f64], values: &[f64]) -> Vec3 {
@@ -190,12 +196,12 @@ impl RopeMesh {
     ///
     /// # References
     /// docs/theory.md, equation (97d).
-    pub(super) fn needed(&self, length: &WoundLength, wind: &Wind, x: &[f64], v: &[f64], a: &[f64], out: &mut [f64]) {
+    pub(super) fn needed(&self, length: &WoundLength, winds: &[Wind], x: &[f64], v: &[f64], a: &[f64], out: &mut [f64]) {
         for e in 0..self.elements {
             let nodes = self.of_element(e);
             let (x, v, out) = (&x[nodes.clone()], &v[nodes.clone()], &mut out[nodes.clone()]);
             self.inner_forces(length, x, v, out);
-            self.lumped_forces(length, wind, e, [x, v, &a[nodes]], out);
+            self.lumped_forces(length, wind_at(winds, e), e, [x, v, &a[nodes]], out);
             if length.rate != 0.0 || length.acceleration != 0.0 {
                 self.winding_forces(length, e, x, v, out);
             }
@@ -294,7 +300,7 @@ impl RopeMesh {
     pub(super) fn needed_by_length(
         &self,
         length: &WoundLength,
-        wind: &Wind,
+        winds: &[Wind],
         [x, v, a]: [&[f64]; 3],
         entry_w: &Vec3,
     ) -> f64 {
@@ -318,7 +324,7 @@ impl RopeMesh {
                 sum += part * (self.mass * inertia - self.load_w.dot(&(at(x, q) - entry_w)));
                 let mut lost = velocity * self.viscous;
                 if self.drag_width > 0.0 {
-                    lost -= self.drag(wind, q, x, &velocity);
+                    lost -= self.drag(wind_at(winds, e), q, x, &velocity);
                 }
                 sum -= part * sigma * lost.dot(&x_slope);
                 if e + 1 == self.elements && q == self.basis.degree {
@@ -354,7 +360,7 @@ impl RopeMesh {
                 let sliding = x_slope * (-self.mass * sigma * of.mass);
                 let entry = (sliding - self.load_w * of.stiffness) * part;
                 add(&mut border.by_length, e * degree + q, &entry);
-                border.of_length -= part * sigma * sliding.dot(&x_slope);
+                border.of_length -= part * sigma * sliding.dot(&x_slope) / length.value;
             }
             let stiff = (of.stiffness + self.damping_time * of.damping) * self.stiffness;
             for g in 0..degree {
@@ -417,7 +423,7 @@ impl RopeMesh {
     pub(super) fn assemble(
         &self,
         length: &WoundLength,
-        wind: &Wind,
+        winds: &[Wind],
         x: &[f64],
         v: &[f64],
         of: Newton,
@@ -427,7 +433,7 @@ impl RopeMesh {
         let (free, degree) = (self.last(), self.basis.degree);
         let share = length.value / self.elements as f64;
         let per_length = self.elements as f64 / length.value;
-        let drag = self.drag_width * wind.air_density * wind.velocity_w.norm();
+        let drag = winds.first().map_or(0.0, |wind| self.drag_width * wind.air_density * wind.velocity_w.norm());
         let on_node = self.mass * of.mass + (self.viscous + drag) * of.damping;
 
         for e in 0..self.elements {
@@ -470,7 +476,7 @@ impl RopeMesh {
     ///
     /// # References
     /// docs/theory.md, equation (97g).
-    pub(super) fn energy(&self, length: &WoundLength, wind: &Wind, x: &[f64], v: &[f64], anchor: &Vec3) -> RopeEnergy {
+    pub(super) fn energy(&self, length: &WoundLength, winds: &[Wind], x: &[f64], v: &[f64], anchor: &Vec3) -> RopeEnergy {
         let mut energy = RopeEnergy::default();
         let count = self.elements as f64;
         let share = length.value / count;
@@ -486,7 +492,7 @@ impl RopeMesh {
                 energy.dissipation += part * self.viscous * velocity.norm_squared();
                 energy.loads += part * dead_load.dot(&velocity);
                 if self.drag_width > 0.0 {
-                    energy.loads += part * self.drag(wind, q, x, &velocity).dot(&velocity);
+                    energy.loads += part * self.drag(wind_at(winds, e), q, x, &velocity).dot(&velocity);
                 }
             }
             for g in 0..self.basis.degree {

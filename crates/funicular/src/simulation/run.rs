@@ -117,7 +117,7 @@ impl Simulation {
         let windings = windings(robot, (&initial, &free), events, &order).map_err(of_event)?;
         let mut breaks: Vec<f64> = windings.iter().flat_map(Winding::breaks).collect();
         let holds_tension = |i: usize| events.iter().any(|event| event.tension_of(i).is_some());
-        let stepper = at_rest(robot, rest, settings, (windings, &holds_tension))?;
+        let stepper = at_rest(robot, rest, settings, (windings, &holds_tension), duration)?;
 
         let (count, size) = (robot.cables.len(), stepper.system.size);
         let mut simulation = Self {

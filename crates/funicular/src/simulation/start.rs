@@ -13,7 +13,7 @@ use super::winding::Winding;
 use crate::math::Vec3;
 use crate::modes;
 use crate::robot::{Control, Damping, Material, Robot, Support, Winch};
-use crate::statics::Equilibrium;
+use crate::statics::{CableState, Equilibrium};
 use std::f64::consts::TAU;
 use std::rc::Rc;
 use thiserror::Error;
@@ -62,6 +62,8 @@ pub struct SimulationSettings {
     pub stretch_damping_time: Option<f64>,
     /// The platform is held where it is.
     pub platform_is_held: bool,
+    /// Number from which the gusts of the robot's turbulence are drawn; `None` for the mean wind alone.
+    pub gust_seed: Option<u64>,
 }
 
 impl SimulationSettings {
@@ -79,6 +81,7 @@ impl Default for SimulationSettings {
             damping_frequency_hz: None,
             stretch_damping_time: None,
             platform_is_held: false,
+            gust_seed: None,
         }
     }
 }
@@ -111,6 +114,9 @@ pub enum SimulationError {
          start: give that frequency, or `viscous_damping_n_s_m2` in [materials.*]"
     )]
     NoFrequency,
+    /// The wind has no gusts, or none that can be drawn.
+    #[error("no gusts can be simulated: {0}")]
+    Gusts(#[from] crate::gust::GustError),
     /// An event that cannot happen.
     #[error("event {}: {fault}", event + 1)]
     Event {
@@ -132,6 +138,9 @@ pub enum SimulationError {
     },
 }
 
+/// Inertia of a rope without mass whose far end moves, over the mass of the platform: frequencies change by half of it.
+const MASSLESS_PART: f64 = 1e-6;
+
 /// Refuses parts of a robot that are not simulated.
 fn check_parts(robot: &Robot) -> Result<(), SimulationError> {
     for cable in &robot.cables {
@@ -144,11 +153,6 @@ fn check_parts(robot: &Robot) -> Result<(), SimulationError> {
             if drum_mass + motor_mass == 0.0 {
                 return unsupported("a servo but no inertia", "give the inertia of its drum or motor");
             }
-        }
-        let passes = !cable.anchor.is_fixed() || cable.anchor.support.is_some();
-        if rope.mass_per_length == 0.0 && passes {
-            let what = "a pulley, a winch or a support but no mass";
-            return unsupported(what, "give `mass_kg_per_m` in [materials.*]");
         }
         let is_loaded = cable.load_per_length_w.norm() > 0.0 || rope.drag_width.is_some_and(|width| width > 0.0);
         if rope.mass_per_length == 0.0 && is_loaded {
@@ -206,6 +210,7 @@ pub(super) fn at_rest(
     rest: &Equilibrium,
     settings: &SimulationSettings,
     (windings, holds_tension): (Vec<Winding>, &dyn Fn(usize) -> bool),
+    duration: f64,
 ) -> Result<Stepper, SimulationError> {
     check_parts(robot)?;
     let (damping, omega) = damping(robot, rest, settings)?;
@@ -215,9 +220,12 @@ pub(super) fn at_rest(
     let mesh = |i: usize| {
         let cable = &robot.cables[i];
         let rope = &cable.material;
-        let mass = rope.mass_per_length;
-        // A rope without mass is one straight bar.
-        let (elements, basis) = if mass > 0.0 { (settings.mesh.elements, &basis) } else { (1, &bar) };
+        // A rope without mass is one straight bar. If rope passes its far end, it has a little inertia there.
+        let is_bar = rope.mass_per_length == 0.0;
+        let passes = !cable.anchor.is_fixed() || cable.anchor.support.is_some() || holds_tension(i);
+        let length = rest.cables[i].unstrained_length;
+        let mass = if is_bar && passes { MASSLESS_PART * robot.platform.mass / length } else { rope.mass_per_length };
+        let (elements, basis) = if is_bar { (1, &bar) } else { (settings.mesh.elements, &basis) };
         let has_air = robot.wind.air_density > 0.0;
         RopeMesh {
             basis: Rc::clone(basis),
@@ -225,8 +233,8 @@ pub(super) fn at_rest(
             mass,
             stiffness: rope.axial_stiffness,
             damping_time: damping[i].stretch_time,
-            viscous: if mass > 0.0 { damping[i].viscous } else { 0.0 },
-            load_w: robot.gravity_w * mass + cable.load_per_length_w,
+            viscous: if is_bar { 0.0 } else { damping[i].viscous },
+            load_w: robot.gravity_w * rope.mass_per_length + cable.load_per_length_w,
             gravity_w: robot.gravity_w,
             drag_width: if has_air { rope.drag_width.unwrap_or(0.0) } else { 0.0 },
         }
@@ -249,6 +257,10 @@ pub(super) fn at_rest(
     };
     let offsets: Vec<usize> = ropes.iter().zip(&far_ends).map(&mut offset).collect();
 
+    let air = match settings.gust_seed {
+        None => Air::steady(robot.wind, ropes.len()),
+        Some(seed) => Air::gusty(robot, rest.pose.position_w, &gusty_places(&ropes, rest), (duration, seed))?,
+    };
     let system = System {
         body: MovingBody::of(robot, settings.platform_is_held),
         ends: vec![RopeEnd::Attached; ropes.len()],
@@ -258,7 +270,7 @@ pub(super) fn at_rest(
         windings,
         offsets,
         size,
-        air: Air::steady(robot.wind),
+        air,
         rotation: rest.pose.rot_wp,
         evaluations: 0,
     };
@@ -269,6 +281,15 @@ pub(super) fn at_rest(
     }
     let_go(robot, &mut stepper, holds_tension);
     Ok(stepper)
+}
+
+/// Ends of each element of the ropes at rest, as places of gusts.
+fn gusty_places(ropes: &[RopeMesh], rest: &Equilibrium) -> Vec<Vec<[Vec3; 2]>> {
+    let of_rope = |(rope, state): (&RopeMesh, &CableState)| {
+        let chord_w = state.chord_w() / rope.elements as f64;
+        (0..rope.elements).map(|e| [e, e + 1].map(|k| state.attachment_w + chord_w * k as f64)).collect()
+    };
+    ropes.iter().zip(&rest.cables).map(of_rope).collect()
 }
 
 /// Lets motors balance by themselves what holds them at rest.

@@ -39,6 +39,17 @@ impl Events {
             })
         })?;
         events.add("lengths", &scenario.lengths, |of| lengths(of, at_rest))?;
+        events.add("tension", &scenario.tension, |of| {
+            let mut tensions = vec![None; robot.cables.len()];
+            for (name, tension) in &of.tension_n {
+                tensions[cable(robot, name)?] = Some(number("tension_n", *tension)?);
+            }
+            Ok(SimulationEvent::Tension {
+                time: number("at_s", of.at_s)?,
+                duration: number("duration_s", of.duration_s)?,
+                tensions,
+            })
+        })?;
         events.add("stop", &scenario.stop, |of| {
             let all = || (0..robot.cables.len()).map(Ok).collect::<Result<Vec<usize>>>();
             let named = |names: &Vec<String>| names.iter().map(|name| cable(robot, name)).collect();
