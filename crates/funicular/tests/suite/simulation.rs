@@ -1,5 +1,7 @@
 //! Simulation: histories of independent methods, closed forms, orders of convergence, books of the energy.
 
+mod small_motion;
+
 use funicular::math::{Mat3, Vec3};
 use funicular::robot::{Damping, Robot, State};
 use funicular::simulation::{CutAt, ElementMesh, Simulation, SimulationEvent, SimulationSettings};
