@@ -6,12 +6,15 @@
 //! mesh. Steps are as long as a tolerance of positions allows. The equations are in docs/theory.md, section 18e.
 
 mod air;
+mod arrow;
 mod basis;
 mod body;
 mod books;
 mod dense;
 mod esdirk;
 mod event;
+mod far_end;
+mod feed;
 mod rope;
 mod run;
 mod skyline;

@@ -200,7 +200,7 @@ impl Beyond {
 
 /// Points of the rim with the length of arc that belongs to each, for integrals over the arc: angles from the entry
 /// point [rad], and lengths [m].
-pub(super) fn arc_nodes<T: Real>(wheel: &Wheel<T>) -> impl Iterator<Item = (T, T)> + use<T> {
+pub(crate) fn arc_nodes<T: Real>(wheel: &Wheel<T>) -> impl Iterator<Item = (T, T)> + use<T> {
     let (half, radius) = (wheel.wrap * 0.5, wheel.radius);
     let both = |(node, weight): (f64, f64)| [(node, weight), (-node, weight)];
     GAUSS.into_iter().flat_map(both).map(move |(node, weight)| (half * (1.0 + node), half * weight * radius))

@@ -44,6 +44,15 @@ impl ElementBasis {
         &self.slopes_at_gauss[g * width..(g + 1) * width]
     }
 
+    /// Values of the polynomials at x of the element, which may lie a little outside.
+    pub(super) fn values(&self, x: f64) -> Vec<f64> {
+        let value = |j: usize| {
+            let others = self.nodes.iter().enumerate().filter(|(k, _)| *k != j);
+            others.map(|(_, node)| (x - node) / (self.nodes[j] - node)).product()
+        };
+        (0..=self.degree).map(value).collect()
+    }
+
     /// Derivatives of the polynomials at node `q`.
     #[inline]
     pub(super) fn at_node(&self, q: usize) -> &[f64] {

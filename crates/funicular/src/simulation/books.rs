@@ -13,7 +13,7 @@ use crate::math::Vec3;
 pub struct EnergyBooks {
     /// Kinetic energy.
     pub kinetic: f64,
-    /// Energy of the stretch of the ropes.
+    /// Energy of the stretch of ropes, shafts and supports.
     pub strain: f64,
     /// Energy of height, zero at the origin of the world.
     pub potential: f64,
@@ -93,13 +93,24 @@ impl System {
             let range = self.of_rope(i);
             let anchor = Vec3::from_column_slice(&needed[range.end - 3..range.end]);
             let wind = self.air.on_rope(i, time);
-            let of = rope.energy(&lengths[i], &wind, &m.x[range.clone()], &m.v[range], &anchor);
+            let free = self.free_length(i, &lengths[i], m);
+            let mut of = rope.energy(&free, &wind, &m.x[range.clone()], &m.v[range], &anchor);
+            if let Some(far) = &self.far_ends[i] {
+                let behind = far.energy(&self.far_state(i, time, &lengths[i], m, needed));
+                of = of.with_far_end(&behind, far.feed.is_some());
+            }
             books.kinetic += of.kinetic;
             books.strain += of.strain;
             books.potential += of.potential;
             powers.winches += of.winch;
             powers.loads += of.loads;
             powers.dissipation += of.dissipation;
+        }
+        for (index, post) in self.posts.iter().enumerate() {
+            let [place, velocity, _] = m.point(Self::of_post(index).start);
+            books.kinetic += 0.5 * post.mass * velocity.norm_squared();
+            books.strain += 0.5 * place.dot(&(post.stiffness_w * place));
+            powers.dissipation += post.damping_time * velocity.dot(&(post.stiffness_w * velocity));
         }
         (books, powers)
     }
@@ -115,7 +126,7 @@ impl System {
         let rotation = std::mem::replace(&mut self.rotation, dense.rotation);
         dense.at(time, m);
         let (lengths, body) = (self.lengths(time), self.body_motion(m));
-        self.fill_ends(&body, m);
+        self.fill_ends(&body, &lengths, m);
         self.needed(time, &lengths, &body, m, needed);
         // The motion is given about the rotation that it belongs to.
         self.rotation = rotation;

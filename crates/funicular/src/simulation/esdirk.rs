@@ -6,7 +6,8 @@
 
 use super::dense::DenseOutput;
 use super::rope::{Newton, WoundLength};
-use super::system::{Arrow, BODY, MotionNumbers, System, turn_rate};
+use super::arrow::Arrow;
+use super::system::{BODY, MotionNumbers, System, turn_rate};
 use crate::math::Vec3;
 
 /// Number of stages.
@@ -52,6 +53,10 @@ const NEWTON_PART: f64 = 0.03;
 /// Newton steps of a stage; more than this many with one factor are slower than a new factor.
 const NEWTON_STEPS: usize = 10;
 const NEWTON_STEPS_OF_OLD_FACTOR: usize = 4;
+/// Angle off the tangent at which a rope may leave its wheel [rad]: the rope is then longer by `r δ³/6`, 2e-11 m at a
+/// radius of a tenth of a metre. At rest it is rounding.
+const LEAST_WRAP: f64 = 1e-3;
+const LEAST_WRAP_AT_REST: f64 = 1e-12;
 /// Change of the step up to which a factor is kept.
 const FACTOR_CHANGE: f64 = 0.15;
 
@@ -121,8 +126,23 @@ impl Stepper {
         }
     }
 
-    /// Brings the motion to rest where all forces balance, from a place near it; `false` if there is no such place.
+    /// Brings the motion to rest where all forces balance and every rope leaves its wheel along its tangent, from a place
+    /// near it; `false` if there is no such place.
     pub(super) fn settle(&mut self) -> bool {
+        const ROUNDS: usize = 20;
+        for _ in 0..ROUNDS {
+            if !self.settle_on_wheels() {
+                return false;
+            }
+            if !self.roll_wheels(LEAST_WRAP_AT_REST) {
+                return true;
+            }
+        }
+        true
+    }
+
+    /// Brings the motion to rest with the wrap angles held.
+    fn settle_on_wheels(&mut self) -> bool {
         const STEPS: usize = 50;
         let lengths = self.system.lengths(self.time);
         let of = Newton { mass: 0.0, damping: 0.0, stiffness: 1.0 };
@@ -168,12 +188,20 @@ impl Stepper {
     /// Forces that the present motion needs.
     pub(super) fn evaluate(&mut self, lengths: &[WoundLength]) {
         let body = self.system.body_motion(&self.now);
-        self.system.fill_ends(&body, &mut self.now);
+        self.system.fill_ends(&body, lengths, &mut self.now);
         self.system.needed(self.time, lengths, &body, &self.now, &mut self.needed);
     }
 
     /// Begins anew after an event: accelerations from the forces at the present places and velocities.
     pub(super) fn restart(&mut self) -> Result<(), TooFast> {
+        self.accelerate()?;
+        self.step = FIRST_STEP;
+        self.error_before = 1.0;
+        Ok(())
+    }
+
+    /// Accelerations from the forces at the present places and velocities.
+    fn accelerate(&mut self) -> Result<(), TooFast> {
         let lengths = self.system.lengths(self.time);
         let of = Newton { mass: 1.0, damping: 0.0, stiffness: 0.0 };
         self.now.a.fill(0.0);
@@ -184,14 +212,51 @@ impl Stepper {
         self.arrow.solve(&self.system, &mut change);
         self.now.a.copy_from_slice(&change);
         self.evaluate(&lengths);
-        self.step = FIRST_STEP;
         self.factored = None;
-        self.error_before = 1.0;
         Ok(())
+    }
+
+    /// Rolls each wheel whose rope leaves it more than `least` [rad] off its tangent; `true` if there was one. The rope
+    /// stays where it is: its free length changes, and its nodes move along it.
+    ///
+    /// # References
+    /// docs/theory.md, equation (97o).
+    fn roll_wheels(&mut self, least: f64) -> bool {
+        let lengths = self.system.lengths(self.time);
+        let mut has_rolled = false;
+        for (i, given) in lengths.iter().enumerate() {
+            let Some(forces) = self.system.far_forces(i, self.time, given, &self.now, &self.needed) else { continue };
+            let (numbers, free) = (self.system.of_far_end(i), self.system.free_length(i, given, &self.now));
+            let stiffness = self.system.ropes[i].stiffness;
+            let Some(far) = &mut self.system.far_ends[i] else { continue };
+            let places = far.places();
+            let (Some(swivel), Some(length)) = (places.swivel, places.feed) else { continue };
+            let turned = self.now.x[numbers.start + swivel];
+            let wrap = far.missing_wrap(turned, &forces.exit_w);
+            if wrap.abs() <= least {
+                continue;
+            }
+            has_rolled = true;
+            let after = free.value - far.roll(wrap, turned, forces.exit_w.norm(), stiffness);
+            self.now.x[numbers.start + swivel] = 0.0;
+            self.now.x[numbers.start + length] = after;
+            let (rope, range) = (&self.system.ropes[i], self.system.of_rope(i));
+            for of in [&mut self.now.x, &mut self.now.v] {
+                let moved = rope.resampled(free.value, after, &of[range.clone()]);
+                of[range.clone()].copy_from_slice(&moved);
+            }
+        }
+        if has_rolled {
+            self.evaluate(&lengths);
+        }
+        has_rolled
     }
 
     /// One step, at most to `until`; returns how the motion went in between.
     pub(super) fn advance(&mut self, until: f64) -> Result<DenseOutput, TooFast> {
+        if self.roll_wheels(LEAST_WRAP) {
+            self.accelerate()?;
+        }
         loop {
             let left = until - self.time;
             // The rest is gone in one step, or in two of one length.
@@ -286,7 +351,7 @@ impl Stepper {
         for round in 0..NEWTON_STEPS {
             place(&self.work, &turn_base, hg, current);
             let body = self.system.body_motion(current);
-            self.system.fill_ends(&body, current);
+            self.system.fill_ends(&body, &lengths, current);
             self.system.needed(time, &lengths, &body, current, &mut self.needed);
             if self.factored.is_none() {
                 let of = Newton { mass: 1.0 / hg, damping: 1.0, stiffness: hg };

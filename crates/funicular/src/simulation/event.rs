@@ -1,9 +1,10 @@
-//! What happens to a robot while it is simulated: releases, pick-ups, changes of length, stops, pushes and cuts.
+//! What happens to a robot while it is simulated: releases, pick-ups, changes of length and tension, stops,
+//! pushes and cuts.
 
 use super::body::Push;
 use super::winding::Winding;
 use crate::math::Vec3;
-use crate::robot::Robot;
+use crate::robot::{Cable, Control, Robot};
 use thiserror::Error;
 
 /// What happens to a robot at or from a time on [s].
@@ -46,6 +47,15 @@ pub enum SimulationEvent {
         times: Vec<f64>,
         /// Unstrained lengths at these times [m] of each cable; none for a winch that stays at rest.
         lengths: Vec<Option<Vec<f64>>>,
+    },
+    /// Winches hold tensions from now on instead of lengths, by their torque.
+    Tension {
+        /// Beginning [s].
+        time: f64,
+        /// Time within which the tension goes from the present one to the given one [s].
+        duration: f64,
+        /// Tension at the drum of each cable [N]; none for a winch that goes on as before.
+        tensions: Vec<Option<f64>>,
     },
     /// Brakes bring winches to rest, with a continuous acceleration.
     Stop {
@@ -185,8 +195,8 @@ pub enum EventFault {
     },
     /// A cable would become too short.
     #[error(
-        "cable \"{cable}\" would be {length} m long at {time} s: its unstrained length must stay above {least} m, a \
-         hundredth of that at the start"
+        "cable \"{cable}\" would be {length} m long at {time} s: its unstrained length must stay above {least} m, at \
+         which a hundredth of its free span is left"
     )]
     TooShort {
         /// Name of the cable.
@@ -197,6 +207,25 @@ pub enum EventFault {
         time: f64,
         /// Limit [m].
         least: f64,
+    },
+    /// A tension that a rope cannot have.
+    #[error("it asks for a tension of {tension} N: a rope has a tension of zero or more")]
+    NegativeTension {
+        /// Given tension [N].
+        tension: f64,
+    },
+    /// A length is commanded of a winch that holds a tension.
+    #[error(
+        "the winch of cable \"{cable}\" holds a tension from {since} s on, so that its length cannot be commanded at \
+         {time} s"
+    )]
+    HoldsTension {
+        /// Name of the cable.
+        cable: String,
+        /// Time from which on it holds a tension [s].
+        since: f64,
+        /// Time of the command [s].
+        time: f64,
     },
     /// The last cable is cut.
     #[error("cable \"{cable}\" is the last one that holds the platform: without it the platform only falls")]
@@ -244,6 +273,7 @@ impl SimulationEvent {
             | Self::Ramp { time, .. }
             | Self::Follow { time, .. }
             | Self::Stop { time, .. }
+            | Self::Tension { time, .. }
             | Self::Push { time, .. }
             | Self::Cut { at: CutAt::Time(time), .. } => Some(*time),
             Self::Cut { at: CutAt::Tension(_), .. } => None,
@@ -252,7 +282,15 @@ impl SimulationEvent {
 
     /// True if it happens at once and changes platform or cables.
     pub(super) fn is_sudden(&self) -> bool {
-        matches!(self, Self::Release { .. } | Self::Pick { .. } | Self::Cut { at: CutAt::Time(_), .. })
+        matches!(
+            self,
+            Self::Release { .. } | Self::Pick { .. } | Self::Tension { .. } | Self::Cut { at: CutAt::Time(_), .. }
+        )
+    }
+
+    /// Tension that it asks of a cable [N].
+    pub(super) fn tension_of(&self, cable: usize) -> Option<f64> {
+        if let Self::Tension { tensions, .. } = self { tensions[cable] } else { None }
     }
 
     /// Checks what the event says by itself.
@@ -263,7 +301,10 @@ impl SimulationEvent {
             return Err(EventFault::Outside { time, end });
         }
         match self {
-            Self::Ramp { duration, .. } | Self::Stop { duration, .. } | Self::Push { duration, .. }
+            Self::Ramp { duration, .. }
+            | Self::Stop { duration, .. }
+            | Self::Push { duration, .. }
+            | Self::Tension { duration, .. }
                 if !(*duration > 0.0 && duration.is_finite()) =>
             {
                 Err(EventFault::Duration { duration: *duration })
@@ -279,6 +320,10 @@ impl SimulationEvent {
                 Ok(load.check(&robot.platform.motion)?)
             }
             Self::Follow { times, .. } => check_times(times),
+            Self::Tension { tensions, .. } => {
+                let negative = tensions.iter().flatten().find(|tension| !(**tension >= 0.0 && tension.is_finite()));
+                negative.map_or(Ok(()), |tension| Err(EventFault::NegativeTension { tension: *tension }))
+            }
             _ => Ok(()),
         }
     }
@@ -301,20 +346,23 @@ fn check_times(times: &[f64]) -> Result<(), EventFault> {
     Ok(())
 }
 
-/// Unstrained lengths over time of all cables. `order` has the events by their time.
+/// Unstrained lengths over time of all cables, which begin at `initial`, with free spans of the lengths `free`. `order`
+/// has the events by their time.
 pub(super) fn windings(
     robot: &Robot,
-    initial: &[f64],
+    (initial, free): (&[f64], &[f64]),
     events: &[SimulationEvent],
     order: &[usize],
 ) -> Result<Vec<Winding>, Faulty> {
     let mut windings: Vec<Winding> = initial.iter().map(|length| Winding::constant(*length)).collect();
+    let mut holding: Vec<Option<f64>> = robot.cables.iter().map(torque_from_the_start).collect();
     for &event in order {
         for (i, winding) in windings.iter_mut().enumerate() {
             let name = &robot.cables[i].name;
             let faulty = |fault| Faulty { event, fault };
+            check_hold(&mut holding[i], i, name, &events[event]).map_err(faulty)?;
             wind(winding, i, name, &events[event]).map_err(faulty)?;
-            let (least, limit) = (winding.least(1e-3), LEAST_LENGTH * initial[i]);
+            let (least, limit) = (winding.least(1e-3), initial[i] - (1.0 - LEAST_LENGTH) * free[i]);
             if least.0 < limit || least.0.is_nan() {
                 let (length, time) = least;
                 return Err(faulty(EventFault::TooShort { cable: name.clone(), length, time, least: limit }));
@@ -322,6 +370,29 @@ pub(super) fn windings(
         }
     }
     Ok(windings)
+}
+
+/// Time from which on a motor with constant torque holds a tension.
+fn torque_from_the_start(cable: &Cable) -> Option<f64> {
+    cable.anchor.winch.as_ref().filter(|winch| winch.control == Control::Torque).map(|_| 0.0)
+}
+
+/// Refuses an event that commands the length of a winch that holds a tension.
+fn check_hold(since: &mut Option<f64>, i: usize, name: &str, event: &SimulationEvent) -> Result<(), EventFault> {
+    let time = event.time().unwrap_or_default();
+    let commands = match event {
+        SimulationEvent::Ramp { changes, .. } => changes[i] != 0.0,
+        SimulationEvent::Follow { lengths, .. } => lengths[i].is_some(),
+        SimulationEvent::Stop { cables, .. } => cables.contains(&i) && since.is_some_and(|since| since > 0.0),
+        _ => false,
+    };
+    if let (true, Some(since)) = (commands, *since) {
+        return Err(EventFault::HoldsTension { cable: name.to_owned(), since, time });
+    }
+    if event.tension_of(i).is_some() && since.is_none() {
+        *since = Some(time);
+    }
+    Ok(())
 }
 
 /// Adds what an event asks of one winch.

@@ -52,6 +52,30 @@ pub(super) struct Newton {
     pub(super) stiffness: f64,
 }
 
+/// Border of a rope's Newton matrix: what depends on the free length and on the place of the far end.
+#[derive(Debug, Clone)]
+pub(super) struct Border {
+    /// Between the free length and each node, three numbers each.
+    pub(super) by_length: Vec<f64>,
+    /// Of the free length itself.
+    pub(super) of_length: f64,
+    /// Between the far end and the nodes of the last element, itself included.
+    pub(super) by_end: Vec<Mat3>,
+}
+
+impl Border {
+    pub(super) fn new(rope: &RopeMesh) -> Self {
+        let blocks = rope.basis.degree + 1;
+        Self { by_length: vec![0.0; rope.size()], of_length: 0.0, by_end: vec![Mat3::zeros(); blocks] }
+    }
+
+    fn clear(&mut self) {
+        self.by_length.fill(0.0);
+        self.of_length = 0.0;
+        self.by_end.fill(Mat3::zeros());
+    }
+}
+
 /// Energy of a rope [J] and the powers that change it [W].
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(super) struct RopeEnergy {
@@ -64,6 +88,20 @@ pub(super) struct RopeEnergy {
     pub(super) dissipation: f64,
     /// Power that the winch gives with the rope that passes the anchor.
     pub(super) winch: f64,
+}
+
+impl RopeEnergy {
+    /// With what lies behind the exit point; if rope passes there, its winch is not at the anchor.
+    pub(super) fn with_far_end(self, behind: &Self, passes: bool) -> Self {
+        Self {
+            kinetic: self.kinetic + behind.kinetic,
+            strain: self.strain + behind.strain,
+            potential: self.potential + behind.potential,
+            loads: self.loads + behind.loads,
+            dissipation: self.dissipation + behind.dissipation,
+            winch: if passes { behind.winch } else { self.winch },
+        }
+    }
 }
 
 /// Place of an index of a node among the numbers of a rope.
@@ -246,6 +284,129 @@ impl RopeMesh {
                 out[2] += slope * momentum.z;
             }
         }
+    }
+
+    /// Force that the free length needs but for what lies behind the exit point, conjugate to it [N]. Heights count from
+    /// `entry_w`.
+    ///
+    /// # References
+    /// docs/theory.md, equation (97l).
+    pub(super) fn needed_by_length(
+        &self,
+        length: &WoundLength,
+        wind: &Wind,
+        [x, v, a]: [&[f64]; 3],
+        entry_w: &Vec3,
+    ) -> f64 {
+        let count = self.elements as f64;
+        let ratio = length.rate / length.value;
+        let change = length.acceleration / length.value - ratio * ratio;
+        let (mut sum, mut passing) = (0.0, 0.0);
+        for e in 0..self.elements {
+            let nodes = self.of_element(e);
+            let (x, v, a) = (&x[nodes.clone()], &v[nodes.clone()], &a[nodes]);
+            for q in 0..=self.basis.degree {
+                let slopes = self.basis.at_node(q);
+                let (x_slope, v_slope) = (along(slopes, x) * count, along(slopes, v) * count);
+                let sigma = (e as f64 + self.basis.nodes[q]) / count;
+                let part = self.basis.weights[q] / count;
+                let velocity = at(v, q) - x_slope * (sigma * ratio);
+                let acceleration = at(a, q) - (x_slope * change + v_slope * ratio) * sigma;
+                let inertia = -sigma * (acceleration.dot(&x_slope) + velocity.dot(&v_slope))
+                    - 0.5 * velocity.norm_squared()
+                    - sigma * ratio * velocity.dot(&x_slope);
+                sum += part * (self.mass * inertia - self.load_w.dot(&(at(x, q) - entry_w)));
+                let mut lost = velocity * self.viscous;
+                if self.drag_width > 0.0 {
+                    lost -= self.drag(wind, q, x, &velocity);
+                }
+                sum -= part * sigma * lost.dot(&x_slope);
+                if e + 1 == self.elements && q == self.basis.degree {
+                    let rate = velocity;
+                    passing = self.mass * (length.rate / length.value * rate.dot(&x_slope) + 0.5 * rate.norm_squared());
+                }
+            }
+            for g in 0..self.basis.degree {
+                let Stretch { ratio, tension, .. } = self.stretch(length, g, x, v);
+                let strain = (ratio - 1.0).max(0.0);
+                sum += self.basis.gauss_weights[g] / count
+                    * (0.5 * self.stiffness * strain * strain - tension * ratio);
+            }
+        }
+        sum + passing
+    }
+
+    /// Border of the Newton matrix for a rope whose far end moves and through which rope passes, written to `border`.
+    ///
+    /// # References
+    /// docs/theory.md, equation (97p).
+    pub(super) fn border(&self, length: &WoundLength, x: &[f64], v: &[f64], of: Newton, border: &mut Border) {
+        border.clear();
+        let (count, degree) = (self.elements as f64, self.basis.degree);
+        let per_length = count / length.value;
+        for e in 0..self.elements {
+            let nodes = self.of_element(e);
+            let (x, v) = (&x[nodes.clone()], &v[nodes]);
+            for q in 0..=degree {
+                let sigma = (e as f64 + self.basis.nodes[q]) / count;
+                let x_slope = along(self.basis.at_node(q), x) * count;
+                let part = self.basis.weights[q] / count;
+                let sliding = x_slope * (-self.mass * sigma * of.mass);
+                let entry = (sliding - self.load_w * of.stiffness) * part;
+                add(&mut border.by_length, e * degree + q, &entry);
+                border.of_length -= part * sigma * sliding.dot(&x_slope);
+            }
+            let stiff = (of.stiffness + self.damping_time * of.damping) * self.stiffness;
+            for g in 0..degree {
+                let Stretch { tangent, ratio, tension, .. } = self.stretch(length, g, x, v);
+                if tension == 0.0 {
+                    continue;
+                }
+                let weight = self.basis.gauss_weights[g];
+                let slopes = self.basis.at_gauss(g);
+                let by_length = tangent * (-stiff * ratio / length.value * weight);
+                for (q, slope) in slopes.iter().enumerate() {
+                    add(&mut border.by_length, e * degree + q, &(by_length * *slope));
+                }
+                border.of_length += weight / count * stiff * ratio * ratio / length.value;
+                if e + 1 < self.elements {
+                    continue;
+                }
+                let across = of.stiffness * tension / ratio;
+                let block = tangent * tangent.transpose() * (stiff - across) + Mat3::identity() * across;
+                let block = block * (weight * per_length * slopes[degree]);
+                for (end, slope) in border.by_end.iter_mut().zip(slopes) {
+                    *end += block * *slope;
+                }
+            }
+        }
+        let at_end = self.mass * of.mass + self.viscous * of.damping;
+        border.by_end[degree] += Mat3::identity() * (at_end * length.value / count * self.basis.weights[degree]);
+    }
+
+    /// Numbers of the nodes after the free length has changed from `before` to `after`, the rope staying where it is; the
+    /// numbers are those of a function of σ.
+    pub(super) fn resampled(&self, before: f64, after: f64, values: &[f64]) -> Vec<f64> {
+        let count = self.elements as f64;
+        let mut out = Vec::with_capacity(values.len());
+        for node in 0..=self.last() {
+            let e = (node / self.basis.degree).min(self.elements - 1);
+            let sigma = (e as f64 + self.basis.nodes[node - e * self.basis.degree]) / count;
+            let place = sigma * after / before * count;
+            let e = (place.floor().max(0.0) as usize).min(self.elements - 1);
+            let of = &values[self.of_element(e)];
+            let weights = self.basis.values(place - e as f64);
+            for axis in 0..3 {
+                out.push(weights.iter().zip(of[axis..].iter().step_by(3)).map(|(w, x)| w * x).sum());
+            }
+        }
+        out
+    }
+
+    /// Rope itself at the exit point: its tangent times the ratio of lengths.
+    pub(super) fn slope_at_end(&self, length: &WoundLength, x: &[f64]) -> Vec3 {
+        let nodes = self.of_element(self.elements - 1);
+        along(self.basis.at_node(self.basis.degree), &x[nodes]) * (self.elements as f64 / length.value)
     }
 
     /// Adds the Newton matrix of the rope: the derivative of [`Self::needed`] by the velocities of a stage, without the

@@ -10,7 +10,7 @@ use super::system::{BODY, MotionNumbers, RopeEnd};
 use super::winding::Winding;
 use crate::math::{Rotation, Vec3, Vec6};
 use crate::robot::{Pose, Robot};
-use crate::statics::Equilibrium;
+use crate::statics::{CableState, Equilibrium};
 
 /// Tension below which a cable counts as slack [N].
 const SLACK: f64 = 0.5;
@@ -113,9 +113,11 @@ impl Simulation {
         order.sort_by(|a, b| time(*a).total_cmp(&time(*b)));
 
         let initial: Vec<f64> = rest.cables.iter().map(|cable| cable.unstrained_length).collect();
-        let windings = windings(robot, &initial, events, &order).map_err(of_event)?;
+        let free: Vec<f64> = rest.cables.iter().map(CableState::free_length).collect();
+        let windings = windings(robot, (&initial, &free), events, &order).map_err(of_event)?;
         let mut breaks: Vec<f64> = windings.iter().flat_map(Winding::breaks).collect();
-        let stepper = at_rest(robot, rest, settings, windings)?;
+        let holds_tension = |i: usize| events.iter().any(|event| event.tension_of(i).is_some());
+        let stepper = at_rest(robot, rest, settings, (windings, &holds_tension))?;
 
         let (count, size) = (robot.cables.len(), stepper.system.size);
         let mut simulation = Self {
@@ -134,6 +136,9 @@ impl Simulation {
         };
         for event in order.iter().map(|k| &events[*k]) {
             breaks.extend(event.time());
+            if let SimulationEvent::Tension { time, duration, .. } = event {
+                breaks.push(time + duration);
+            }
             if let Some(push) = event.push() {
                 breaks.extend([push.from + push.rise, push.until - push.rise, push.until]);
                 simulation.stepper.system.body.pushes.push(push);
@@ -158,7 +163,8 @@ impl Simulation {
         for (event, of) in events.iter().enumerate() {
             if let SimulationEvent::Cut { cable, at: CutAt::Tension(limit) } = *of {
                 let lengths = self.stepper.system.lengths(0.0);
-                let tension = self.tensions(cable, &lengths, &self.stepper.needed).into_iter().fold(0.0, f64::max);
+                let now = (0.0, &self.stepper.now, &self.stepper.needed[..]);
+                let tension = self.tensions(cable, now, &lengths).into_iter().fold(0.0, f64::max);
                 if tension >= limit {
                     let fault = EventFault::CutAtStart { cable: self.names[cable].clone(), tension };
                     return Err(SimulationError::Event { event, fault });
@@ -229,6 +235,13 @@ impl Simulation {
             }
             SimulationEvent::Pick { mass, point_p, velocity_w, .. } => self.stepper.pick(mass, point_p, velocity_w),
             SimulationEvent::Cut { cable, .. } => self.cut(event, cable)?,
+            SimulationEvent::Tension { time, duration, ref tensions } => {
+                self.stepper.hold_tensions(time, duration, tensions);
+                self.begin()?;
+                // Rope behind the exit point is no longer counted.
+                self.books.winches += self.books.total() - before;
+                return Ok(());
+            }
             _ => {}
         }
         self.begin()?;
@@ -303,7 +316,7 @@ impl Simulation {
             if self.stepper.system.ends[i] != RopeEnd::Attached {
                 continue;
             }
-            let [tension, _] = self.tensions(i, lengths, &self.stepper.needed);
+            let [tension, _] = self.tensions(i, (until, &self.stepper.now, &self.stepper.needed), lengths);
             let slack = &mut self.slack[i];
             let before = slack.last.replace(tension).unwrap_or(tension);
             // The tension counts as straight over the step.
@@ -323,12 +336,13 @@ impl Simulation {
     /// A cable that reached its tension within a step, and the time.
     fn blown(&mut self, dense: &DenseOutput) -> Option<(usize, usize, f64)> {
         let lengths = self.stepper.system.lengths(self.stepper.time);
-        let over = |of: &Self, cable: usize, lengths: &[WoundLength], needed: &[f64]| {
-            of.tensions(cable, lengths, needed).into_iter().fold(0.0, f64::max)
+        let over = |of: &Self, cable: usize, at: (f64, &MotionNumbers, &[f64]), lengths: &[WoundLength]| {
+            of.tensions(cable, at, lengths).into_iter().fold(0.0, f64::max)
         };
+        let now = (self.stepper.time, &self.stepper.now, &self.stepper.needed[..]);
         let reached = |fuse: &&(usize, usize, f64)| {
             self.stepper.system.ends[fuse.1] == RopeEnd::Attached
-                && over(self, fuse.1, &lengths, &self.stepper.needed) >= fuse.2
+                && over(self, fuse.1, now, &lengths) >= fuse.2
         };
         let (event, cable, limit) = *self.fuses.iter().find(reached)?;
         let (mut below, mut above) = (dense.from, dense.until);
@@ -336,7 +350,7 @@ impl Simulation {
         for _ in 0..40 {
             let middle = 0.5 * (below + above);
             let lengths = self.stepper.system.within(dense, middle, &mut self.work, &mut needed);
-            if over(self, cable, &lengths, &needed) >= limit { above = middle } else { below = middle }
+            if over(self, cable, (middle, &self.work, &needed), &lengths) >= limit { above = middle } else { below = middle }
         }
         self.needed = needed;
         Some((event, cable, above))
@@ -356,7 +370,7 @@ impl Simulation {
     }
 
     /// Tensions of a cable at the platform and at its anchor [N].
-    fn tensions(&self, i: usize, lengths: &[WoundLength], needed: &[f64]) -> [f64; 2] {
+    fn tensions(&self, i: usize, (time, m, needed): (f64, &MotionNumbers, &[f64]), lengths: &[WoundLength]) -> [f64; 2] {
         let system = &self.stepper.system;
         let range = system.of_rope(i);
         let at = |from: usize| Vec3::from_column_slice(&needed[from..from + 3]);
@@ -364,7 +378,11 @@ impl Simulation {
             return [0.0; 2];
         }
         let platform = if system.ends[i] == RopeEnd::Attached { at(range.start).norm() } else { 0.0 };
-        [platform, system.ropes[i].anchor_tension(&lengths[i], &at(range.end - 3))]
+        let anchor = match system.far_forces(i, time, &lengths[i], m, needed) {
+            Some(forces) => forces.exit_w.norm(),
+            None => system.ropes[i].anchor_tension(&lengths[i], &at(range.end - 3)),
+        };
+        [platform, anchor]
     }
 
     /// Robot at a time of the last step, or now.
@@ -408,9 +426,10 @@ impl Simulation {
         let [_, velocity, acceleration] = motion.point(&origin);
         let joined = super::body::joined;
         let cable = |i: usize| {
-            let [tension_platform, tension_anchor] = self.tensions(i, lengths, needed);
+            let [tension_platform, tension_anchor] = self.tensions(i, (time, m, needed), lengths);
             let is_cut = self.stepper.system.ends[i] != RopeEnd::Attached;
-            CableSample { tension_platform, tension_anchor, length: lengths[i], is_cut }
+            let length = self.stepper.system.whole_length(i, &lengths[i], m);
+            CableSample { tension_platform, tension_anchor, length, is_cut }
         };
         RobotSample {
             time,

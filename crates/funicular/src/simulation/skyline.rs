@@ -144,6 +144,14 @@ impl Skyline {
         })
     }
 
+    /// Entries of a column at the kept last node, which become zero; zero if it is not kept.
+    pub(super) fn take_kept(&self, column: &mut [f64]) -> Vec3 {
+        if self.factored == self.shape.rows() {
+            return Vec3::zeros();
+        }
+        Vec3::from_fn(|i, _| std::mem::take(&mut column[self.factored + i]))
+    }
+
     /// `L⁻ᵀ (b − L₀ᵀ end)` in place, `end` being the motion of the kept last node.
     pub(super) fn backward(&self, b: &mut [f64], end: &Vec3) {
         if self.factored < self.shape.rows() {

@@ -5,12 +5,14 @@ use super::basis::ElementBasis;
 use super::body::MovingBody;
 use super::esdirk::Stepper;
 use super::event::EventFault;
+use super::far_end::FarEnd;
+use super::feed::Feed;
 use super::rope::RopeMesh;
-use super::system::{BODY, MotionNumbers, RopeEnd, System};
+use super::system::{BODY, MotionNumbers, Post, RopeEnd, System};
 use super::winding::Winding;
 use crate::math::Vec3;
 use crate::modes;
-use crate::robot::{Damping, Material, Robot};
+use crate::robot::{Control, Damping, Material, Robot, Support, Winch};
 use crate::statics::Equilibrium;
 use std::f64::consts::TAU;
 use std::rc::Rc;
@@ -134,16 +136,19 @@ pub enum SimulationError {
 fn check_parts(robot: &Robot) -> Result<(), SimulationError> {
     for cable in &robot.cables {
         let unsupported = |what, remedy| Err(SimulationError::Unsupported { cable: cable.name.clone(), what, remedy });
-        let anchor = &cable.anchor;
         let rope = &cable.material;
-        if anchor.pulley.is_some() {
-            return unsupported("a pulley", "leave its pulley out, and give the exit point as `anchor_m`");
+        if let Some(Winch { control: Control::Position(servo), drum_mass, motor_mass, .. }) = &cable.anchor.winch {
+            if servo.delay > 0.0 {
+                return unsupported("a servo with a delay", "leave out `delay_s`");
+            }
+            if drum_mass + motor_mass == 0.0 {
+                return unsupported("a servo but no inertia", "give the inertia of its drum or motor");
+            }
         }
-        if anchor.winch.is_some() {
-            return unsupported("a winch with a drive", "leave out its winch; lengths are commanded at the anchor");
-        }
-        if anchor.support.is_some() {
-            return unsupported("a flexible support", "leave out its support");
+        let passes = !cable.anchor.is_fixed() || cable.anchor.support.is_some();
+        if rope.mass_per_length == 0.0 && passes {
+            let what = "a pulley, a winch or a support but no mass";
+            return unsupported(what, "give `mass_kg_per_m` in [materials.*]");
         }
         let is_loaded = cable.load_per_length_w.norm() > 0.0 || rope.drag_width.is_some_and(|width| width > 0.0);
         if rope.mass_per_length == 0.0 && is_loaded {
@@ -161,19 +166,20 @@ struct RopeDamping {
     stretch_time: f64,
 }
 
-/// Damping of each rope. A damping ratio and a loss factor are the same at all frequencies, and a motion in time has them at
+/// Damping of each rope, and the angular frequency at which ratios hold [rad/s]. A damping ratio and a loss factor are the same at all frequencies, and a motion in time has them at
 /// one frequency.
 fn damping(
     robot: &Robot,
     rest: &Equilibrium,
     settings: &SimulationSettings,
-) -> Result<Vec<RopeDamping>, SimulationError> {
+) -> Result<(Vec<RopeDamping>, f64), SimulationError> {
     let needs_frequency = |rope: &Material| {
         matches!(rope.damping, Damping::Ratio(ratio) if ratio > 0.0 && rope.mass_per_length > 0.0)
             || (rope.stretch_loss.factor > 0.0 && settings.stretch_damping_time.is_none())
     };
     let mut omega = 0.0;
-    if robot.cables.iter().any(|cable| needs_frequency(&cable.material)) {
+    let supports = robot.supports.iter().any(|support| support.damping_ratio > 0.0);
+    if supports || robot.cables.iter().any(|cable| needs_frequency(&cable.material)) {
         let frequency_hz = match settings.damping_frequency_hz {
             Some(frequency_hz) => frequency_hz,
             None => modes::first(robot, rest).map_err(|_| SimulationError::NoFrequency)?.frequency_hz,
@@ -191,7 +197,7 @@ fn damping(
             stretch_time: settings.stretch_damping_time.unwrap_or(stretch_loss.time + of_factor),
         }
     };
-    Ok(robot.cables.iter().map(of).collect())
+    Ok((robot.cables.iter().map(of).collect(), omega))
 }
 
 /// Stepper at the equilibrium of the mesh near `rest`, with unstrained lengths over time.
@@ -199,10 +205,10 @@ pub(super) fn at_rest(
     robot: &Robot,
     rest: &Equilibrium,
     settings: &SimulationSettings,
-    windings: Vec<Winding>,
+    (windings, holds_tension): (Vec<Winding>, &dyn Fn(usize) -> bool),
 ) -> Result<Stepper, SimulationError> {
     check_parts(robot)?;
-    let damping = damping(robot, rest, settings)?;
+    let (damping, omega) = damping(robot, rest, settings)?;
     let basis = Rc::new(ElementBasis::new(settings.mesh.degree));
     let bar = Rc::new(ElementBasis::new(1));
 
@@ -226,17 +232,29 @@ pub(super) fn at_rest(
         }
     };
     let ropes: Vec<RopeMesh> = (0..robot.cables.len()).map(mesh).collect();
-    let mut size = BODY;
-    let mut offset = |rope: &RopeMesh| {
-        size += rope.size();
-        size - rope.size()
+    let mut far_ends: Vec<Option<FarEnd>> =
+        (0..ropes.len()).map(|i| FarEnd::of(robot, i, &rest.cables[i], holds_tension(i))).collect();
+    far_ends.iter_mut().flatten().filter_map(|far| far.feed.as_mut()).for_each(Feed::lock);
+    let of_support = |support: &Support| Post {
+        stiffness_w: support.stiffness_w,
+        mass: support.mass,
+        damping_time: if support.damping_ratio > 0.0 { 2.0 * support.damping_ratio / omega } else { 0.0 },
     };
-    let offsets: Vec<usize> = ropes.iter().map(&mut offset).collect();
+    let posts: Vec<Post> = robot.supports.iter().map(of_support).collect();
+    let mut size = BODY + 3 * posts.len();
+    let mut offset = |(rope, far): (&RopeMesh, &Option<FarEnd>)| {
+        let own = rope.size() + far.as_ref().map_or(0, |far| far.places().count);
+        size += own;
+        size - own
+    };
+    let offsets: Vec<usize> = ropes.iter().zip(&far_ends).map(&mut offset).collect();
 
     let system = System {
         body: MovingBody::of(robot, settings.platform_is_held),
         ends: vec![RopeEnd::Attached; ropes.len()],
         ropes,
+        far_ends,
+        posts,
         windings,
         offsets,
         size,
@@ -244,19 +262,35 @@ pub(super) fn at_rest(
         rotation: rest.pose.rot_wp,
         evaluations: 0,
     };
-    let now = hanging(&system, rest)?;
+    let now = hanging(robot, &system, rest)?;
     let mut stepper = Stepper::new(system, now, settings.tolerance, robot.platform_length());
     if !stepper.settle() {
         return Err(SimulationError::NoRest);
     }
+    let_go(robot, &mut stepper, holds_tension);
     Ok(stepper)
 }
 
-/// Nodes on the curves of the cables at rest.
-fn hanging(system: &System, rest: &Equilibrium) -> Result<MotionNumbers, SimulationError> {
+/// Lets motors balance by themselves what holds them at rest.
+fn let_go(robot: &Robot, stepper: &mut Stepper, holds_tension: &dyn Fn(usize) -> bool) {
+    let lengths = stepper.system.lengths(0.0);
+    for (i, given) in lengths.iter().enumerate() {
+        let Some(forces) = stepper.system.far_forces(i, 0.0, given, &stepper.now, &stepper.needed) else { continue };
+        let winch = robot.cables[i].anchor.winch.as_ref();
+        let is_plain = winch.is_none() && holds_tension(i);
+        let torque = winch.is_some_and(|winch| winch.control == Control::Torque);
+        let feed = stepper.system.far_ends[i].as_mut().and_then(|far| far.feed.as_mut());
+        if let Some(feed) = feed.filter(|_| !is_plain) {
+            feed.let_go(&forces.feed, torque);
+        }
+    }
+}
+
+/// Nodes on the curves of the cables at rest, and what lies behind them.
+fn hanging(robot: &Robot, system: &System, rest: &Equilibrium) -> Result<MotionNumbers, SimulationError> {
     let mut motion = MotionNumbers::zeros(system.size);
-    let mut put = |from: usize, at: &Vec3| motion.x[from..from + 3].copy_from_slice(at.as_slice());
-    put(0, &rest.pose.point_w(&system.body.center_p));
+    let put = |motion: &mut MotionNumbers, from: usize, at: &Vec3| motion.x[from..from + 3].copy_from_slice(at.as_slice());
+    put(&mut motion, 0, &rest.pose.point_w(&system.body.center_p));
     for (i, rope) in system.ropes.iter().enumerate() {
         let hanging = rest.cables[i].hanging.as_ref().ok_or(SimulationError::NotElastic)?;
         let length = hanging.catenary.rope().unstrained_length;
@@ -265,7 +299,17 @@ fn hanging(system: &System, rest: &Equilibrium) -> Result<MotionNumbers, Simulat
             let (e, q) = (node / degree, node % degree);
             let sigma = (e as f64 + rope.basis.nodes[q]) / rope.elements as f64;
             let at = if node == rope.last() { hanging.end_w } else { hanging.point_w(sigma * length) };
-            put(system.offsets[i] + 3 * node, &at);
+            put(&mut motion, system.offsets[i] + 3 * node, &at);
+        }
+        let state = &rest.cables[i];
+        if let Some(index) = robot.cables[i].anchor.support {
+            put(&mut motion, System::of_post(index).start, &state.displacement_w);
+        }
+        let Some(far) = &system.far_ends[i] else { continue };
+        let stations = far.stations_at_rest(length, state.tension_drum(), &rope.load_w, &state.displacement_w);
+        if let Some(at) = far.places().feed {
+            let from = system.of_far_end(i).start + at;
+            motion.x[from..from + stations.len()].copy_from_slice(&stations);
         }
     }
     Ok(motion)

@@ -3,6 +3,7 @@
 use super::body::{BodyMotion, MovingBody, halves, joined};
 use super::esdirk::Stepper;
 use super::event::EventFault;
+use super::feed::Hold;
 use super::system::{RopeEnd, six};
 use crate::math::{Mat3, Mat6, Vec3, Vec6, inverse6, skew};
 
@@ -97,7 +98,7 @@ impl Stepper {
                 continue;
             }
             let turn = -motion.rot_wp * skew(&body.lever_p(i));
-            let mass = rope.end_mass(lengths[i].value);
+            let mass = rope.end_mass(self.system.free_length(i, &lengths[i], &self.now).value);
             for k in 0..6 {
                 let (translation, of_turn) = halves(&Vec6::ith(k, 1.0));
                 let end = (translation + turn * of_turn) * mass;
@@ -107,6 +108,26 @@ impl Stepper {
             }
         }
         inverse6(&body.reduced_matrix(&matrix))
+    }
+
+    /// From now on winches hold tensions, which go from the present ones to the given ones.
+    pub(super) fn hold_tensions(&mut self, time: f64, duration: f64, tensions: &[Option<f64>]) {
+        let lengths = self.system.lengths(self.time);
+        for (i, after) in tensions.iter().enumerate() {
+            let Some(after) = *after else { continue };
+            let Some(forces) = self.system.far_forces(i, self.time, &lengths[i], &self.now, &self.needed) else {
+                continue;
+            };
+            let whole = self.system.whole_length(i, &lengths[i], &self.now).value;
+            let numbers = self.system.of_far_end(i).start;
+            let Some(far) = &mut self.system.far_ends[i] else { continue };
+            let places = far.places();
+            let (Some(feed), Some(at)) = (&mut far.feed, places.feed) else { continue };
+            let last = numbers + at + feed.count() - 1;
+            // A winch whose length was commanded has the tension of the rope at its exit point.
+            let before = if feed.is_locked { forces.exit_w.norm() } else { forces.feed.tension_drum };
+            feed.hold_tension(Hold::Tension { from: time, duration, before, after }, whole, self.now.x[last]);
+        }
     }
 
     /// Frees the end of a cable.

@@ -1,13 +1,13 @@
 //! Platform and ropes as one system: the forces that a motion needs, and Newton's corrections of it.
 //!
-//! A motion is stored as numbers in a row: centre of mass, turn since the beginning of the step, then the nodes of each
-//! rope. A node on the platform is filled from the motion of the platform.
+//! A motion is stored as numbers in a row: centre of mass, turn since the beginning of the step, supports, then for each
+//! rope its nodes and the numbers of its far end. The ends of a rope are filled from what they are on.
 
-use super::body::{BodyMotion, MovingBody, halves, joined};
-use super::rope::{Newton, RopeMesh, WoundLength};
-use super::skyline::{NotPositive, Profile3, Skyline};
+use super::body::{BodyMotion, MovingBody};
+use super::far_end::{ExitMotion, FarEnd, FarForces, FarState};
+use super::rope::{RopeMesh, WoundLength};
 use super::winding::Winding;
-use crate::math::{Mat3, Mat6, Rotation, Vec3, Vec6, inverse6, skew};
+use crate::math::{Mat3, Rotation, Vec3, Vec6};
 
 /// Number of numbers of the platform in a motion.
 pub(super) const BODY: usize = 6;
@@ -23,11 +23,26 @@ pub(super) enum RopeEnd {
     Gone,
 }
 
+/// Support of anchors that yields.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Post {
+    /// Stiffness [N/m].
+    pub(super) stiffness_w: Mat3,
+    /// Mass [kg].
+    pub(super) mass: f64,
+    /// Damping time [s]: damping over stiffness.
+    pub(super) damping_time: f64,
+}
+
 /// Platform and ropes.
 pub(super) struct System {
     pub(super) body: MovingBody,
     pub(super) ropes: Vec<RopeMesh>,
     pub(super) ends: Vec<RopeEnd>,
+    /// Far ends of ropes that do more than stay where they are.
+    pub(super) far_ends: Vec<Option<FarEnd>>,
+    /// Supports, whose numbers follow those of the platform.
+    pub(super) posts: Vec<Post>,
     pub(super) windings: Vec<Winding>,
     /// First number of each rope in a motion.
     pub(super) offsets: Vec<usize>,
@@ -53,6 +68,20 @@ impl MotionNumbers {
     pub(super) fn zeros(size: usize) -> Self {
         Self { x: vec![0.0; size], v: vec![0.0; size], a: vec![0.0; size] }
     }
+
+    /// Place, velocity and acceleration of the point whose numbers begin at `from`.
+    #[inline]
+    pub(super) fn point(&self, from: usize) -> ExitMotion {
+        [three(&self.x, from), three(&self.v, from), three(&self.a, from)]
+    }
+
+    /// Sets place, velocity and acceleration of the point whose numbers begin at `from`.
+    #[inline]
+    pub(super) fn put(&mut self, from: usize, [x, v, a]: &ExitMotion) {
+        self.x[from..from + 3].copy_from_slice(x.as_slice());
+        self.v[from..from + 3].copy_from_slice(v.as_slice());
+        self.a[from..from + 3].copy_from_slice(a.as_slice());
+    }
 }
 
 /// The first six numbers.
@@ -62,7 +91,7 @@ pub(super) fn six(numbers: &[f64]) -> Vec6 {
 }
 
 #[inline]
-fn three(numbers: &[f64], from: usize) -> Vec3 {
+pub(super) fn three(numbers: &[f64], from: usize) -> Vec3 {
     Vec3::from_column_slice(&numbers[from..from + 3])
 }
 
@@ -105,23 +134,106 @@ impl System {
         self.offsets[i]..self.offsets[i] + self.ropes[i].size()
     }
 
-    /// Fills the nodes on the platform.
-    pub(super) fn fill_ends(&self, body: &BodyMotion, m: &mut MotionNumbers) {
+    /// Numbers of the far end of rope `i`, behind those of its nodes.
+    #[inline]
+    pub(super) fn of_far_end(&self, i: usize) -> std::ops::Range<usize> {
+        let from = self.offsets[i] + self.ropes[i].size();
+        from..from + self.far_ends[i].as_ref().map_or(0, |far| far.places().count)
+    }
+
+    /// Numbers of a support.
+    pub(super) fn of_post(index: usize) -> std::ops::Range<usize> {
+        BODY + 3 * index..BODY + 3 * index + 3
+    }
+
+    /// Fills the ends of the ropes: on the platform, and far ends that move. `lengths` are the commanded ones.
+    pub(super) fn fill_ends(&self, body: &BodyMotion, lengths: &[WoundLength], m: &mut MotionNumbers) {
         for (i, end) in self.ends.iter().enumerate() {
-            if *end != RopeEnd::Attached {
-                continue;
+            if let Some(far) = &self.far_ends[i] {
+                self.fill_far_end(i, far, &lengths[i], m);
             }
-            let [x, v, a] = body.point(&self.body.lever_p(i));
-            let from = self.offsets[i];
-            m.x[from..from + 3].copy_from_slice(x.as_slice());
-            m.v[from..from + 3].copy_from_slice(v.as_slice());
-            m.a[from..from + 3].copy_from_slice(a.as_slice());
+            if *end == RopeEnd::Attached {
+                m.put(self.offsets[i], &body.point(&self.body.lever_p(i)));
+            }
         }
     }
 
-    /// Lengths of all ropes at a time.
+    fn fill_far_end(&self, i: usize, far: &FarEnd, given: &WoundLength, m: &mut MotionNumbers) {
+        let (places, from) = (far.places(), self.of_far_end(i).start);
+        if let (Some(feed), Some(at)) = (&far.feed, places.feed)
+            && feed.follows_command()
+        {
+            let last = from + at + feed.count() - 1;
+            (m.x[last], m.v[last], m.a[last]) = (given.value, given.rate, given.acceleration);
+        }
+        let swivel = places.swivel.map_or([0.0; 3], |at| [m.x[from + at], m.v[from + at], m.a[from + at]]);
+        let exit = far.exit(swivel, &self.post_motion(far, m));
+        m.put(self.of_rope(i).end - 3, &exit);
+    }
+
+    /// Motion of the support of a far end.
+    fn post_motion(&self, far: &FarEnd, m: &MotionNumbers) -> ExitMotion {
+        far.support.map_or([Vec3::zeros(); 3], |post| m.point(Self::of_post(post.index).start))
+    }
+
+    /// Commanded lengths of all ropes at a time.
     pub(super) fn lengths(&self, time: f64) -> Vec<WoundLength> {
         self.windings.iter().map(|winding| winding.at(time)).collect()
+    }
+
+    /// Free unstrained length of rope `i`, whose commanded length is `given`.
+    #[inline]
+    pub(super) fn free_length(&self, i: usize, given: &WoundLength, m: &MotionNumbers) -> WoundLength {
+        let far = self.far_ends[i].as_ref();
+        let Some(at) = far.and_then(|far| far.places().feed) else { return *given };
+        let at = self.of_far_end(i).start + at;
+        WoundLength { value: m.x[at], rate: m.v[at], acceleration: m.a[at] }
+    }
+
+    /// Unstrained length of rope `i` from the platform to the drum.
+    pub(super) fn whole_length(&self, i: usize, given: &WoundLength, m: &MotionNumbers) -> WoundLength {
+        let Some(far) = &self.far_ends[i] else { return *given };
+        let range = self.of_far_end(i);
+        far.whole(*given, [&m.x[range.clone()], &m.v[range.clone()], &m.a[range]], self.free_length(i, given, m))
+    }
+
+    /// What the forces at a far end depend on. `needed` has the forces of the rope's nodes.
+    pub(super) fn far_state<'a>(
+        &'a self,
+        i: usize,
+        time: f64,
+        given: &WoundLength,
+        m: &'a MotionNumbers,
+        needed: &[f64],
+    ) -> FarState<'a> {
+        let (range, z, free) = (self.of_rope(i), self.of_far_end(i), self.free_length(i, given, m));
+        let rope = &self.ropes[i];
+        let slope_w = rope.slope_at_end(&free, &m.x[range.clone()]);
+        let post = self.far_ends[i].as_ref().and_then(|far| far.support);
+        FarState {
+            rope,
+            time,
+            given: *given,
+            free,
+            z: [&m.x[z.clone()], &m.v[z.clone()], &m.a[z]],
+            post_w: post.map_or_else(Vec3::zeros, |post| three(&m.x, Self::of_post(post.index).start)),
+            node_w: three(needed, range.end - 3),
+            velocity_w: three(&m.v, range.end - 3),
+            slope_w,
+        }
+    }
+
+    /// Forces at the far end of rope `i`; `None` for one that stays where it is.
+    pub(super) fn far_forces(
+        &self,
+        i: usize,
+        time: f64,
+        given: &WoundLength,
+        m: &MotionNumbers,
+        needed: &[f64],
+    ) -> Option<FarForces> {
+        let far = self.far_ends[i].as_ref()?;
+        Some(far.forces(&self.far_state(i, time, given, m, needed)))
     }
 
     /// Forces that the motion needs, in a row of numbers: zero where the motion is right, at the ends of the ropes what
@@ -137,138 +249,55 @@ impl System {
         self.evaluations += 1;
         out.fill(0.0);
         let mut on_body = self.body.needed(time, &self.air.on_body(time), body);
+        for (index, post) in self.posts.iter().enumerate() {
+            let [place, velocity, acceleration] = m.point(Self::of_post(index).start);
+            let force_w = post.stiffness_w * (place + velocity * post.damping_time) + acceleration * post.mass;
+            out[Self::of_post(index)].copy_from_slice(force_w.as_slice());
+        }
         for (i, rope) in self.ropes.iter().enumerate() {
             if self.ends[i] == RopeEnd::Gone {
                 continue;
             }
             let range = self.of_rope(i);
             let wind = self.air.on_rope(i, time);
-            let out = &mut out[range.clone()];
-            rope.needed(&lengths[i], &wind, &m.x[range.clone()], &m.v[range.clone()], &m.a[range], out);
+            let of_rope = &mut out[range.clone()];
+            let free = self.free_length(i, &lengths[i], m);
+            rope.needed(&free, &wind, &m.x[range.clone()], &m.v[range.clone()], &m.a[range], of_rope);
             if self.ends[i] == RopeEnd::Attached {
-                on_body += MovingBody::wrench(body, &self.body.lever_p(i), &three(out, 0));
+                on_body += MovingBody::wrench(body, &self.body.lever_p(i), &three(of_rope, 0));
             }
+            self.needed_at_far_end(i, time, &lengths[i], m, out);
         }
         out[..BODY].copy_from_slice(on_body.as_slice());
     }
-}
 
-/// Factored Newton matrix of the system: the ropes, and the platform behind them.
-pub(super) struct Arrow {
-    factors: Vec<Skyline>,
-    /// Stiffness of each attached end as the platform meets it.
-    complements: Vec<Mat3>,
-    /// Translation of each attached end for a turn of the platform, `−R [a]×`.
-    turns: Vec<Mat3>,
-    /// Inverse of the matrix of the platform's coordinates.
-    inverse: Mat6,
-    /// Work space: right-hand sides of the ropes in the order of their rows.
-    rows: Vec<Vec<f64>>,
-}
-
-impl Arrow {
-    pub(super) fn new(system: &System) -> Self {
-        let shape = |rope: &RopeMesh| Skyline::zeros(Profile3::new(rope.elements, rope.basis.degree));
-        Self {
-            factors: system.ropes.iter().map(shape).collect(),
-            complements: vec![Mat3::zeros(); system.ropes.len()],
-            turns: vec![Mat3::zeros(); system.ropes.len()],
-            inverse: Mat6::identity(),
-            rows: system.ropes.iter().map(|rope| vec![0.0; rope.size() - 3]).collect(),
+    fn needed_at_far_end(&self, i: usize, time: f64, given: &WoundLength, m: &MotionNumbers, out: &mut [f64]) {
+        let Some(far) = &self.far_ends[i] else { return };
+        let (places, from) = (far.places(), self.of_far_end(i).start);
+        let forces = far.forces(&self.far_state(i, time, given, m, out));
+        if let Some(at) = places.swivel {
+            out[from + at] = forces.swivel;
         }
-    }
-
-    /// Factors the Newton matrix at a motion, whose needed forces are `needed`.
-    ///
-    /// # References
-    /// docs/theory.md, equations (97h) and (97i).
-    pub(super) fn factor(
-        &mut self,
-        system: &System,
-        time: f64,
-        lengths: &[WoundLength],
-        m: &MotionNumbers,
-        needed: &[f64],
-        of: Newton,
-    ) -> Result<(), NotPositive> {
-        let body = system.body_motion(m);
-        let mut matrix = system.body.matrix(&body, of.mass, of.damping, of.stiffness);
-        for (i, rope) in system.ropes.iter().enumerate() {
-            let (range, end) = (system.of_rope(i), system.ends[i]);
-            if end == RopeEnd::Gone {
-                continue;
+        if let (Some(feed), Some(at)) = (&far.feed, places.feed) {
+            let (range, free) = (self.of_rope(i), self.free_length(i, given, m));
+            let wind = self.air.on_rope(i, time);
+            let entry_w = far.entry_w + self.post_motion(far, m)[0];
+            let of_rope = [&m.x[range.clone()], &m.v[range.clone()], &m.a[range]];
+            let scale = feed.stretch * feed.stretch;
+            for (j, (needed, mass)) in forces.feed.needed.iter().zip(&feed.masses).enumerate() {
+                out[from + at + j] = needed + scale * mass * m.a[from + at + j];
             }
-            let wind = system.air.on_rope(i, time);
-            let factor = &mut self.factors[i];
-            rope.assemble(&lengths[i], &wind, &m.x[range.clone()], &m.v[range.clone()], of, factor);
-            let complement = factor.factor(end == RopeEnd::Attached)?;
-            if end == RopeEnd::Free {
-                continue;
-            }
-
-            let lever = system.body.lever_p(i);
-            let turn = -body.rot_wp * skew(&lever);
-            let by_turn = complement * turn;
-            let force_p = body.rot_wp.transpose() * three(needed, range.start);
-            let mut add = |row, column, block: &Mat3| {
-                let mut view = matrix.fixed_view_mut::<3, 3>(row, column);
-                view += block;
-            };
-            add(0, 0, &complement);
-            add(0, 3, &by_turn);
-            add(3, 0, &by_turn.transpose());
-            add(3, 3, &(turn.transpose() * by_turn + skew(&lever) * skew(&force_p) * of.stiffness));
-            self.complements[i] = complement;
-            self.turns[i] = turn;
-        }
-        self.inverse = inverse6(&system.body.reduced_matrix(&matrix)).ok_or(NotPositive)?;
-        Ok(())
-    }
-
-    /// Correction of the velocities that takes the needed forces to zero, written over them.
-    pub(super) fn solve(&mut self, system: &System, needed: &mut [f64]) {
-        let mut on_body = six(needed);
-        for (i, rope) in system.ropes.iter().enumerate() {
-            let end = system.ends[i];
-            if end == RopeEnd::Gone {
-                continue;
-            }
-            let (from, free) = (system.offsets[i], rope.last());
-            let rows = &mut self.rows[i];
-            for node in 0..free {
-                let row = 3 * (free - 1 - node);
-                rows[row..row + 3].copy_from_slice(&needed[from + 3 * node..from + 3 * node + 3]);
-            }
-            let passed = self.factors[i].forward(rows);
-            if end == RopeEnd::Attached {
-                on_body -= joined(&passed, &self.turns[i].tr_mul(&passed));
+            out[from + at] += self.ropes[i].needed_by_length(&free, &wind, of_rope, &entry_w);
+            if let Some(integral) = places.integral {
+                // Its acceleration is the rate of the error.
+                let last = from + at + feed.count() - 1;
+                out[from + integral] = m.a[from + integral] - (m.v[last] - given.rate);
             }
         }
-
-        let move_of_body = -system.body.expanded(&(self.inverse * system.body.reduced(&on_body)));
-        let (translation, turn) = halves(&move_of_body);
-        needed[..BODY].copy_from_slice(move_of_body.as_slice());
-        for (i, rope) in system.ropes.iter().enumerate() {
-            let end = system.ends[i];
-            let (from, free) = (system.offsets[i], rope.last());
-            if end == RopeEnd::Gone {
-                needed[from..from + rope.size()].fill(0.0);
-                continue;
+        if let Some(post) = far.support {
+            for (out, force) in out[Self::of_post(post.index)].iter_mut().zip(forces.post_w.iter()) {
+                *out += force;
             }
-            let of_end = translation + self.turns[i] * turn;
-            let rows = &mut self.rows[i];
-            // `backward` subtracts; the correction has the opposite sign of the right-hand side.
-            self.factors[i].backward(rows, &if end == RopeEnd::Attached { -of_end } else { Vec3::zeros() });
-            for node in 0..free {
-                let row = 3 * (free - 1 - node);
-                for axis in 0..3 {
-                    needed[from + 3 * node + axis] = -rows[row + axis];
-                }
-            }
-            if end == RopeEnd::Attached {
-                needed[from..from + 3].copy_from_slice(of_end.as_slice());
-            }
-            needed[from + 3 * free..from + 3 * free + 3].fill(0.0);
         }
     }
 }

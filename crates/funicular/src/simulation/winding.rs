@@ -134,7 +134,7 @@ impl Change {
 }
 
 /// Smooth step and its derivatives over x in [0, 1].
-fn ramp(x: f64) -> [f64; 3] {
+pub(super) fn ramp(x: f64) -> [f64; 3] {
     let rest = 1.0 - x;
     [x * x * x * (10.0 - x * (15.0 - 6.0 * x)), 30.0 * x * x * rest * rest, 60.0 * x * rest * (1.0 - 2.0 * x)]
 }

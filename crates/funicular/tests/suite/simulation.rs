@@ -1,5 +1,6 @@
 //! Simulation: histories of independent methods, closed forms, orders of convergence, books of the energy.
 
+mod drives;
 mod small_motion;
 
 use funicular::math::{Mat3, Vec3};
