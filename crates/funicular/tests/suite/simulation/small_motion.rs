@@ -244,7 +244,7 @@ fn a_small_swing_of_a_length_gives_the_frequency_response() {
         let values: Vec<f64> = found.iter().map(value).collect();
         let (mean, most) = (values[0], values.iter().fold(0.0_f64, |most, x| most.max(x.abs())));
         let values: Vec<f64> = values.iter().map(|x| x - mean).collect();
-        let (a, b) = fitted(&times, &values, &lambdas)[0];
+        let (a, _) = fitted(&times, &values, &lambdas)[0];
         // The command is −size e^{iωt} beside a constant, and phases count from the first sample.
         let ours = a / (Complex::new(0.0, omega * times[0]).exp() * -size);
         let exact = response::between(&dynamics, &[frequency_hz], &ports[0], port, Quantity::Displacement).unwrap()[0];
