@@ -3,7 +3,6 @@
 use super::dense::DenseOutput;
 use super::rope::WoundLength;
 use super::system::{MotionNumbers, RopeEnd, System};
-use crate::math::Vec3;
 
 /// Energy of platform and ropes [J], and the work done on them since the start.
 ///
@@ -91,10 +90,9 @@ impl System {
                 continue;
             }
             let range = self.of_rope(i);
-            let anchor = Vec3::from_column_slice(&needed[range.end - 3..range.end]);
             let wind = self.air.on_rope(i, time);
             let free = self.free_length(i, &lengths[i], m);
-            let mut of = rope.energy(&free, &wind, &m.x[range.clone()], &m.v[range], &anchor);
+            let mut of = rope.energy(&free, &wind, [&m.x[range.clone()], &m.v[range.clone()], &m.a[range]]);
             if let Some(far) = &self.far_ends[i] {
                 let behind = far.energy(&self.far_state(i, time, &lengths[i], m, needed));
                 of = of.with_far_end(&behind, far.feed.is_some());

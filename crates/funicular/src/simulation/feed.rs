@@ -15,9 +15,9 @@ const ROD_PIECES: usize = 6;
 /// Geometric length of a piece below which it counts as this long [m]: a piece of no length has no stiffness, and its
 /// stretch of a thousandth would be 1e-7 m.
 const MIN_PIECE: f64 = 1e-4;
-/// Time constant of the slow integral action of a servo, in radians of its bandwidth: it leaves no error at rest and
-/// changes frequencies by some 1/20² only.
-const INTEGRAL_RADIANS: f64 = 20.0;
+/// Time constant of the slow integral action of a servo, in radians of its bandwidth: it leaves no error at rest, and a
+/// mode at a tenth of the bandwidth sees a hundredth of it.
+const INTEGRAL_RADIANS: f64 = 1000.0;
 
 /// Piece between two stations, or between the last one and what holds it.
 #[derive(Debug, Clone, Copy, PartialEq)]

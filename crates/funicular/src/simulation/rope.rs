@@ -304,10 +304,21 @@ impl RopeMesh {
         [x, v, a]: [&[f64]; 3],
         entry_w: &Vec3,
     ) -> f64 {
+        let of_end = self.of_element(self.elements - 1);
+        let (x_end, v_end, q) = (&x[of_end.clone()], &v[of_end], self.basis.degree);
+        let velocity = self.velocity(length, self.elements - 1, q, x_end, v_end);
+        let x_slope = along(self.basis.at_node(q), x_end) * self.elements as f64;
+        let passing = self.mass * (length.rate / length.value * velocity.dot(&x_slope) + 0.5 * velocity.norm_squared());
+        self.length_force(length, winds, [x, v, a], entry_w) + passing
+    }
+
+    /// Force conjugate to the unstrained length [N] of the rope as a whole, with what enters at the anchor: its product
+    /// with the rate is the power that comes in there. Heights count from `entry_w`.
+    fn length_force(&self, length: &WoundLength, winds: &[Wind], [x, v, a]: [&[f64]; 3], entry_w: &Vec3) -> f64 {
         let count = self.elements as f64;
         let ratio = length.rate / length.value;
         let change = length.acceleration / length.value - ratio * ratio;
-        let (mut sum, mut passing) = (0.0, 0.0);
+        let mut sum = 0.0;
         for e in 0..self.elements {
             let nodes = self.of_element(e);
             let (x, v, a) = (&x[nodes.clone()], &v[nodes.clone()], &a[nodes]);
@@ -327,19 +338,14 @@ impl RopeMesh {
                     lost -= self.drag(wind_at(winds, e), q, x, &velocity);
                 }
                 sum -= part * sigma * lost.dot(&x_slope);
-                if e + 1 == self.elements && q == self.basis.degree {
-                    let rate = velocity;
-                    passing = self.mass * (length.rate / length.value * rate.dot(&x_slope) + 0.5 * rate.norm_squared());
-                }
             }
             for g in 0..self.basis.degree {
                 let Stretch { ratio, tension, .. } = self.stretch(length, g, x, v);
                 let strain = (ratio - 1.0).max(0.0);
-                sum += self.basis.gauss_weights[g] / count
-                    * (0.5 * self.stiffness * strain * strain - tension * ratio);
+                sum += self.basis.gauss_weights[g] / count * (0.5 * self.stiffness * strain * strain - tension * ratio);
             }
         }
-        sum + passing
+        sum
     }
 
     /// Border of the Newton matrix for a rope whose far end moves and through which rope passes, written to `border`.
@@ -472,11 +478,12 @@ impl RopeMesh {
         force + flux * (1.0 + force / self.stiffness)
     }
 
-    /// Energies and powers; `anchor` is the force that the anchor exerts on the rope.
+    /// Energies and powers. The power of the winch is that of the mesh, so that the books of a coarse mesh, of slack rope
+    /// and of rope that runs out fast balance as well.
     ///
     /// # References
     /// docs/theory.md, equation (97g).
-    pub(super) fn energy(&self, length: &WoundLength, winds: &[Wind], x: &[f64], v: &[f64], anchor: &Vec3) -> RopeEnergy {
+    pub(super) fn energy(&self, length: &WoundLength, winds: &[Wind], [x, v, a]: [&[f64]; 3]) -> RopeEnergy {
         let mut energy = RopeEnergy::default();
         let count = self.elements as f64;
         let share = length.value / count;
@@ -504,12 +511,11 @@ impl RopeMesh {
             }
         }
 
-        let tension = self.anchor_tension(length, anchor);
-        let ratio = 1.0 + tension / self.stiffness;
-        let rate = length.rate;
-        energy.winch = -rate * (tension + 0.5 * tension * tension / self.stiffness)
-            + 0.5 * self.mass * ratio * ratio * rate.powi(3)
-            - rate * self.mass * self.gravity_w.dot(&at(x, self.last()));
+        if length.rate != 0.0 {
+            let anchor_w = at(x, self.last());
+            let force = self.length_force(length, winds, [x, v, a], &anchor_w);
+            energy.winch = length.rate * (force - self.mass * self.gravity_w.dot(&anchor_w));
+        }
         energy
     }
 }

@@ -104,8 +104,8 @@ pub enum SimulationError {
     NotElastic,
     /// The start is no stable equilibrium of the mesh.
     #[error(
-        "the equilibrium at the start is not stable, or a cable carries nothing there: begin at a pose that the cables \
-         hold with tension"
+        "the equilibrium at the start is not stable, or a cable carries nothing there, or its mesh is too coarse for its \
+         sag: begin at a pose that the cables hold with tension, or give more elements"
     )]
     NoRest,
     /// The damping ratio of ropes has no frequency.
@@ -310,7 +310,8 @@ fn let_go(robot: &Robot, stepper: &mut Stepper, holds_tension: &dyn Fn(usize) ->
 /// Nodes on the curves of the cables at rest, and what lies behind them.
 fn hanging(robot: &Robot, system: &System, rest: &Equilibrium) -> Result<MotionNumbers, SimulationError> {
     let mut motion = MotionNumbers::zeros(system.size);
-    let put = |motion: &mut MotionNumbers, from: usize, at: &Vec3| motion.x[from..from + 3].copy_from_slice(at.as_slice());
+    let put =
+        |motion: &mut MotionNumbers, from: usize, at: &Vec3| motion.x[from..from + 3].copy_from_slice(at.as_slice());
     put(&mut motion, 0, &rest.pose.point_w(&system.body.center_p));
     for (i, rope) in system.ropes.iter().enumerate() {
         let hanging = rest.cables[i].hanging.as_ref().ok_or(SimulationError::NotElastic)?;

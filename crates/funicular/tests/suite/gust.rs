@@ -12,6 +12,7 @@ use funicular::response::{self, Quantity, Signal};
 use funicular::robot::{
     Damping, MeasuredSpectrum, MeasuredSpectrumError, Robot, StretchLoss, Turbulence, TurbulenceSpectrum, Wind,
 };
+use funicular::simulation::{ElementMesh, Simulation, SimulationSettings};
 use funicular::statics::{self, Equilibrium, StaticModel};
 
 /// Gusts of a robot whose file says nothing about wind.
@@ -462,4 +463,38 @@ fn the_variance_by_modes_is_the_integral_over_their_bands() {
     let inner: f64 = (1..steps).map(density).sum();
     let expected = (0.5 * (density(0) + density(steps)) + inner) * (to - from) / f64::from(steps);
     assert!((spectra.by_mode[0][k] / expected - 1.0).abs() < 1e-3, "{} {expected}", spectra.by_mode[0][k]);
+}
+
+/// Gusts drawn in time have the root mean squares of the spectra, within the error of a sample of this length.
+#[test]
+fn gusts_in_time_have_the_spectral_response() {
+    let mut windy = stadium();
+    windy.turbulence.intensity = windy.turbulence.intensity.map(|of| 0.3 * of);
+    let outputs = [Vec3::x(), Vec3::y(), Vec3::z()].map(along);
+    let spectra = windy.spectra(&outputs);
+    let (robot, rest, _) = windy.at_rest();
+
+    let (duration, seeds) = (240.0, 3);
+    let mut squares = [0.0_f64; 3];
+    for seed in 0..seeds {
+        let settings = SimulationSettings {
+            mesh: ElementMesh { elements: 2, degree: 5 },
+            tolerance: 1e-5,
+            gust_seed: Some(seed),
+            ..SimulationSettings::default()
+        };
+        let mut simulation = Simulation::new(&robot, &rest, &[], duration, &settings).unwrap();
+        let samples: Vec<Vec3> =
+            (400..2400).map(|k| simulation.at(0.1 * f64::from(k)).unwrap().pose.position_w).collect();
+        let mean = samples.iter().sum::<Vec3>() / samples.len() as f64;
+        for (axis, square) in squares.iter_mut().enumerate() {
+            let of: f64 = samples.iter().map(|at| (at[axis] - mean[axis]).powi(2)).sum();
+            *square += of / (samples.len() as f64 * f64::from(seeds as u32));
+        }
+    }
+    for (axis, square) in squares.iter().enumerate() {
+        let ratio = square.sqrt() / spectra.moments[axis].rms();
+        println!("{axis}: {ratio}");
+        assert!((ratio - 1.0).abs() < 0.2, "{axis}: {ratio}");
+    }
 }

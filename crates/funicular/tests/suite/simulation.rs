@@ -1,6 +1,8 @@
 //! Simulation: histories of independent methods, closed forms, orders of convergence, books of the energy.
 
 mod drives;
+mod scenarios;
+mod small_motion;
 
 use funicular::math::{Mat3, Vec3};
 use funicular::robot::{Damping, Robot, State};

@@ -32,10 +32,10 @@ const BARS_ERROR: f64 = 1e-4;
 /// Robots if the variable is not set: some of every kind.
 const FEW: Range<u64> = 0..60;
 
-fn asked() -> Range<u64> {
-    let Ok(text) = std::env::var("FUNICULAR_RANDOM_ROBOTS") else { return FEW };
-    let number =
-        |part: &str| part.trim().parse().unwrap_or_else(|_| panic!("FUNICULAR_RANDOM_ROBOTS={text}: 2000 or 137..138"));
+/// Numbers that an environment variable asks for, or a few.
+pub(crate) fn asked(variable: &str, few: Range<u64>) -> Range<u64> {
+    let Ok(text) = std::env::var(variable) else { return few };
+    let number = |part: &str| part.trim().parse().unwrap_or_else(|_| panic!("{variable}={text}: 2000 or 137..138"));
     match text.split_once("..") {
         Some((from, to)) => number(from)..number(to),
         None => 0..number(&text),
@@ -78,7 +78,7 @@ struct Tally {
 #[test]
 fn every_random_robot_is_certified_or_refused_and_agrees_with_its_bars() {
     let mut tally = Tally::default();
-    let asked = asked();
+    let asked = asked("FUNICULAR_RANDOM_ROBOTS", FEW);
     let started = std::time::Instant::now();
     for index in asked.clone() {
         let sample = robots::sample(index);
