@@ -1,17 +1,20 @@
 //! `simulate`: scenario, text and CSV. A run that is killed leaves the rows so far beside its file.
 
-use crate::args::{Cli, SimulateArgs};
+use super::result_files::{OtherFile, ResultFiles};
+use crate::args::{Cli, DrawArgs, OutputArgs, SimulateArgs};
 use crate::number_table;
-use crate::output::{Printed, Sink};
+use crate::output::{FigureSink, Printed};
 use crate::progress::TerminalProgress;
 use crate::table::{Table, counted, significant};
 use anyhow::{Context, Result, anyhow};
 use funicular_files::Guard;
 use funicular_files::endings::Kind;
+use funicular_pages::figures;
 use funicular_study::Cancelled;
 use funicular_study::analyses::simulate::{self, ColumnError, Peak, Simulated, SimulatedRow};
 use funicular_study::columns::ResultTable;
 use funicular_study::request::{Request, SimulateRequest};
+use funicular_study::wording::{Words, worded};
 use serde_json::{Map, Value};
 use std::fmt::Write as _;
 use std::fs::{self, File};
@@ -47,14 +50,32 @@ pub(super) fn run(of: &SimulateRequest, args: &SimulateArgs, guard: &mut Guard) 
     }
     // Errors of the robot file are reported before errors of the destination.
     let robot = of.robot.read()?.robot;
-    let sink = Sink::open(&args.sink, &[], guard)?;
-    let names: Vec<String> = robot.cables.iter().map(|cable| cable.name.clone()).collect();
-    let mut partial = PartialRows::beside(args.sink.output_file.as_deref(), names)?;
+    let DrawArgs { output, figure } = &args.drawn;
+    let path = output.output_file.as_deref().filter(|_| output.format.is_none());
+    let drawn = FigureSink::open(path, *figure, guard)?;
+    // With a figure the result is printed.
+    let output_file = output.output_file.clone().filter(|_| drawn.is_none());
+    let printed = OutputArgs { format: output.format, output_file };
+    let animation = OtherFile::animation(args.animation.as_deref());
+    let files = ResultFiles::open(&printed, animation, args.page.as_deref(), guard)?;
+    let cables: Vec<String> = robot.cables.iter().map(|cable| cable.name.clone()).collect();
+    let points: Vec<String> = of.point.iter().map(|point| point.name.clone()).collect();
+    let mut partial = PartialRows::beside(printed.output_file.as_deref(), cables, points)?;
 
     let mut watch = TerminalProgress::new();
     let found = simulate::run_with(robot, of, &mut watch, &mut |row| partial.add(row))?;
     drop(watch);
-    sink.write(&found)?;
+    if let Some(drawn) = drawn {
+        drawn.write(&figures::of_simulation(&found))?;
+    }
+    files.write(
+        &found,
+        || Ok(figures::animation_of_simulation(&found).into_bytes()),
+        || {
+            let page = funicular_pages::pages::simulate::page(&found, super::page::command_line()?)?;
+            Ok(worded(&page, Words::Program))
+        },
+    )?;
     partial.remove();
     if found.stopped_at_s.is_some() { Err(Cancelled.into()) } else { Ok(()) }
 }
@@ -63,12 +84,13 @@ pub(super) fn run(of: &SimulateRequest, args: &SimulateArgs, guard: &mut Guard) 
 struct PartialRows {
     file: Option<(BufWriter<File>, PathBuf)>,
     cables: Vec<String>,
+    points: Vec<String>,
     has_header: bool,
     flushed: Instant,
 }
 
 impl PartialRows {
-    fn beside(path: Option<&Path>, cables: Vec<String>) -> Result<Self> {
+    fn beside(path: Option<&Path>, cables: Vec<String>, points: Vec<String>) -> Result<Self> {
         let path = path.filter(|path| Kind::of(path) == Some(Kind::Csv));
         let file = path
             .map(|path| {
@@ -79,12 +101,12 @@ impl PartialRows {
                 anyhow::Ok((BufWriter::new(file), path))
             })
             .transpose()?;
-        Ok(Self { file, cables, has_header: false, flushed: Instant::now() })
+        Ok(Self { file, cables, points, has_header: false, flushed: Instant::now() })
     }
 
     fn add(&mut self, row: &SimulatedRow) -> Result<()> {
         let Some((file, path)) = &mut self.file else { return Ok(()) };
-        let csv = crate::output::as_csv(ResultTable::new(SimulatedRow::columns(&self.cables), [row]))?;
+        let csv = crate::output::as_csv(ResultTable::new(SimulatedRow::columns(&self.cables, &self.points), [row]))?;
         let from =
             if self.has_header { csv.iter().position(|byte| *byte == b'\n').map_or(0, |end| end + 1) } else { 0 };
         self.has_header = true;
@@ -109,7 +131,7 @@ impl PartialRows {
 
 impl Printed for Simulated {
     fn text(&self) -> String {
-        let columns = SimulatedRow::columns(&self.cables);
+        let columns = SimulatedRow::columns(&self.cables, &self.points);
         let step = self.rows.len().div_ceil(SHOWN).max(1);
         let shown = self.rows.iter().step_by(step);
         let table = Table::of(&columns, shown.clone());

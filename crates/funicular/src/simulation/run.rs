@@ -12,8 +12,9 @@ use crate::math::{Rotation, Vec3, Vec6};
 use crate::robot::{Pose, Robot};
 use crate::statics::Equilibrium;
 
-/// Tension below which a cable counts as slack [N].
-const SLACK: f64 = 0.5;
+mod picture;
+
+const SLACK: f64 = SlackCable::TENSION;
 
 /// One cable at one time.
 #[derive(Debug, Clone, Copy, PartialEq)]
