@@ -1,10 +1,11 @@
-// Moves a robot in its figure: by the time of a slider, or over time, with the speed of a selection if there is one. The
+// Moves a robot in its figure: by the time of a slider, or over time, with the speed and the enlargement of
+// selections if there are any. The
 // event "motion" of the document has the time that is shown.
 (async function () {
   "use strict";
   const panel = document.getElementById("motion-time");
   const [button, slider, output] = ["button", "input", "output"].map(function (name) { return panel.querySelector(name); });
-  const speed = panel.querySelector("select");
+  const [speed, enlargement] = ["speed", "enlargement"].map(function (name) { return panel.querySelector("[name=" + name + "]"); });
   const moving = JSON.parse(document.getElementById("motion-frames").textContent);
   const place = document.getElementById("figure-robot-plot");
   const figure = JSON.parse(document.querySelector('script[data-plot="figure-robot-plot"]').textContent);
@@ -15,8 +16,12 @@
 
   // Coordinates of a frame in the traces that move.
   function show(number) {
+    const factor = enlargement ? Number(enlargement.value) : 1;
     moving.traces.forEach(function (trace, k) {
-      const [x, y, z] = moving.frames[number][k];
+      const [x, y, z] = moving.frames[number][k].map(function (axis, i) {
+        const start = moving.frames[0][k][i];
+        return axis.map(function (value, at) { return start[at] + factor * (value - start[at]); });
+      });
       figure.data[trace] = Object.assign({}, figure.data[trace], { x: x, y: y, z: z });
     });
     output.textContent = moving.times[number].toFixed(decimals) + " s";
@@ -26,6 +31,7 @@
     return page.show(place, figure.data.slice(), layout);
   }
 
+  if (enlargement) { enlargement.addEventListener("change", function () { show(Number(slider.value)); }); }
   let playing = false;
   function stop() {
     playing = false;

@@ -149,6 +149,14 @@ pub(crate) struct SimulateArgs {
     #[command(flatten)]
     pub(crate) drawn: DrawArgs,
 
+    /// Continue after the rows in FILE.csv.partial of the same request, beside -o FILE.csv; start if there are none
+    #[arg(long, requires = "output_file", conflicts_with_all = ["discard", "page", "animation"], help_heading = "Output")]
+    pub(crate) resume: bool,
+
+    /// Discard the rows in FILE.csv.partial and start again
+    #[arg(long, requires = "output_file", help_heading = "Output")]
+    pub(crate) discard: bool,
+
     /// Write the moving robot as an animated drawing to FILE.svg, which any browser shows in true time
     #[arg(long, value_name = "FILE.svg", help_heading = "Output")]
     pub(crate) animation: Option<PathBuf>,

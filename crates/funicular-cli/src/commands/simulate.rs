@@ -1,5 +1,7 @@
 //! `simulate`: scenario, text and CSV. A run that is killed leaves the rows so far beside its file.
 
+mod partial;
+
 use super::result_files::{OtherFile, ResultFiles};
 use crate::args::{Cli, DrawArgs, OutputArgs, SimulateArgs};
 use crate::number_table;
@@ -8,25 +10,19 @@ use crate::progress::TerminalProgress;
 use crate::table::{Table, counted, significant};
 use anyhow::{Context, Result, anyhow};
 use funicular_files::Guard;
-use funicular_files::endings::Kind;
 use funicular_pages::figures;
 use funicular_study::Cancelled;
 use funicular_study::analyses::simulate::{self, ColumnError, Peak, Simulated, SimulatedRow};
-use funicular_study::columns::ResultTable;
 use funicular_study::request::{Request, SimulateRequest};
 use funicular_study::wording::{Words, worded};
+use partial::{Interrupted, PartialRows};
 use serde_json::{Map, Value};
 use std::fmt::Write as _;
-use std::fs::{self, File};
-use std::io::{BufWriter, Write};
-use std::path::{Path, PathBuf};
-use std::time::{Duration, Instant};
+use std::fs;
+use std::path::Path;
 
 /// Rows that the table shows.
 const SHOWN: usize = 21;
-
-/// Time after which rows that are ready are on the disk.
-const FLUSH: Duration = Duration::from_secs(1);
 
 /// Request of a simulation. Errors of its scenario name the file.
 pub(super) fn request(cli: &Cli, further: Map<String, Value>) -> Result<Request> {
@@ -59,11 +55,15 @@ pub(super) fn run(of: &SimulateRequest, args: &SimulateArgs, guard: &mut Guard) 
     let animation = OtherFile::animation(args.animation.as_deref());
     let files = ResultFiles::open(&printed, animation, args.page.as_deref(), guard)?;
     let cables: Vec<String> = robot.cables.iter().map(|cable| cable.name.clone()).collect();
-    let points: Vec<String> = of.point.iter().map(|point| point.name.clone()).collect();
-    let mut partial = PartialRows::beside(printed.output_file.as_deref(), cables, points)?;
+    let interrupted = match (args.resume, args.discard) {
+        (true, _) => Interrupted::Resume,
+        (_, true) => Interrupted::Discard,
+        _ => Interrupted::Refuse,
+    };
+    let (mut partial, begun) = PartialRows::beside(printed.output_file.as_deref(), of, cables, interrupted)?;
 
     let mut watch = TerminalProgress::new();
-    let found = simulate::run_with(robot, of, &mut watch, &mut |row| partial.add(row))?;
+    let found = simulate::run_with(robot, of, &mut watch, &mut partial, begun)?;
     drop(watch);
     if let Some(drawn) = drawn {
         drawn.write(&figures::of_simulation(&found))?;
@@ -78,55 +78,6 @@ pub(super) fn run(of: &SimulateRequest, args: &SimulateArgs, guard: &mut Guard) 
     )?;
     partial.remove();
     if found.stopped_at_s.is_some() { Err(Cancelled.into()) } else { Ok(()) }
-}
-
-/// Rows of a run that has not ended, in FILE.csv.partial.
-struct PartialRows {
-    file: Option<(BufWriter<File>, PathBuf)>,
-    cables: Vec<String>,
-    points: Vec<String>,
-    has_header: bool,
-    flushed: Instant,
-}
-
-impl PartialRows {
-    fn beside(path: Option<&Path>, cables: Vec<String>, points: Vec<String>) -> Result<Self> {
-        let path = path.filter(|path| Kind::of(path) == Some(Kind::Csv));
-        let file = path
-            .map(|path| {
-                let mut name = path.as_os_str().to_owned();
-                name.push(".partial");
-                let path = PathBuf::from(name);
-                let file = File::create(&path).with_context(|| format!("cannot write {}", path.display()))?;
-                anyhow::Ok((BufWriter::new(file), path))
-            })
-            .transpose()?;
-        Ok(Self { file, cables, points, has_header: false, flushed: Instant::now() })
-    }
-
-    fn add(&mut self, row: &SimulatedRow) -> Result<()> {
-        let Some((file, path)) = &mut self.file else { return Ok(()) };
-        let csv = crate::output::as_csv(ResultTable::new(SimulatedRow::columns(&self.cables, &self.points), [row]))?;
-        let from =
-            if self.has_header { csv.iter().position(|byte| *byte == b'\n').map_or(0, |end| end + 1) } else { 0 };
-        self.has_header = true;
-        let cannot = || format!("cannot write {}", path.display());
-        file.write_all(&csv[from..]).with_context(cannot)?;
-        if self.flushed.elapsed() > FLUSH {
-            file.flush().with_context(cannot)?;
-            self.flushed = Instant::now();
-        }
-        Ok(())
-    }
-
-    /// Removes the file after the whole result has been written.
-    fn remove(self) {
-        if let Some((file, path)) = self.file {
-            drop(file);
-            // The result is complete; a file that stays does no harm.
-            let _ = fs::remove_file(path);
-        }
-    }
 }
 
 impl Printed for Simulated {

@@ -7,6 +7,7 @@ use anyhow::Context as _;
 use askama::Template;
 use funicular::modes::Kind;
 use funicular_study::analyses::simulate::{ColumnError, MotionSpectrum, Peak, Simulated, SimulatedRow, SlackSpan};
+use funicular_study::text::short;
 use serde_json::{Value, json};
 
 const CONTENTS: &[(&str, &str)] = &[
@@ -32,6 +33,8 @@ struct SimulatePage<'a> {
     robot: PageFigure,
     frames: String,
     last_frame: usize,
+    /// Factor of the drawn displacements; 1 if they are seen as they are.
+    enlargement: f64,
     scripts: [&'static str; 2],
     pose: Vec<PageFigure>,
     tensions: Vec<PageFigure>,
@@ -54,15 +57,16 @@ pub fn page(found: &Simulated, command_line: String) -> anyhow::Result<String> {
         shell: Shell::new(format!("{}: motion in time", found.robot), CONTENTS),
         summary: format!(
             "{} s, {} elements of degree {} in each rope, tolerance {} m.",
-            significant(found.rows.last().map_or(0.0, |row| row.t_s), 5),
+            short(found.rows.last().map_or(0.0, |row| row.t_s), 5),
             found.elements,
             found.degree,
-            significant(found.tolerance_m, 3)
+            short(found.tolerance_m, 3)
         ),
         error: found.error_in_words(),
         happened: happened(found),
         robot: figure,
         frames: frames.to_string(),
+        enlargement: found.picture.enlargement(),
         last_frame: found.picture.frames.len() - 1,
         scripts: [include_str!("../../templates/trajectory.js"), include_str!("../../templates/simulate.js")],
         pose: pose(found),
@@ -83,8 +87,8 @@ pub fn page(found: &Simulated, command_line: String) -> anyhow::Result<String> {
 /// Sentences on what happened.
 fn happened(found: &Simulated) -> Vec<String> {
     let marks = found.picture.marks.iter().map(|mark| match mark.until_s {
-        Some(until) => format!("{} to {} s: {}.", significant(mark.from_s, 4), significant(until, 4), mark.what),
-        None => format!("{} s: {}.", significant(mark.from_s, 4), mark.what),
+        Some(until) => format!("{} to {} s: {}.", short(mark.from_s, 4), short(until, 4), mark.what),
+        None => format!("{} s: {}.", short(mark.from_s, 4), mark.what),
     });
     let slack = found.slack.iter().map(|slack| {
         let (first, share) = (significant(slack.first_s, 4), significant(100.0 * slack.share, 3));
@@ -182,7 +186,10 @@ fn tensions(found: &Simulated) -> Vec<PageFigure> {
             "domain": [0, 0.16], "range": [rows as f64 - 0.5, -0.5], "tickvals": (0..rows).collect::<Vec<_>>(),
             "ticktext": names, "showgrid": false, "tickfont": {"size": 9},
         });
-        layout = with(layout, json!({"yaxis": {"domain": [0.22, 1]}, "yaxis2": axis("slack", strip)}));
+        layout = with(
+            layout,
+            json!({"xaxis": {"anchor": "y2"}, "yaxis": {"domain": [0.22, 1]}, "yaxis2": axis("slack", strip)}),
+        );
         caption.push_str(" Bars below: times during which a cable is slack (below 0.5 N).");
     }
     let mut figures = vec![over_time(found, "figure-tensions", 420, &caption, &lines, layout)];
@@ -235,12 +242,12 @@ fn spectrum(of: &MotionSpectrum) -> PageFigure {
     let caption = format!(
         "Amplitudes of the motion of the platform's origin from {} to {} s, through the window of von Hann, and below the \
          natural frequencies of the robot at the equilibrium of its last lengths and payloads.",
-        significant(of.from_s, 4),
-        significant(of.until_s, 4)
+        short(of.from_s, 4),
+        short(of.until_s, 4)
     );
     let ticks = json!({"domain": [0, 0.12], "showticklabels": false, "ticks": "", "showgrid": false, "range": [0, 1]});
     let layout = json!({
-        "xaxis": axis("frequency [Hz]", json!({"range": [0, of.frequency_hz.last()]})),
+        "xaxis": axis("frequency [Hz]", json!({"range": [0, of.frequency_hz.last()], "anchor": "y2"})),
         "yaxis": axis("amplitude [mm]", json!({"domain": [0.16, 1], "rangemode": "tozero"})),
         "yaxis2": axis("", ticks),
     });

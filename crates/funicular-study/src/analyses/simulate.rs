@@ -2,12 +2,14 @@
 
 mod error;
 mod events;
+mod keeping;
 mod picture;
 mod rows;
 mod spectrum;
 
 pub use error::{ColumnError, Peak};
 pub use events::scenario_from_toml;
+pub use keeping::{BegunRun, NothingKept, RowKeeper};
 pub use picture::{EventMark, SimulatedFrame, SimulatedPicture, SlackSpan};
 pub use rows::SimulatedRow;
 pub use spectrum::MotionSpectrum;
@@ -26,6 +28,7 @@ use error::errors;
 use events::Events;
 use funicular::robot::{PlatformMotion, Robot};
 use funicular::simulation::{ElementMesh, Simulation, SimulationError, SimulationSettings, StepCounts};
+use keeping::STATE_ROWS;
 use serde::Serialize;
 
 /// Number of parts of the duration between its rows, if nothing says how many.
@@ -101,23 +104,26 @@ pub struct CutRow {
     pub t_s: f64,
 }
 
-/// Function that receives each row of the first run when it is ready.
-pub type OnRow<'a> = &'a mut dyn FnMut(&SimulatedRow) -> Result<()>;
-
 /// Simulates a robot.
 ///
 /// # Errors
 /// A scenario that cannot happen, a part of the robot that is not simulated, a tolerance that no step reaches, or
 /// [`Cancelled`] before the first row.
 pub fn run(robot: Robot, request: &SimulateRequest, watch: &mut dyn Watch) -> Result<Simulated> {
-    run_with(robot, request, watch, &mut |_| Ok(()))
+    run_with(robot, request, watch, &mut NothingKept, None)
 }
 
-/// Simulates a robot, and gives each row away when it is ready.
+/// Simulates a robot, from a run that has begun if there is one, and gives each new row of the first run to a keeper.
 ///
 /// # Errors
-/// Those of [`run`] and of `on_row`.
-pub fn run_with(robot: Robot, request: &SimulateRequest, watch: &mut dyn Watch, on_row: OnRow) -> Result<Simulated> {
+/// Those of [`run`] and of the keeper; a run that belongs to another request.
+pub fn run_with(
+    robot: Robot,
+    request: &SimulateRequest,
+    watch: &mut dyn Watch,
+    keeper: &mut dyn RowKeeper,
+    begun: Option<BegunRun>,
+) -> Result<Simulated> {
     let at_rest = at_rest::equilibrium(robot, &request.robot, &request.state, &request.tensions)?;
     let vibrating = at_rest.vibrating();
     let events = Events::of(&request.scenario, &vibrating)?;
@@ -127,7 +133,7 @@ pub fn run_with(robot: Robot, request: &SimulateRequest, watch: &mut dyn Watch, 
     check_points(&request.point, &vibrating.robot)?;
     let course = Course { at_rest: &vibrating, events: &events, times: &times, points: &request.point };
 
-    let first = course.history(&settings, watch, on_row)?;
+    let first = course.history(&settings, watch, keeper, begun)?;
     let finer = if request.once || first.rows.len() < times.len() {
         None
     } else {
@@ -137,7 +143,7 @@ pub fn run_with(robot: Robot, request: &SimulateRequest, watch: &mut dyn Watch, 
             ..settings.clone()
         };
         // A run that is stopped here still has its rows.
-        let finer = course.history(&settings, watch, &mut |_| Ok(()));
+        let finer = course.history(&settings, watch, &mut NothingKept, None);
         finer.ok().filter(|finer| finer.rows.len() == times.len())
     };
     Ok(found(&at_rest, request, first, finer.as_ref()))
@@ -207,14 +213,26 @@ fn times(request: &SimulateRequest) -> Result<Vec<f64>> {
 
 impl Course<'_> {
     /// One run. Work that is stopped from outside keeps the rows so far.
-    fn history(&self, settings: &SimulationSettings, watch: &mut dyn Watch, on_row: OnRow) -> Result<History> {
+    fn history(
+        &self,
+        settings: &SimulationSettings,
+        watch: &mut dyn Watch,
+        keeper: &mut dyn RowKeeper,
+        begun: Option<BegunRun>,
+    ) -> Result<History> {
         let Self { at_rest: AtRest { robot, equilibrium, .. }, events, times, points } = *self;
         let duration = times[times.len() - 1];
         let mut simulation = Simulation::new(robot, equilibrium, &events.list, duration, settings)
             .map_err(|error| events.told(error))?;
         let mut rows = Vec::with_capacity(times.len());
+        if let Some(begun) = begun {
+            if begun.rows.len() > times.len() || !simulation.restore(&begun.state) {
+                bail!("the run that has begun belongs to another request: discard it");
+            }
+            rows.extend(begun.rows);
+        }
         let mut picture = SimulatedPicture::new(robot, equilibrium, &events.list);
-        for (k, time) in times.iter().enumerate() {
+        for (k, time) in times.iter().enumerate().skip(rows.len()) {
             if watch.is_cancelled() {
                 if rows.is_empty() {
                     return Err(Cancelled.into());
@@ -224,8 +242,11 @@ impl Course<'_> {
             let sample = simulation.at(*time).map_err(|error| events.told(error))?;
             picture.keep(&mut simulation, &sample, k, times.len());
             let row = SimulatedRow::of(&sample, points);
-            on_row(&row)?;
+            keeper.row(&row)?;
             rows.push(row);
+            if rows.len() % STATE_ROWS == 0 {
+                keeper.state(rows.len(), &simulation.state())?;
+            }
             watch.progress(k + 1, times.len(), "rows");
         }
         picture.end(&simulation);

@@ -13,6 +13,7 @@ use crate::robot::{Pose, Robot};
 use crate::statics::Equilibrium;
 
 mod picture;
+mod state;
 
 const SLACK: f64 = SlackCable::TENSION;
 

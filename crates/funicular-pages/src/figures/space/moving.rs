@@ -9,7 +9,7 @@ use crate::figures::view::ranges;
 use crate::figures::{DEFAULT_FONT_SIZE_PT, POINTS};
 use funicular::math::Vec3;
 use funicular_study::analyses::simulate::{Simulated, SimulatedFrame, SimulatedPicture};
-use funicular_study::text::significant;
+use funicular_study::text::short;
 
 /// Width of the drawing [mm]; browsers scale it.
 const WIDTH_MM: f64 = 170.0;
@@ -42,7 +42,10 @@ pub fn animation_of_simulation(found: &Simulated) -> String {
     };
 
     // Platform behind its cables, as in the order at the start for most views.
-    let shapes: Vec<RobotShape> = frames.iter().map(|frame| shape(picture, frame)).collect();
+    let factor = picture.enlargement();
+    let mut shapes: Vec<RobotShape> = frames.iter().map(|frame| shape(picture, frame)).collect();
+    let start = shapes[0].clone();
+    shapes.iter_mut().for_each(|shape| enlarge(shape, &start, factor));
     for face in space.faces_from_behind(&view, &shapes[0]) {
         let corners = |shape: &RobotShape| face.iter().map(|i| view.at(shape.corners[*i])).collect();
         let each: Vec<Vec<PaperPoint>> = shapes.iter().map(corners).collect();
@@ -70,6 +73,11 @@ pub fn animation_of_simulation(found: &Simulated) -> String {
     let stroke = Some(Stroke::solid(BLACK, 0.3));
     let path = DrawnPath { lines: vec![each[0].clone()], closed: true, fill: Some(VERMILION), stroke };
     drawing.moving(timed(path, each));
+    if factor > 1.0 {
+        let text = format!("displacements {} times as large", short(factor, 3));
+        let at = [drawing.width - style.size, 1.2 * style.size];
+        drawing.text(Label::plain(&text), at, Align::End, style.small, BLACK);
+    }
     draw_time(&mut drawing, found, (begin, duration), &style);
     svg(&drawing)
 }
@@ -106,6 +114,15 @@ fn shape(picture: &SimulatedPicture, frame: &SimulatedFrame) -> RobotShape {
     }
 }
 
+/// Draws displacements since the start larger by a factor.
+fn enlarge(shape: &mut RobotShape, start: &RobotShape, factor: f64) {
+    let away = |p: &mut Vec3, q: &Vec3| *p = q + (*p - q) * factor;
+    let cables = shape.cables.iter_mut().zip(&start.cables);
+    cables.for_each(|(line, from)| line.iter_mut().zip(from).for_each(|(p, q)| away(p, q)));
+    shape.corners.iter_mut().zip(&start.corners).for_each(|(p, q)| away(p, q));
+    away(&mut shape.mass_centre, &start.mass_centre);
+}
+
 /// Line of time below the robot, with its events and a mark that moves along.
 fn draw_time(drawing: &mut Drawing, found: &Simulated, (begin, duration): (f64, f64), style: &Type) {
     let size = style.size;
@@ -132,7 +149,7 @@ fn draw_time(drawing: &mut Drawing, found: &Simulated, (begin, duration): (f64, 
             taken = at + width + 0.6 * size;
         }
     }
-    let end = format!("{} s", significant(begin + duration, 4));
+    let end = format!("{} s", short(begin + duration, 4));
     drawing.text(Label::plain(&end), [right, base], Align::End, style.small, BLACK);
     let half = 0.35 * size;
     let mark = |at: f64| vec![[at - half, y - 2.0 * half], [at + half, y - 2.0 * half], [at, y]];

@@ -2,7 +2,7 @@
 //! the times at which cables are slack.
 
 use super::rows::SimulatedRow;
-use crate::text::significant;
+use crate::text::short;
 use funicular::math::Vec3;
 use funicular::robot::{Platform, Pose, Robot};
 use funicular::simulation::{CutAt, RobotSample, Simulation, SimulationEvent, SlackCable};
@@ -12,6 +12,10 @@ use funicular::statics::Equilibrium;
 const MAX_FRAMES: usize = 300;
 /// Largest number of coordinates in all pictures: with more a page is larger than 5 MB.
 const MAX_COORDINATES: usize = 300_000;
+
+/// Largest displacement of a picture, as a part of the robot's size, up to which motion is enlarged: smaller motion is not
+/// seen.
+const VISIBLE: f64 = 0.03;
 
 /// Robot at one time, as it is drawn.
 #[derive(Debug, Clone)]
@@ -81,6 +85,29 @@ impl SimulatedPicture {
         }
     }
 
+    /// Factor with which displacements since the start are drawn: 1, 2 or 5 times a power of ten.
+    pub fn enlargement(&self) -> f64 {
+        let Some(first) = self.frames.first() else { return 1.0 };
+        let points = |frame: &SimulatedFrame| frame.curves.iter().flatten().copied().collect::<Vec<Vec3>>();
+        let at_start = points(first);
+        let far = |frame: &SimulatedFrame| {
+            points(frame).iter().zip(&at_start).map(|(p, q)| (p - q).norm()).fold(0.0, f64::max)
+        };
+        let largest = self.frames.iter().map(far).fold(0.0, f64::max);
+        let of_axis = |axis: usize| {
+            let values = at_start.iter().map(|p| p[axis]);
+            let (low, high) = values.fold((f64::MAX, f64::MIN), |(low, high), x| (low.min(x), high.max(x)));
+            high - low
+        };
+        let wanted = VISIBLE * Vec3::new(of_axis(0), of_axis(1), of_axis(2)).norm() / largest;
+        if !wanted.is_finite() || wanted < 2.0 {
+            return 1.0;
+        }
+        let power = 10.0_f64.powf(wanted.log10().floor());
+        let step = [5.0, 2.0].into_iter().find(|step| step * power <= wanted).unwrap_or(1.0);
+        step * power
+    }
+
     fn add(&mut self, simulation: &mut Simulation, sample: &RobotSample) {
         let curves = simulation.curves_w(sample.time);
         self.frames.push(SimulatedFrame { t_s: sample.time, pose: sample.pose, curves });
@@ -109,10 +136,8 @@ fn marks(robot: &Robot, events: &[SimulationEvent]) -> Vec<EventMark> {
     };
     let mark = |event: &SimulationEvent| {
         let (from_s, lasts, what) = match event {
-            SimulationEvent::Release { time, mass, .. } => {
-                (*time, None, format!("release {} kg", significant(*mass, 4)))
-            }
-            SimulationEvent::Pick { time, mass, .. } => (*time, None, format!("pick {} kg", significant(*mass, 4))),
+            SimulationEvent::Release { time, mass, .. } => (*time, None, format!("release {} kg", short(*mass, 4))),
+            SimulationEvent::Pick { time, mass, .. } => (*time, None, format!("pick {} kg", short(*mass, 4))),
             SimulationEvent::Ramp { time, duration, changes } => {
                 let moved = (0..changes.len()).filter(|i| changes[*i] != 0.0).collect();
                 (*time, Some(*duration), format!("lengths{}", named(moved)))

@@ -18,7 +18,7 @@ const FINER: f64 = 4.0;
 /// Largest number of frequencies.
 const MAX_FREQUENCIES: usize = 4000;
 /// Part of the largest amplitude above which an amplitude is shown.
-const SHOWN: f64 = 1e-3;
+const SHOWN: f64 = 1e-2;
 /// Room above the highest shown frequency, as a factor.
 const ABOVE: f64 = 1.3;
 /// Largest number of natural frequencies that are marked; more would be a grey band.
