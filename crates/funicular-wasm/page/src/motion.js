@@ -70,8 +70,8 @@ export class Playback {
 
   /**
    * Plays a simulated motion; null ends it.
-   * @param {object} simulation `times` [s], `poses` (position and quaternion w, x, y, z) and `curves` (coordinates of the
-   *   points of every cable) at these times, `enlargement` of the displacements since the start, `clock(seconds)`
+   * @param {object} simulation `times` [s], `poses` (position and quaternion w, x, y, z) and `curves` (coordinates of
+   *   the points of every cable) at these times, `enlargement` of the displacements since the start, `clock(seconds)`
    */
   setSimulation(simulation) {
     const view = this.#view;
@@ -110,7 +110,9 @@ export class Playback {
     });
     view.platform.position.set(...[0, 1, 2].map((k) => larger(poses[0][k], between(poses, k))));
     const turn = ([, , , w, x, y, z]) => new Quaternion(x, y, z, w);
-    const away = turn(poses[next - 1]).slerp(turn(poses[next]), part).multiply(turn(poses[0]).invert());
+    const away = turn(poses[next - 1])
+      .slerp(turn(poses[next]), part)
+      .multiply(turn(poses[0]).invert());
     const angle = 2 * Math.acos(Math.min(1, Math.abs(away.w)));
     const axis = new Vector3(away.x, away.y, away.z).multiplyScalar(Math.sign(away.w) || 1);
     const extra = new Quaternion().setFromAxisAngle(
