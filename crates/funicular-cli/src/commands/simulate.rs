@@ -60,7 +60,7 @@ pub(super) fn run(of: &SimulateRequest, args: &SimulateArgs, guard: &mut Guard) 
         (_, true) => Interrupted::Discard,
         _ => Interrupted::Refuse,
     };
-    let (mut partial, begun) = PartialRows::beside(printed.output_file.as_deref(), of, cables, interrupted)?;
+    let (mut partial, begun) = PartialRows::beside(printed.output_file.as_deref(), of, cables, interrupted, guard)?;
 
     let mut watch = TerminalProgress::new();
     let found = simulate::run_with(robot, of, &mut watch, &mut partial, begun)?;

@@ -43,7 +43,7 @@ fn a_page_has_the_moving_robot_its_traces_its_spectrum_and_its_error() {
         assert!(page.contains(&format!("id=\"{id}\"")), "{id}");
     }
     assert!(page.contains("A run with a finer mesh and tolerance differs by at most"));
-    assert!(page.contains("0 s: release 1.95 kg.") && page.contains("platform mode"));
+    assert!(page.contains("0 s: release 1.95 kg.") && page.contains("mixed mode"));
     let frames = page.split_once("id=\"motion-frames\">").unwrap().1.split_once("</script>").unwrap().0;
     let frames: serde_json::Value = serde_json::from_str(frames).unwrap();
     let times = numbers(&frames["times"]);

@@ -3,6 +3,7 @@
 
 use crate::errors;
 use anyhow::{Context, Result, bail};
+use funicular_files::Guard;
 use funicular_files::atomic_file::TemporaryFile;
 use funicular_files::endings::Kind;
 use funicular_formats::number_columns;
@@ -50,6 +51,7 @@ impl PartialRows {
         of: &SimulateRequest,
         cables: Vec<String>,
         interrupted: Interrupted,
+        guard: &mut Guard,
     ) -> Result<(Self, Option<BegunRun>)> {
         let points: Vec<String> = of.point.iter().map(|point| point.name.clone()).collect();
         let request = serde_json::to_string(of)?;
@@ -65,6 +67,8 @@ impl PartialRows {
             name.push(ending);
             PathBuf::from(name)
         });
+        guard.writes("the rows", &path)?;
+        guard.writes("the state", &state)?;
         let shown = path.display();
         let begun = match interrupted {
             Interrupted::Resume => partial.begun(&path, &state)?,
