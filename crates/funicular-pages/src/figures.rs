@@ -20,7 +20,7 @@ pub(crate) mod map;
 mod pdf;
 mod sections;
 mod settling;
-mod simulated;
+pub(crate) mod simulated;
 pub(crate) mod space;
 pub(crate) mod style;
 pub(crate) mod supports;

@@ -15,7 +15,7 @@ use funicular_study::Cancelled;
 use funicular_study::analyses::simulate::{self, ColumnError, Peak, Simulated, SimulatedRow};
 use funicular_study::request::{Request, SimulateRequest};
 use funicular_study::wording::{Words, worded};
-use partial::{Interrupted, PartialRows};
+use partial::{EarlierRun, PartialRows};
 use serde_json::{Map, Value};
 use std::fmt::Write as _;
 use std::fs;
@@ -55,12 +55,12 @@ pub(super) fn run(of: &SimulateRequest, args: &SimulateArgs, guard: &mut Guard) 
     let animation = OtherFile::animation(args.animation.as_deref());
     let files = ResultFiles::open(&printed, animation, args.page.as_deref(), guard)?;
     let cables: Vec<String> = robot.cables.iter().map(|cable| cable.name.clone()).collect();
-    let interrupted = match (args.resume, args.discard) {
-        (true, _) => Interrupted::Resume,
-        (_, true) => Interrupted::Discard,
-        _ => Interrupted::Refuse,
+    let earlier = match (args.resume, args.discard) {
+        (true, _) => EarlierRun::Resume,
+        (_, true) => EarlierRun::Discard,
+        _ => EarlierRun::Refuse,
     };
-    let (mut partial, begun) = PartialRows::beside(printed.output_file.as_deref(), of, cables, interrupted, guard)?;
+    let (mut partial, begun) = PartialRows::beside(printed.output_file.as_deref(), of, cables, earlier, guard)?;
 
     let mut watch = TerminalProgress::new();
     let found = simulate::run_with(robot, of, &mut watch, &mut partial, begun)?;

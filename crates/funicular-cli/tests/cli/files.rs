@@ -180,7 +180,7 @@ fn no_file_that_is_read_is_written_over_by_any_command() {
     for writer in WRITERS {
         // The name of the result, and the file that it or one beside it would be written over.
         let is_rows = writer.starts_with("map") || writer.starts_with("sweep");
-        let is_history = writer.starts_with("simulate") && writer.contains("-o");
+        let is_history = writer.starts_with("simulate") && writer.contains(" -o ");
         let endings: &[&str] = if is_rows {
             &["", ".partial", ".writing"]
         } else if is_history {

@@ -4,7 +4,6 @@ use super::axis::ChartAxis;
 use super::chart::{Chart, Entry, Layer, Panel, Sample};
 use super::drawing::{BLACK, Stroke};
 use super::style::{self, AXIS_WIDTH, GREY};
-use crate::pages::simulate::displacement_unit;
 use funicular_study::analyses::simulate::{Simulated, SimulatedRow};
 
 /// Room above and below the curves, as a part of their range.
@@ -16,6 +15,9 @@ const MOTION_HEIGHT: f64 = 0.32;
 const TENSION_HEIGHT: f64 = 0.42;
 /// Height of the row of a cable among the times of slack.
 const SLACK_ROW: f64 = 0.036;
+
+/// Displacement up to which a figure has millimetres [m].
+const IN_MILLIMETRES: f64 = 0.5;
 
 /// Displacement and turn since the start, tensions, and the times at which cables are slack.
 pub(super) fn chart(found: &Simulated) -> Chart {
@@ -56,6 +58,14 @@ pub(super) fn chart(found: &Simulated) -> Chart {
         legend,
         colour_bar: None,
     }
+}
+
+/// Factor to the unit of displacements since the start, and the unit.
+pub(crate) fn displacement_unit(rows: &[SimulatedRow]) -> (f64, &'static str) {
+    let from = rows.first().map_or([0.0; 3], |row| row.pose.position_m);
+    let off = |row: &SimulatedRow| (0..3).map(|k| (row.pose.position_m[k] - from[k]).abs()).fold(0.0, f64::max);
+    let largest = rows.iter().map(off).fold(0.0, f64::max);
+    if largest < IN_MILLIMETRES { (1e3, "mm") } else { (1.0, "m") }
 }
 
 /// Black lines of the axes, which no line of a cable looks like: z is solid, because most robots move most along it.

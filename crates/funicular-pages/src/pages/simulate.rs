@@ -3,6 +3,7 @@
 use super::Shell;
 use super::figure::{PageFigure, axis, cable_line_style, colour, kind_colour, line, plain, robot, with};
 use super::table::{PageTable, significant};
+use crate::figures::simulated::displacement_unit;
 use anyhow::Context as _;
 use askama::Template;
 use funicular::modes::Kind;
@@ -18,9 +19,6 @@ const CONTENTS: &[(&str, &str)] = &[
     ("error", "Error"),
     ("repeat", "How to repeat"),
 ];
-
-/// Displacement up to which a figure has millimetres [m].
-pub(crate) const IN_MILLIMETRES: f64 = 0.5;
 
 #[derive(Template)]
 #[template(path = "simulate.html")]
@@ -154,14 +152,6 @@ fn pose(found: &Simulated) -> Vec<PageFigure> {
         figures.push(over_time(found, "figure-turn", 300, caption, &turned, layout));
     }
     figures
-}
-
-/// Factor to the unit of displacements since the start, and the unit.
-pub(crate) fn displacement_unit(rows: &[SimulatedRow]) -> (f64, &'static str) {
-    let from = rows.first().map_or([0.0; 3], |row| row.pose.position_m);
-    let off = |row: &SimulatedRow| (0..3).map(|k| (row.pose.position_m[k] - from[k]).abs()).fold(0.0, f64::max);
-    let largest = rows.iter().map(off).fold(0.0, f64::max);
-    if largest < IN_MILLIMETRES { (1e3, "mm") } else { (1.0, "m") }
 }
 
 /// Tensions with the times of slack, and changed lengths.

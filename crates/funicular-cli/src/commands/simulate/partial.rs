@@ -38,7 +38,7 @@ struct OpenFiles {
 
 /// What happens with the rows of an interrupted run.
 #[derive(Clone, Copy, PartialEq, Eq)]
-pub(super) enum Interrupted {
+pub(super) enum EarlierRun {
     Refuse,
     Resume,
     Discard,
@@ -50,14 +50,14 @@ impl PartialRows {
         path: Option<&Path>,
         of: &SimulateRequest,
         cables: Vec<String>,
-        interrupted: Interrupted,
+        earlier: EarlierRun,
         guard: &mut Guard,
     ) -> Result<(Self, Option<BegunRun>)> {
         let points: Vec<String> = of.point.iter().map(|point| point.name.clone()).collect();
         let request = serde_json::to_string(of)?;
         let mut partial = Self { files: None, cables, points, request, flushed: Instant::now() };
         let Some(path) = path.filter(|path| Kind::of(path) == Some(Kind::Csv)) else {
-            if interrupted != Interrupted::Refuse {
+            if earlier != EarlierRun::Refuse {
                 bail!("only a CSV file is written as it grows: give -o FILE.csv, or leave out ⟪resume⟫ and ⟪discard⟫");
             }
             return Ok((partial, None));
@@ -70,9 +70,9 @@ impl PartialRows {
         guard.writes("the rows", &path)?;
         guard.writes("the state", &state)?;
         let shown = path.display();
-        let begun = match interrupted {
-            Interrupted::Resume => partial.begun(&path, &state)?,
-            Interrupted::Refuse if path.exists() => {
+        let begun = match earlier {
+            EarlierRun::Resume => partial.begun(&path, &state)?,
+            EarlierRun::Refuse if path.exists() => {
                 bail!("{shown} has the rows of a run that did not end: give ⟪resume⟫ or ⟪discard⟫")
             }
             _ => None,
