@@ -119,7 +119,7 @@ function show() {
     width: Math.max(280, $("simulate").clientWidth),
   });
   const { enlargement } = last.picture;
-  const scale = enlargement > 1 ? `Displacements are shown ${short(enlargement, 3)} times as large` : "True to scale";
+  const scale = enlargement > 1 ? `Displacements are shown ${plain(enlargement)} times as large` : "True to scale";
   const slack = last.slack.map(({ cable, first_s: at }) => ` Cable ${cable} is slack from ${short(at, 3)} s on.`);
   $("simulate").append(
     element("p", { class: "soft" }, `${scale}, in true time.${slack.join("")}${errorOf(last)}`),
