@@ -46,8 +46,12 @@ pub(crate) struct Content<'a> {
 }
 
 impl Content<'static> {
-    /// HTML page.
+    /// Lengths for a controller.
     pub(crate) const LENGTHS: Self = Self { name: "the lengths", in_words: "CSV", fitting: &[Kind::Csv] };
+    /// Animated drawing.
+    pub(crate) const ANIMATION: Self =
+        Self { name: "the animation", in_words: "an animated drawing", fitting: &[Kind::Svg] };
+    /// HTML page.
     pub(crate) const PAGE: Self = Self { name: "the page", in_words: "a page", fitting: &[Kind::Html] };
 
     /// Figure for a paper.

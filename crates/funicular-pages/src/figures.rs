@@ -20,13 +20,15 @@ pub(crate) mod map;
 mod pdf;
 mod sections;
 mod settling;
+pub(crate) mod simulated;
 pub(crate) mod space;
 pub(crate) mod style;
 pub(crate) mod supports;
 mod svg;
 pub(crate) mod view;
 
-pub use making::{RequestFigure, of_calibration, of_decay, of_request, of_sections};
+pub use making::{RequestFigure, of_calibration, of_decay, of_request, of_sections, of_simulation};
+pub use space::animation_of_simulation;
 
 pub use crate::figure_style::{DEFAULT_FONT_SIZE_PT, DEFAULT_WIDTH_MM, FONT_SIZE_LIMITS_PT, WIDTH_LIMITS_MM, WIDTHS};
 

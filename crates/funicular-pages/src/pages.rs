@@ -13,6 +13,7 @@ pub mod paper;
 pub mod plot;
 pub mod report;
 pub mod settle;
+pub mod simulate;
 pub(crate) mod table;
 pub mod trajectory;
 pub mod uncertainty;

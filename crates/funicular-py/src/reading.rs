@@ -57,6 +57,8 @@ enum Kind {
     Sizes,
     /// Limits of quantities by their names.
     Limits,
+    /// Points of the platform by their names.
+    Points,
     /// Anything that JSON can hold.
     Any,
 }
@@ -92,6 +94,7 @@ impl Kind {
                 ProgramForm::NotNegative => Self::OneOrRow,
                 ProgramForm::Fit | ProgramForm::Change | ProgramForm::Prior => Self::Any,
                 ProgramForm::Bound => Self::Limits,
+                ProgramForm::Point => Self::Points,
                 _ => Self::Texts,
             },
             request::Kind::OneOrMore(_) => Self::TextOrTexts,
@@ -136,7 +139,7 @@ impl Kind {
             | Self::Poses => "ArrayLike",
             Self::Pose => "Pose | ArrayLike",
             Self::Masses => "tuple[SupportsFloat | SupportsIndex, SupportsFloat | SupportsIndex, SupportsIndex]",
-            Self::Axes => "Mapping[str, ArrayLike]",
+            Self::Axes | Self::Points => "Mapping[str, ArrayLike]",
             Self::Limits => "Mapping[str, SupportsFloat | SupportsIndex]",
             Self::Columns | Self::GappedColumns => "str | PathLike[str] | Mapping[str, ArrayLike]",
             Self::Sizes | Self::Any => "Any",
@@ -268,14 +271,15 @@ fn of_kind(kind: Kind, name: &str, value: &Bound<'_, PyAny>, cables: &[String]) 
             columns(name, value, |shown, bytes| Ok(json!(number_columns::read_with_gaps(shown, bytes)?.columns)))?
         }
         Kind::Masses => json!(value.extract::<arrays::FirstLastCount>()?.masses(name, usize::MAX)?),
-        // A request in JSON has a list of axes, and of limits.
-        Kind::Axes | Kind::Limits if value.cast::<PyList>().is_ok() => any(name, value, 0)?,
+        // A request in JSON has a list of axes, of limits and of points.
+        Kind::Axes | Kind::Limits | Kind::Points if value.cast::<PyList>().is_ok() => any(name, value, 0)?,
         Kind::Axes => {
             let axes = value.extract::<sweep::Axes>()?;
             serde_json::to_value(&axes.0).map_err(|error| errors::input(error.to_string()))?
         }
         Kind::Sizes => json!(sizes(name, value)?),
         Kind::Limits => limits(name, value)?,
+        Kind::Points => points(name, value)?,
         Kind::Any => any(name, value, 0)?,
     })
 }
@@ -361,6 +365,23 @@ fn limits(name: &str, given: &Bound<'_, PyAny>) -> PyResult<Json> {
         Ok(json!({ "quantity": quantity, "value": value }))
     };
     given.call_method0("items")?.try_iter()?.map(limit).collect()
+}
+
+/// Points of a mapping from names to x, y, z.
+fn points(name: &str, given: &Bound<'_, PyAny>) -> PyResult<Json> {
+    if given.cast::<PyMapping>().is_err() {
+        let wanted = "give a mapping from names to places, as in {\"hook\": [0, 0, -0.5]}";
+        return Err(Unusable::value(given, wanted).named(name));
+    }
+    let point = |item: PyResult<Bound<'_, PyAny>>| {
+        let (key, value): (Bound<'_, PyAny>, Bound<'_, PyAny>) = item?.extract()?;
+        let Ok(key) = key.extract::<String>() else {
+            return Err(Unusable::value(&key, "the name of a point is text").named(name));
+        };
+        let place = of_kind(Kind::Vector, &format!("{name}[\"{key}\"]"), &value, &[])?;
+        Ok(json!({ "name": key, "point_m": place }))
+    };
+    given.call_method0("items")?.try_iter()?.map(point).collect()
 }
 
 /// Columns of a file, of a mapping or of a data frame.

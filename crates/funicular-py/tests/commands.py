@@ -12,7 +12,7 @@ import funicular
 
 # Options for the place and the form of a result, which do not change the computation.
 OUTPUT = {"--format", "-o", "--output-file", "--print-request", "--help", "--matrices", "--resume", "--discard", "--part", "--threads"}
-OUTPUT |= {"--figure-width-mm", "--font-size-pt", "--figure-mode", "--fitted", "--designed", "--calibrated", "--page", "--samples-file", "--lengths", "--surface"}
+OUTPUT |= {"--figure-width-mm", "--font-size-pt", "--figure-mode", "--fitted", "--designed", "--calibrated", "--page", "--samples-file", "--lengths", "--surface", "--animation"}
 # Options without a value.
 SWITCHES = {
     *("--log", "--adaptive", "--all", "--in-plane-only", "--print-request", "--resume", "--discard"),
@@ -105,6 +105,9 @@ def call(line: str) -> tuple[str, list[str], dict[str, Any], dict[str, Any]]:
         elif word in ("--grid", "--vary", "--section"):
             axis, _, text = next(rest).partition("=")
             keywords.setdefault(key, {})[axis] = steps(text)
+        elif word == "--point":
+            name, _, text = next(rest).partition("=")
+            keywords.setdefault(key, {})[name] = numbers(text)
         elif word == "--scenario":
             keywords[key] = tomllib.loads(Path(next(rest)).read_text())
         elif word == "--quantity":

@@ -74,7 +74,7 @@ MORE = [
     f"funicular gust {ROBOT} --set platform.drag_area_m2=0.1 --wind-m-s 8,0,0 --spectrum gusts.csv --below-hz 1 --output z",
     f"funicular modes {ROBOT} --below-hz 2 --decay-percent 10",
     "funicular clearance windy.toml --in-gusts",
-    f"funicular simulate {ROBOT} --mass-kg 12.5 --scenario docs/simulation/release.toml --duration-s 0.05 --sample-time-s 0.01 --tolerance-m 1e-6 --elements 2 --degree 6 --damping-frequency-hz 1.2",
+    f"funicular simulate {ROBOT} --mass-kg 12.5 --scenario docs/simulation/release.toml --duration-s 0.05 --sample-time-s 0.01 --tolerance-m 1e-6 --elements 2 --degree 6 --damping-frequency-hz 1.2 --point hook=0,0,-0.5 --point edge=0.1,0,0",
     f"funicular simulate {ROBOT} --duration-s 0.01 --once --pose 0,0,0.5 {STATE}",
     f"funicular simulate robots/cogiro.toml --duration-s 0.01 --once {TENSIONS} --hold-lengths-of-pose",
     f"funicular simulate {ROBOT} --duration-s 0.01 --once {LENGTHS}",

@@ -40,7 +40,9 @@ pub use parts::{
     OneOrSeveral, Pose, ResponsePoints, ResponseRange, RobotText, State, Tensions, Terms,
 };
 pub use shape::schema;
-pub use simulate::{CutEvent, LengthsEvent, PickEvent, PushEvent, ReleaseEvent, Scenario, SimulateRequest, StopEvent};
+pub use simulate::{
+    CutEvent, LengthsEvent, PickEvent, PointValue, PushEvent, ReleaseEvent, Scenario, SimulateRequest, StopEvent,
+};
 pub use source_file::{MAX_BYTES, SourceFile};
 pub use speeds::{RequiredVelocities, SpeedsRequest};
 pub use statics::{

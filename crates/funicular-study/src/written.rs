@@ -1,7 +1,7 @@
 //! Forms of the values of options on the command line. Each message contains the value and its permitted range.
 
 use crate::analyses::pose_error::MAX_MASSES;
-use crate::request::{Axis, BoundValue, ChangeValue, FitValue, Key, Kind, PriorValue, ProgramForm, Range};
+use crate::request::{Axis, BoundValue, ChangeValue, FitValue, Key, Kind, PointValue, PriorValue, ProgramForm, Range};
 use crate::set_values;
 use crate::signals::{Input, Output};
 use crate::sweep::{self, Steps, ValueAxis};
@@ -51,6 +51,7 @@ fn read_form(form: ProgramForm, text: &str) -> Result<Value, String> {
         }
         ProgramForm::Band => band(text),
         ProgramForm::Bound => bound(text),
+        ProgramForm::Point => named_point(text),
     }
 }
 
@@ -275,6 +276,13 @@ fn bound(text: &str) -> Result<Value, String> {
     serde_json::to_value(bound).map_err(|error| error.to_string())
 }
 
+/// Reads `NAME=X,Y,Z`.
+fn named_point(text: &str) -> Result<Value, String> {
+    let (name, place) = text.split_once('=').ok_or("a point is written as in hook=0,0,-0.5")?;
+    let point = PointValue { name: name.trim().to_owned(), point_m: point(place)? };
+    serde_json::to_value(point).map_err(|error| error.to_string())
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -310,6 +318,8 @@ mod tests {
         assert_eq!(change("a.*=+-0.5").unwrap(), json!({ "path": "a.*", "plus_minus": 0.5 }));
         assert_eq!(bound("load-factor = 1").unwrap(), json!({ "quantity": "load-factor", "value": 1.0 }));
         assert!(bound("load-factor").is_err() && bound("load-factor=x").is_err());
+        assert_eq!(named_point("hook=0,0,-0.5").unwrap(), json!({ "name": "hook", "point_m": [0.0, 0.0, -0.5] }));
+        assert!(named_point("0,0,1").is_err() && named_point("hook=0,0").is_err());
         assert!(fit("a=3").is_err() && change("a=3").is_err() && band("3").is_err());
     }
 }

@@ -319,6 +319,7 @@ fn requests() -> Vec<Value> {
                 &state,
                 &tensions,
                 &json!({
+                    "point": [{ "name": "hook", "point_m": [0.0, 0.1, -0.5] }],
                     "scenario": {
                         "release": [{ "at_s": 0.1, "mass_kg": 1.0, "point_m": [0.0, 0.0, 0.1] }],
                         "pick": [{ "at_s": 0.2, "mass_kg": 1.0, "velocity_m_s": [0.1, 0.0, 0.0] }],

@@ -1,8 +1,12 @@
 //! Commands that write files elsewhere. Here their content is the answer, in JSON.
 
 use anyhow::{Result, anyhow};
+use funicular::math::rotation;
 use funicular_formats::{import, new_robot};
-use funicular_study::request::Request;
+use funicular_study::Silent;
+use funicular_study::analyses::simulate::{self, SimulatedFrame};
+use funicular_study::json::of_results;
+use funicular_study::request::{Request, SimulateRequest};
 use funicular_study::schema;
 use funicular_study::sweep::{Plan, PreparedSweep};
 use funicular_study::table::{Chunk, Values};
@@ -17,9 +21,33 @@ pub(crate) fn content(request: &Request) -> Option<Result<Vec<u8>>> {
         Request::New(of) => new_robot::run(of, Words::Json).map(|found| json!({ "text": found.text })),
         Request::Schema(of) => serde_json::from_str(&schema::of_request(of, Vec::new())).map_err(Into::into),
         Request::Map(_) => rows(request),
+        Request::Simulate(of) => simulated(of),
         _ => return None,
     };
     Some(found.map(|value| value.to_string().into_bytes()))
+}
+
+/// Results of a simulation with its picture: times, poses as position and quaternion w, x, y, z, and the points of every
+/// rope from the platform to the anchor, three coordinates each.
+fn simulated(of: &SimulateRequest) -> Result<Value> {
+    let found = simulate::run(of.robot.read()?.robot, of, &mut Silent)?;
+    let mut answer: Value = serde_json::from_slice(&of_results(&found, Words::Json)?)?;
+    let frames = &found.picture.frames;
+    let pose = |frame: &SimulatedFrame| {
+        let [w, x, y, z] = rotation::quaternion_wxyz(&frame.pose.rot_wp);
+        let at = frame.pose.position_w;
+        [at.x, at.y, at.z, w, x, y, z]
+    };
+    let curves = |frame: &SimulatedFrame| -> Vec<Vec<f64>> {
+        frame.curves.iter().map(|curve| curve.iter().flatten().copied().collect()).collect()
+    };
+    answer["picture"] = json!({
+        "t_s": frames.iter().map(|frame| frame.t_s).collect::<Vec<_>>(),
+        "poses": frames.iter().map(pose).collect::<Vec<_>>(),
+        "curves_m": frames.iter().map(curves).collect::<Vec<_>>(),
+        "enlargement": found.picture.enlargement(),
+    });
+    Ok(answer)
 }
 
 /// Rows of a map, computed on this thread: one list per column. A value that does not exist is null.

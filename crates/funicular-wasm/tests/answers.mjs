@@ -215,6 +215,23 @@ test("the search for the first mode of the platform gives the program's", () => 
   modes.slice(0, 27).forEach((mode, i) => compare(numbers[i * each], mode.frequency_hz, `frequency ${i + 1}`));
 });
 
+test("a simulation gives the program's rows, and a picture whose cables end at their anchors", () => {
+  const robot = { text: robots.cogiro };
+  const request = { command: "simulate", robot, scenario: { release: [{ at_s: 0.01, mass_kg: 5 }] }, duration_s: 0.05, sample_time_s: 0.01, once: true };
+  const found = funicular.answer(request);
+  const expected = JSON.parse(native(request).stdout);
+  found.rows.forEach((row, k) => {
+    row.position_m.forEach((x, axis) => assert.ok(Math.abs(x - expected.rows[k].position_m[axis]) < 1e-7, `row ${k}`));
+  });
+  const { picture } = found;
+  assert.deepEqual(picture.t_s, found.rows.map((row) => row.t_s));
+  const { check } = funicular.robot({ robot });
+  picture.curves_m.forEach((curves) => curves.forEach((curve, i) => {
+    curve.slice(-3).forEach((x, axis) => assert.ok(Math.abs(x - check.cables[i].anchor_m[axis]) < 1e-9, `cable ${i}`));
+  }));
+  picture.poses.forEach((pose, k) => assert.deepEqual(pose.slice(0, 3), found.rows[k].position_m));
+});
+
 test("the module needs nothing from outside", () => {
   assert.deepEqual(WebAssembly.Module.imports(new WebAssembly.Module(bytes)), []);
 });

@@ -19,6 +19,7 @@ mod rope;
 mod run;
 mod skyline;
 mod start;
+mod state;
 mod sudden;
 mod system;
 mod winding;

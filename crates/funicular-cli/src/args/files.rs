@@ -138,15 +138,33 @@ pub(crate) struct TrajectoryArgs {
     pub(crate) page: Option<PathBuf>,
 }
 
-/// Scenario of a simulation, and its result.
+/// Scenario of a simulation, its result, page, figure and animation.
 #[derive(Debug, Args)]
 pub(crate) struct SimulateArgs {
     /// Events with their times in a TOML file: [[release]], [[pick]], [[lengths]], [[tension]], [[stop]], [[push]] and [[cut]];
     /// a `table` of [[lengths]] names a CSV file beside it
     #[arg(long, value_name = "FILE.toml")]
     pub(crate) scenario: Option<PathBuf>,
+
     #[command(flatten)]
-    pub(crate) sink: OutputArgs,
+    pub(crate) drawn: DrawArgs,
+
+    /// Continue after the rows in FILE.csv.partial of the same request, beside -o FILE.csv; start if there are none
+    #[arg(long, requires = "output_file", conflicts_with_all = ["discard", "page", "animation"], help_heading = "Output")]
+    pub(crate) resume: bool,
+
+    /// Discard the rows in FILE.csv.partial and start again
+    #[arg(long, requires = "output_file", help_heading = "Output")]
+    pub(crate) discard: bool,
+
+    /// Write the moving robot as an animated drawing to FILE.svg, which any browser shows in true time
+    #[arg(long, value_name = "FILE.svg", help_heading = "Output")]
+    pub(crate) animation: Option<PathBuf>,
+
+    /// Write a page with the moving robot, pose and tensions over time and the spectrum to FILE; -o FILE.html does the same.
+    /// -o FILE.svg and FILE.pdf draw pose and tensions
+    #[arg(long, value_name = "FILE.html", help_heading = "Output")]
+    pub(crate) page: Option<PathBuf>,
 }
 
 /// Measured spectra of gusts, and the response that is printed or drawn.

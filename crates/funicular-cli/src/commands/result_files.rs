@@ -26,6 +26,11 @@ impl<'a> OtherFile<'a> {
         Self { key, path, content, by_ending: Some(Kind::Toml) }
     }
 
+    /// Animated drawing.
+    pub(super) fn animation(path: Option<&'a Path>) -> Self {
+        Self { key: "animation", path, content: Content::ANIMATION, by_ending: None }
+    }
+
     /// Lengths for a controller.
     pub(super) fn lengths(path: Option<&'a Path>) -> Self {
         Self { key: "lengths", path, content: Content::LENGTHS, by_ending: None }

@@ -1,29 +1,28 @@
 //! `simulate`: scenario, text and CSV. A run that is killed leaves the rows so far beside its file.
 
-use crate::args::{Cli, SimulateArgs};
+mod partial;
+
+use super::result_files::{OtherFile, ResultFiles};
+use crate::args::{Cli, DrawArgs, OutputArgs, SimulateArgs};
 use crate::number_table;
-use crate::output::{Printed, Sink};
+use crate::output::{FigureSink, Printed};
 use crate::progress::TerminalProgress;
 use crate::table::{Table, counted, significant};
 use anyhow::{Context, Result, anyhow};
 use funicular_files::Guard;
-use funicular_files::endings::Kind;
+use funicular_pages::figures;
 use funicular_study::Cancelled;
 use funicular_study::analyses::simulate::{self, ColumnError, Peak, Simulated, SimulatedRow};
-use funicular_study::columns::ResultTable;
 use funicular_study::request::{Request, SimulateRequest};
+use funicular_study::wording::{Words, worded};
+use partial::{EarlierRun, PartialRows};
 use serde_json::{Map, Value};
 use std::fmt::Write as _;
-use std::fs::{self, File};
-use std::io::{BufWriter, Write};
-use std::path::{Path, PathBuf};
-use std::time::{Duration, Instant};
+use std::fs;
+use std::path::Path;
 
 /// Rows that the table shows.
 const SHOWN: usize = 21;
-
-/// Time after which rows that are ready are on the disk.
-const FLUSH: Duration = Duration::from_secs(1);
 
 /// Request of a simulation. Errors of its scenario name the file.
 pub(super) fn request(cli: &Cli, further: Map<String, Value>) -> Result<Request> {
@@ -47,69 +46,43 @@ pub(super) fn run(of: &SimulateRequest, args: &SimulateArgs, guard: &mut Guard) 
     }
     // Errors of the robot file are reported before errors of the destination.
     let robot = of.robot.read()?.robot;
-    let sink = Sink::open(&args.sink, &[], guard)?;
-    let names: Vec<String> = robot.cables.iter().map(|cable| cable.name.clone()).collect();
-    let mut partial = PartialRows::beside(args.sink.output_file.as_deref(), names)?;
+    let DrawArgs { output, figure } = &args.drawn;
+    let path = output.output_file.as_deref().filter(|_| output.format.is_none());
+    let drawn = FigureSink::open(path, *figure, guard)?;
+    // With a figure the result is printed.
+    let output_file = output.output_file.clone().filter(|_| drawn.is_none());
+    let printed = OutputArgs { format: output.format, output_file };
+    let animation = OtherFile::animation(args.animation.as_deref());
+    let files = ResultFiles::open(&printed, animation, args.page.as_deref(), guard)?;
+    let cables: Vec<String> = robot.cables.iter().map(|cable| cable.name.clone()).collect();
+    let earlier = match (args.resume, args.discard) {
+        (true, _) => EarlierRun::Resume,
+        (_, true) => EarlierRun::Discard,
+        _ => EarlierRun::Refuse,
+    };
+    let (mut partial, begun) = PartialRows::beside(printed.output_file.as_deref(), of, cables, earlier, guard)?;
 
     let mut watch = TerminalProgress::new();
-    let found = simulate::run_with(robot, of, &mut watch, &mut |row| partial.add(row))?;
+    let found = simulate::run_with(robot, of, &mut watch, &mut partial, begun)?;
     drop(watch);
-    sink.write(&found)?;
+    if let Some(drawn) = drawn {
+        drawn.write(&figures::of_simulation(&found))?;
+    }
+    files.write(
+        &found,
+        || Ok(figures::animation_of_simulation(&found).into_bytes()),
+        || {
+            let page = funicular_pages::pages::simulate::page(&found, super::page::command_line()?)?;
+            Ok(worded(&page, Words::Program))
+        },
+    )?;
     partial.remove();
     if found.stopped_at_s.is_some() { Err(Cancelled.into()) } else { Ok(()) }
 }
 
-/// Rows of a run that has not ended, in FILE.csv.partial.
-struct PartialRows {
-    file: Option<(BufWriter<File>, PathBuf)>,
-    cables: Vec<String>,
-    has_header: bool,
-    flushed: Instant,
-}
-
-impl PartialRows {
-    fn beside(path: Option<&Path>, cables: Vec<String>) -> Result<Self> {
-        let path = path.filter(|path| Kind::of(path) == Some(Kind::Csv));
-        let file = path
-            .map(|path| {
-                let mut name = path.as_os_str().to_owned();
-                name.push(".partial");
-                let path = PathBuf::from(name);
-                let file = File::create(&path).with_context(|| format!("cannot write {}", path.display()))?;
-                anyhow::Ok((BufWriter::new(file), path))
-            })
-            .transpose()?;
-        Ok(Self { file, cables, has_header: false, flushed: Instant::now() })
-    }
-
-    fn add(&mut self, row: &SimulatedRow) -> Result<()> {
-        let Some((file, path)) = &mut self.file else { return Ok(()) };
-        let csv = crate::output::as_csv(ResultTable::new(SimulatedRow::columns(&self.cables), [row]))?;
-        let from =
-            if self.has_header { csv.iter().position(|byte| *byte == b'\n').map_or(0, |end| end + 1) } else { 0 };
-        self.has_header = true;
-        let cannot = || format!("cannot write {}", path.display());
-        file.write_all(&csv[from..]).with_context(cannot)?;
-        if self.flushed.elapsed() > FLUSH {
-            file.flush().with_context(cannot)?;
-            self.flushed = Instant::now();
-        }
-        Ok(())
-    }
-
-    /// Removes the file after the whole result has been written.
-    fn remove(self) {
-        if let Some((file, path)) = self.file {
-            drop(file);
-            // The result is complete; a file that stays does no harm.
-            let _ = fs::remove_file(path);
-        }
-    }
-}
-
 impl Printed for Simulated {
     fn text(&self) -> String {
-        let columns = SimulatedRow::columns(&self.cables);
+        let columns = SimulatedRow::columns(&self.cables, &self.points);
         let step = self.rows.len().div_ceil(SHOWN).max(1);
         let shown = self.rows.iter().step_by(step);
         let table = Table::of(&columns, shown.clone());

@@ -141,7 +141,7 @@ fn the_robot_file_is_never_overwritten() {
 }
 
 /// Every command that writes, with `OUT` for the file that it writes to.
-const WRITERS: [&str; 23] = [
+const WRITERS: [&str; 26] = [
     "check ROBOT -o OUT",
     "parameters ROBOT -o OUT",
     "statics ROBOT -o OUT",
@@ -165,6 +165,9 @@ const WRITERS: [&str; 23] = [
     "report ROBOT -o OUT",
     "export ROBOT --to opensees -o OUT",
     "export ROBOT --to vtk -o OUT",
+    "simulate ROBOT --duration-s 0.01 --once -o OUT",
+    "simulate ROBOT --duration-s 0.01 --once --discard -o OUT",
+    "simulate ROBOT --duration-s 0.01 --once --animation OUT",
 ];
 
 /// A file that is read is never written over, by whatever name it is called, nor by what is beside the result until it is
@@ -177,11 +180,20 @@ fn no_file_that_is_read_is_written_over_by_any_command() {
     for writer in WRITERS {
         // The name of the result, and the file that it or one beside it would be written over.
         let is_rows = writer.starts_with("map") || writer.starts_with("sweep");
-        let endings: &[&str] = if is_rows { &["", ".partial", ".writing"] } else { &[""] };
+        let is_history = writer.starts_with("simulate") && writer.contains(" -o ");
+        let endings: &[&str] = if is_rows {
+            &["", ".partial", ".writing"]
+        } else if is_history {
+            &["", ".partial", ".partial.state"]
+        } else {
+            &[""]
+        };
         let name = if is_rows {
             "out.parquet"
         } else if writer.contains("--matrices") {
             "out.npz"
+        } else if is_history {
+            "out.csv"
         } else {
             "out"
         };

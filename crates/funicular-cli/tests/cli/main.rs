@@ -30,6 +30,7 @@ mod reduce;
 mod request;
 mod results;
 mod settle;
+mod simulate;
 mod speeds;
 mod statics;
 mod stiffness;

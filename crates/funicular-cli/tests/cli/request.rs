@@ -167,7 +167,10 @@ fn the_request_of_every_command_runs_again() {
             &[],
         ),
         (&["calibrate", &machine, "--readings", &belts, "--propose", "1", "--grid", "x=1:4:4"], &[]),
-        (&["simulate", "ROBOT", "--mass-kg", "12.5", "--scenario", &release, "--for", "0.05"], &[]),
+        (
+            &["simulate", "ROBOT", "--mass-kg", "12.5", "--scenario", &release, "--for", "0.05", "--point", "a=0,0,1"],
+            &[],
+        ),
         (&["import", &tripod], &[]),
         (&["report", "ROBOT", "--below-hz", "1.3"], &["-o", "-"]),
         (&["validate"], &[]),

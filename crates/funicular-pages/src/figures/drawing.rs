@@ -70,6 +70,21 @@ pub(crate) struct DrawnPath {
     pub(crate) stroke: Option<Stroke>,
 }
 
+/// Lines or areas that move, in drawings that a browser plays. Elsewhere they stand as at the start.
+#[derive(Debug, Clone)]
+pub(crate) struct Moving {
+    /// Path at the start, with one line.
+    pub(crate) path: DrawnPath,
+    /// Times of the frames as parts of the duration, from 0 to 1.
+    pub(crate) shares: Vec<f64>,
+    /// Points of the line in each frame, always as many.
+    pub(crate) each: Vec<Vec<PaperPoint>>,
+    /// Colours of the stroke, each from a part of the duration on, the first from 0; empty for one colour.
+    pub(crate) colours: Vec<(f64, Colour)>,
+    /// Time in which it moves once, again and again [s].
+    pub(crate) duration: f64,
+}
+
 /// Text whose parts may be raised as exponents.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(crate) struct Label(pub(crate) Vec<(String, bool)>);
@@ -127,6 +142,7 @@ pub(crate) struct Text {
 #[derive(Debug, Clone)]
 pub(crate) enum Item {
     Path(DrawnPath),
+    Moving(Moving),
     Text(Text),
 }
 
@@ -158,6 +174,11 @@ impl Drawing {
         if !lines.is_empty() {
             self.items.push(Item::Path(DrawnPath { lines, closed: false, fill: None, stroke: Some(stroke) }));
         }
+    }
+
+    /// Draws lines or areas that move.
+    pub(crate) fn moving(&mut self, moving: Moving) {
+        self.items.push(Item::Moving(moving));
     }
 
     /// Draws areas with one style.

@@ -5,7 +5,7 @@ use super::chart::{Chart, Entry, Layer, Panel, Sample};
 use super::drawing::{BLACK, Stroke};
 use super::space::{RobotShape, Space};
 use super::style::{self, GREY, ModelStyle, Symbol};
-use super::{Figure, FigureChoice, FigureContent, calibration, gusts, sections, settling};
+use super::{Figure, FigureChoice, FigureContent, calibration, gusts, sections, settling, simulated};
 use crate::figure_style::{MODE_TICKS, ModeTick, rgb};
 use anyhow::{Result, bail};
 use funicular::cable::CableModel;
@@ -18,6 +18,7 @@ use funicular_study::Watch;
 use funicular_study::analyses::calibrate::{self, Calibrated};
 use funicular_study::analyses::modes::with_rigid_cables;
 use funicular_study::analyses::settle::Settled;
+use funicular_study::analyses::simulate::{self, Simulated};
 use funicular_study::analyses::workspace::Workspace;
 use funicular_study::analyses::{compare, frf, gust, settle, statics};
 use funicular_study::at_rest::{self, AtRest, ModesBelow};
@@ -34,8 +35,8 @@ pub struct RequestFigure {
 }
 
 /// Makes the figure of a request: the robot at its equilibrium for `statics`, the spectrum or the shape of one mode for
-/// `modes`, magnitude and phase for `frf`, the decay for `settle`, the spectra for `gust`, the differences
-/// between the cable models for `compare`, the anchors with their ellipses for `calibrate`.
+/// `modes`, magnitude and phase for `frf`, the decay for `settle`, pose and tensions over time for `simulate`, the spectra
+/// for `gust`, the differences between the cable models for `compare`, the anchors with their ellipses for `calibrate`.
 ///
 /// # Errors
 /// A command without a figure, a choice that does not fit the command, or the errors of the command.
@@ -65,9 +66,13 @@ pub fn of_request(
             let found = calibrate::run(of, watch)?;
             Ok(RequestFigure { figure: of_calibration(&found), warnings: found.warnings })
         }
+        Request::Simulate(of) => {
+            let found = simulate::run(robot, of, watch)?;
+            Ok(RequestFigure { figure: of_simulation(&found), warnings: found.warnings })
+        }
         other => bail!(
-            "`{}` has no figure of its own: `statics`, `modes`, `frf`, `settle`, `gust`, `workspace`, `compare`, \
-             `calibrate` and `plot` write .svg and .pdf; give another ending",
+            "`{}` has no figure of its own: `statics`, `modes`, `frf`, `settle`, `simulate`, `gust`, `workspace`, \
+             `compare`, `calibrate` and `plot` write .svg and .pdf; give another ending",
             other.command()
         ),
     }
@@ -89,6 +94,11 @@ pub fn of_sections(found: &Workspace) -> Result<Figure> {
 /// Makes the figure of a calibration that has been computed before.
 pub fn of_calibration(found: &Calibrated) -> Figure {
     Figure(FigureContent::Chart(calibration::chart(found)))
+}
+
+/// Makes the figure of a simulation that has been computed before.
+pub fn of_simulation(found: &Simulated) -> Figure {
+    Figure(FigureContent::Chart(simulated::chart(found)))
 }
 
 fn chart(chart: Chart, warnings: Vec<String>) -> RequestFigure {

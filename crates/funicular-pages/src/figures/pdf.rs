@@ -1,6 +1,6 @@
 //! Drawings as PDF: one page of the size of the figure, with the used letters of the font embedded.
 
-use super::drawing::{Colour, Drawing, DrawnPath, Item, RAISED, Text};
+use super::drawing::{Colour, Drawing, DrawnPath, Item, Moving, RAISED, Text};
 use super::font::Font;
 use flate2::Compression;
 use flate2::write::ZlibEncoder;
@@ -123,7 +123,7 @@ fn page_content(drawing: &Drawing, letters: &Letters) -> Vec<u8> {
     content.set_line_join(LineJoinStyle::RoundJoin);
     for item in &drawing.items {
         match item {
-            Item::Path(path) => draw_path(&mut content, path, drawing.height),
+            Item::Path(path) | Item::Moving(Moving { path, .. }) => draw_path(&mut content, path, drawing.height),
             Item::Text(text) => draw_text(&mut content, text, drawing, letters),
         }
     }

@@ -1,5 +1,9 @@
 //! The robot in space: parallel projection, hanging cables, the platform between its attachments, a floor with scales.
 
+mod moving;
+
+pub use moving::animation_of_simulation;
+
 use super::axis::{nice_step, round_numbers};
 use super::bodies::BodySurface;
 use super::drawing::{Align, BLACK, Colour, Drawing, Label, PaperPoint, Stroke, WHITE};

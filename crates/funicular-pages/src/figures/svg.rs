@@ -3,7 +3,7 @@
 //! Texts stay texts, in the sans serif fonts that journals ask for; a program for drawings can edit them. Arial and
 //! Helvetica are narrower than the font whose widths place the texts, so that no text overlaps another.
 
-use super::drawing::{Colour, Drawing, DrawnPath, Item, RAISED, Text};
+use super::drawing::{Colour, Drawing, DrawnPath, Item, Moving, PaperPoint, RAISED, Text};
 use std::fmt::Write as _;
 
 const FAMILY: &str = "Arial, Helvetica, 'Liberation Sans', 'Noto Sans', sans-serif";
@@ -28,7 +28,11 @@ pub(crate) fn svg(drawing: &Drawing) -> String {
 
     for item in &drawing.items {
         match item {
-            Item::Path(path) => path_element(&mut out, path),
+            Item::Path(path) => {
+                open_path(&mut out, path);
+                out.push_str("/>\n");
+            }
+            Item::Moving(moving) => moving_element(&mut out, moving),
             Item::Text(text) => text_element(&mut out, text),
         }
     }
@@ -37,16 +41,52 @@ pub(crate) fn svg(drawing: &Drawing) -> String {
     out
 }
 
-fn path_element(out: &mut String, path: &DrawnPath) {
+/// Writes the steps of a line.
+fn steps(out: &mut String, line: &[PaperPoint], closed: bool) {
+    for (i, point) in line.iter().enumerate() {
+        let step = if i == 0 { "M" } else { "L" };
+        let _ = write!(out, "{step}{} {}", number(point[0]), number(point[1]));
+    }
+    if closed {
+        out.push('Z');
+    }
+}
+
+/// Path with the animation of its points and of its colour, by SMIL.
+fn moving_element(out: &mut String, moving: &Moving) {
+    let Moving { path, shares, each, colours, duration } = moving;
+    open_path(out, path);
+    let timing = format!("dur=\"{duration}s\" repeatCount=\"indefinite\"");
+    let times = |of: &mut dyn Iterator<Item = f64>| of.map(|share| format!("{share:.5}")).collect::<Vec<_>>().join(";");
+    let _ = write!(
+        out,
+        "><animate attributeName=\"d\" {timing} keyTimes=\"{}\" values=\"",
+        times(&mut shares.iter().copied())
+    );
+    for (k, line) in each.iter().enumerate() {
+        if k > 0 {
+            out.push(';');
+        }
+        steps(out, line, path.closed);
+    }
+    out.push_str("\"/>");
+    if colours.len() > 1 {
+        let values: Vec<String> = colours.iter().map(|(_, colour)| hex(*colour)).collect();
+        let _ = write!(
+            out,
+            "<animate attributeName=\"stroke\" calcMode=\"discrete\" {timing} keyTimes=\"{}\" values=\"{}\"/>",
+            times(&mut colours.iter().map(|(share, _)| *share)),
+            values.join(";")
+        );
+    }
+    out.push_str("</path>\n");
+}
+
+/// Path without the end of its element.
+fn open_path(out: &mut String, path: &DrawnPath) {
     out.push_str("<path d=\"");
     for line in &path.lines {
-        for (i, point) in line.iter().enumerate() {
-            let step = if i == 0 { "M" } else { "L" };
-            let _ = write!(out, "{step}{} {}", number(point[0]), number(point[1]));
-        }
-        if path.closed {
-            out.push('Z');
-        }
+        steps(out, line, path.closed);
     }
     let _ = write!(out, "\" fill=\"{}\"", path.fill.map_or_else(|| "none".to_owned(), hex));
     if let Some(stroke) = &path.stroke {
@@ -56,7 +96,6 @@ fn path_element(out: &mut String, path: &DrawnPath) {
             let _ = write!(out, " stroke-dasharray=\"{}\"", dashes.join(" "));
         }
     }
-    out.push_str("/>\n");
 }
 
 fn text_element(out: &mut String, text: &Text) {

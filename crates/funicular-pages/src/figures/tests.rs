@@ -41,7 +41,7 @@ fn size(width_mm: f64, font_size_pt: f64) -> Size {
 fn boxes(drawing: &Drawing) -> Vec<([f64; 4], String)> {
     let texts = drawing.items.iter().filter_map(|item| match item {
         Item::Text(text) => Some(text),
-        Item::Path(_) => None,
+        Item::Path(_) | Item::Moving(_) => None,
     });
     texts
         .map(|text| {

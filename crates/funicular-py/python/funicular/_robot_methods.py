@@ -185,7 +185,9 @@ def _sampled(path: Callable[[float], ArrayLike], given: Given) -> dict[str, Arra
 
 
 @declared(Robot, "simulate", positional=("scenario", "duration_s"))
-def simulate(of: Any, given: Given) -> Results:
+def simulate(
+    of: Any, given: Given, page: File | None = None, figure: File | None = None, animation: File | None = None
+) -> Results:
     """Simulates large motion in time of platform and sagging ropes.
 
     Parameters
@@ -193,6 +195,12 @@ def simulate(of: Any, given: Given) -> Results:
     scenario
         What happens: a mapping from `release`, `pick`, `lengths`, `tension`, `stop`, `push` and `cut` to lists of events, each a
         mapping with the keys of docs/simulation.md.
+    page
+        HTML file of a page with the moving robot, pose and tensions over time, and the spectrum of the motion.
+    figure
+        File of a figure of pose and tensions over time, .svg or .pdf.
+    animation
+        SVG file of an animated drawing of the moving robot, which any browser shows in true time.
 
     Returns
     -------
@@ -210,7 +218,7 @@ def simulate(of: Any, given: Given) -> Results:
     ----------
     docs/theory.md, equations (97a) to (97k).
     """
-    return _results.results(of._answer("simulate", given))
+    return _results.results(of._simulate(given, page, figure, animation))
 
 
 @declared(Robot, "clearance", positional=("pose", "static_model"), others=_AS_REST)

@@ -13,11 +13,11 @@ use crate::sweep::{ExecutorArgument, ProgressArgument, PyPlan, RunKeywords, Swee
 use crate::threads::Threads;
 use funicular_files::{Begin, UncertaintyOutcome, UncertaintyRun, WorkspaceRun};
 use funicular_formats::surface::{self, SurfaceFormat};
-use funicular_pages::figures::{self, Size};
+use funicular_pages::figures::{self, Figure, Size};
 use funicular_pages::pages;
-use funicular_study::analyses::trajectory;
 use funicular_study::analyses::uncertainty::UncertaintyStudy;
 use funicular_study::analyses::workspace::{Workspace, WorkspaceStudy};
+use funicular_study::analyses::{simulate, trajectory};
 use funicular_study::request::{Request, UncertaintyRequest};
 use funicular_study::wording::{Words, worded};
 use funicular_study::{Results, run_on};
@@ -161,14 +161,46 @@ impl PyRobot {
                 answers::write_bytes(path, worded(&page, Words::Python).as_bytes())?;
             }
             if let (Some(path), Some(is_svg)) = (figure, is_svg) {
-                let drawn = figures::of_calibration(found);
-                let size = Size::new(None, None).map_err(|error| errors::study(&error))?;
-                let bytes = if is_svg { drawn.svg(size).into_bytes() } else { drawn.pdf(size) };
-                answers::write_bytes(path, &bytes)?;
+                write_figure(&figures::of_calibration(found), path, is_svg)?;
             }
         }
         let text = found.to_json(Words::Python).map_err(|error| errors::study(&error.into()))?;
         answers::loaded(py, &text)
+    }
+
+    /// Simulation, whose page, figure and animation go to files.
+    #[pyo3(name = "_simulate")]
+    fn simulate<'py>(
+        &self,
+        py: Python<'py>,
+        given: &Bound<'py, PyDict>,
+        page: Option<PathBuf>,
+        figure: Option<PathBuf>,
+        animation: Option<PathBuf>,
+    ) -> PyResult<TextKeyed<'py>> {
+        let Request::Simulate(request) = self.request_of("simulate", given)? else {
+            unreachable!("the request is of simulate")
+        };
+        let is_svg = figure.as_deref().map(figure_is_svg).transpose()?;
+        if let Some(path) = animation.as_deref().filter(|path| !figure_is_svg(path).unwrap_or_default()) {
+            return Err(errors::input(format!("`animation` {}: the file ends in .svg", path.display())));
+        }
+        let found = py.detach(|| {
+            let mut watch = CtrlC::new();
+            simulate::run((*self.robot).clone(), &request, &mut watch).map_err(|error| watch.or(&error))
+        })?;
+        if let Some(path) = page {
+            let call = format!("robot.simulate(…, page={:?})", path.display().to_string());
+            let page = pages::simulate::page(&found, call).map_err(|error| errors::study(&error))?;
+            answers::write_bytes(path, worded(&page, Words::Python).as_bytes())?;
+        }
+        if let (Some(path), Some(is_svg)) = (figure, is_svg) {
+            write_figure(&figures::of_simulation(&found), path, is_svg)?;
+        }
+        if let Some(path) = animation {
+            answers::write_bytes(path, figures::animation_of_simulation(&found).as_bytes())?;
+        }
+        answers::plain(py, &found)
     }
 
     /// Workspace, found on all threads, with calls of `progress`; its surface goes to files.
@@ -201,6 +233,13 @@ impl PyRobot {
         }
         answers::plain(py, &found)
     }
+}
+
+/// Writes a figure with its usual size.
+fn write_figure(figure: &Figure, path: PathBuf, is_svg: bool) -> PyResult<()> {
+    let size = Size::new(None, None).map_err(|error| errors::study(&error))?;
+    let bytes = if is_svg { figure.svg(size).into_bytes() } else { figure.pdf(size) };
+    answers::write_bytes(path, &bytes)
 }
 
 /// True for the name of an SVG file, false for that of a PDF file.

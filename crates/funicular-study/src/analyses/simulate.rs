@@ -2,25 +2,33 @@
 
 mod error;
 mod events;
+mod keeping;
+mod picture;
 mod rows;
+mod spectrum;
 
 pub use error::{ColumnError, Peak};
 pub use events::scenario_from_toml;
+pub use keeping::{BegunRun, NothingKept, RowKeeper};
+pub use picture::{EventMark, SimulatedFrame, SimulatedPicture, SlackSpan};
 pub use rows::SimulatedRow;
+pub use spectrum::MotionSpectrum;
 
 use super::found;
 use super::shared::Origin;
 use crate::at_rest::{self, AtRest};
 use crate::columns::{ResultTable, Tabled};
 use crate::error::{Cancelled, NoSolution};
-use crate::request::SimulateRequest;
+use crate::request::{PointValue, SimulateRequest};
 use crate::table::Column;
+use crate::values::finite;
 use crate::watch::Watch;
 use anyhow::{Result, anyhow, bail};
 use error::errors;
 use events::Events;
-use funicular::robot::Robot;
+use funicular::robot::{PlatformMotion, Robot};
 use funicular::simulation::{ElementMesh, Simulation, SimulationError, SimulationSettings, StepCounts};
+use keeping::STATE_ROWS;
 use serde::Serialize;
 
 /// Number of parts of the duration between its rows, if nothing says how many.
@@ -60,7 +68,13 @@ pub struct Simulated {
     pub peaks: Vec<Peak>,
     /// Names of the cables, in the order of all lists.
     pub cables: Vec<String>,
+    /// Names of the chosen points, in the order of all lists.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub points: Vec<String>,
     pub rows: Vec<SimulatedRow>,
+    /// Robot at some of the times, for pictures.
+    #[serde(skip)]
+    pub picture: SimulatedPicture,
     #[serde(skip)]
     pub warnings: Vec<String>,
 }
@@ -90,30 +104,36 @@ pub struct CutRow {
     pub t_s: f64,
 }
 
-/// Function that receives each row of the first run when it is ready.
-pub type OnRow<'a> = &'a mut dyn FnMut(&SimulatedRow) -> Result<()>;
-
 /// Simulates a robot.
 ///
 /// # Errors
 /// A scenario that cannot happen, a part of the robot that is not simulated, a tolerance that no step reaches, or
 /// [`Cancelled`] before the first row.
 pub fn run(robot: Robot, request: &SimulateRequest, watch: &mut dyn Watch) -> Result<Simulated> {
-    run_with(robot, request, watch, &mut |_| Ok(()))
+    run_with(robot, request, watch, &mut NothingKept, None)
 }
 
-/// Simulates a robot, and gives each row away when it is ready.
+/// Simulates a robot, from a run that has begun if there is one, and gives each new row of the first run to a keeper.
 ///
 /// # Errors
-/// Those of [`run`] and of `on_row`.
-pub fn run_with(robot: Robot, request: &SimulateRequest, watch: &mut dyn Watch, on_row: OnRow) -> Result<Simulated> {
+/// Those of [`run`] and of the keeper; a run that belongs to another request.
+pub fn run_with(
+    robot: Robot,
+    request: &SimulateRequest,
+    watch: &mut dyn Watch,
+    keeper: &mut dyn RowKeeper,
+    begun: Option<BegunRun>,
+) -> Result<Simulated> {
     let at_rest = at_rest::equilibrium(robot, &request.robot, &request.state, &request.tensions)?;
     let vibrating = at_rest.vibrating();
     let events = Events::of(&request.scenario, &vibrating)?;
     let settings = settings(request)?;
     let times = times(request)?;
 
-    let first = history(&vibrating, &events, &settings, &times, watch, on_row)?;
+    check_points(&request.point, &vibrating.robot)?;
+    let course = Course { at_rest: &vibrating, events: &events, times: &times, points: &request.point };
+
+    let first = course.history(&settings, watch, keeper, begun)?;
     let finer = if request.once || first.rows.len() < times.len() {
         None
     } else {
@@ -123,7 +143,7 @@ pub fn run_with(robot: Robot, request: &SimulateRequest, watch: &mut dyn Watch, 
             ..settings.clone()
         };
         // A run that is stopped here still has its rows.
-        let finer = history(&vibrating, &events, &settings, &times, watch, &mut |_| Ok(()));
+        let finer = course.history(&settings, watch, &mut NothingKept, None);
         finer.ok().filter(|finer| finer.rows.len() == times.len())
     };
     Ok(found(&at_rest, request, first, finer.as_ref()))
@@ -132,9 +152,36 @@ pub fn run_with(robot: Robot, request: &SimulateRequest, watch: &mut dyn Watch, 
 /// Rows of one run.
 struct History {
     rows: Vec<SimulatedRow>,
+    picture: SimulatedPicture,
     slack: Vec<SlackRow>,
     cuts: Vec<CutRow>,
     counts: StepCounts,
+}
+
+/// What both runs have in common.
+struct Course<'a> {
+    at_rest: &'a AtRest,
+    events: &'a Events,
+    times: &'a [f64],
+    points: &'a [PointValue],
+}
+
+/// Refuses points that the platform does not have, and names that two points share.
+fn check_points(points: &[PointValue], robot: &Robot) -> Result<()> {
+    for (k, point) in points.iter().enumerate() {
+        let name = &point.name;
+        if name.is_empty() || points[..k].iter().any(|other| other.name == *name) {
+            bail!("⟪point⟫: the name \"{name}\" is empty or stands twice: give every point a name of its own");
+        }
+        for x in point.point_m {
+            finite(x).map_err(|reason| anyhow!("⟪point⟫ {name}: {reason}"))?;
+        }
+        let is_origin = point.point_m == [0.0; 3];
+        if robot.platform.motion == PlatformMotion::PointMass && !is_origin {
+            bail!("⟪point⟫ {name}: a point mass has no point except its origin: give {name}=0,0,0, or leave it out");
+        }
+    }
+    Ok(())
 }
 
 fn settings(request: &SimulateRequest) -> Result<SimulationSettings> {
@@ -165,45 +212,64 @@ fn times(request: &SimulateRequest) -> Result<Vec<f64>> {
     Ok((0..=count as usize).map(|k| (step * k as f64).min(duration)).collect())
 }
 
-/// One run. Work that is stopped from outside keeps the rows so far.
-fn history(
-    at_rest: &AtRest,
-    events: &Events,
-    settings: &SimulationSettings,
-    times: &[f64],
-    watch: &mut dyn Watch,
-    on_row: OnRow,
-) -> Result<History> {
-    let AtRest { robot, equilibrium, .. } = at_rest;
-    let duration = times[times.len() - 1];
-    let mut simulation =
-        Simulation::new(robot, equilibrium, &events.list, duration, settings).map_err(|error| events.told(error))?;
-    let mut rows = Vec::with_capacity(times.len());
-    for (k, time) in times.iter().enumerate() {
-        if watch.is_cancelled() {
-            if rows.is_empty() {
-                return Err(Cancelled.into());
+impl Course<'_> {
+    /// One run. Work that is stopped from outside keeps the rows so far.
+    fn history(
+        &self,
+        settings: &SimulationSettings,
+        watch: &mut dyn Watch,
+        keeper: &mut dyn RowKeeper,
+        begun: Option<BegunRun>,
+    ) -> Result<History> {
+        let Self { at_rest: AtRest { robot, equilibrium, .. }, events, times, points } = *self;
+        let duration = times[times.len() - 1];
+        let mut simulation = Simulation::new(robot, equilibrium, &events.list, duration, settings)
+            .map_err(|error| events.told(error))?;
+        let mut rows = Vec::with_capacity(times.len());
+        if let Some(begun) = begun {
+            if begun.rows.len() > times.len() || !simulation.restore(&begun.state) {
+                bail!("the run that has begun belongs to another request: discard it");
             }
-            break;
+            rows.extend(begun.rows);
         }
-        let sample = simulation.at(*time).map_err(|error| events.told(error))?;
-        let row = SimulatedRow::of(&sample);
-        on_row(&row)?;
-        rows.push(row);
-        watch.progress(k + 1, times.len(), "rows");
+        let mut picture = SimulatedPicture::new(robot, equilibrium, &events.list);
+        for (k, time) in times.iter().enumerate().skip(rows.len()) {
+            if watch.is_cancelled() {
+                if rows.is_empty() {
+                    return Err(Cancelled.into());
+                }
+                break;
+            }
+            let sample = simulation.at(*time).map_err(|error| events.told(error))?;
+            picture.keep(&mut simulation, &sample, k, times.len());
+            let row = SimulatedRow::of(&sample, points);
+            keeper.row(&row)?;
+            rows.push(row);
+            if rows.len() % STATE_ROWS == 0 {
+                keeper.state(rows.len(), &simulation.state())?;
+            }
+            watch.progress(k + 1, times.len(), "rows");
+        }
+        picture.end(&simulation);
+        Ok(History::new(robot, &simulation, rows, picture))
     }
+}
 
-    let reached = rows.last().map_or(0.0, |row| row.t_s);
-    let name = |i: usize| robot.cables[i].name.clone();
-    let slack = simulation.slack().iter().enumerate().filter_map(|(i, of)| {
-        Some(SlackRow { cable: name(i), first_s: of.first?, share: (of.duration / reached).min(1.0) })
-    });
-    Ok(History {
-        slack: slack.collect(),
-        cuts: simulation.cuts().iter().map(|(i, t_s)| CutRow { cable: name(*i), t_s: *t_s }).collect(),
-        counts: simulation.counts(),
-        rows,
-    })
+impl History {
+    fn new(robot: &Robot, simulation: &Simulation, rows: Vec<SimulatedRow>, picture: SimulatedPicture) -> Self {
+        let reached = rows.last().map_or(0.0, |row| row.t_s);
+        let name = |i: usize| robot.cables[i].name.clone();
+        let slack = simulation.slack().iter().enumerate().filter_map(|(i, of)| {
+            Some(SlackRow { cable: name(i), first_s: of.first?, share: (of.duration / reached).min(1.0) })
+        });
+        Self {
+            slack: slack.collect(),
+            cuts: simulation.cuts().iter().map(|(i, t_s)| CutRow { cable: name(*i), t_s: *t_s }).collect(),
+            counts: simulation.counts(),
+            rows,
+            picture,
+        }
+    }
 }
 
 fn found(at_rest: &AtRest, request: &SimulateRequest, first: History, finer: Option<&History>) -> Simulated {
@@ -243,18 +309,29 @@ fn found(at_rest: &AtRest, request: &SimulateRequest, first: History, finer: Opt
         errors,
         peaks,
         cables,
+        points: request.point.iter().map(|point| point.name.clone()).collect(),
         rows: first.rows,
+        picture: first.picture,
         warnings,
+    }
+}
+
+impl Simulated {
+    /// Times at which cables are slack, by the rows.
+    pub fn slack_spans(&self) -> Vec<SlackSpan> {
+        picture::slack_spans(&self.rows, |i| {
+            self.cuts.iter().find(|cut| cut.cable == self.cables[i]).map(|cut| cut.t_s)
+        })
     }
 }
 
 impl Tabled for Simulated {
     fn tables() -> Vec<(&'static str, Vec<Column>)> {
-        vec![("", SimulatedRow::columns(&["NAME".to_owned()]).described())]
+        vec![("", SimulatedRow::columns(&["NAME".to_owned()], &["POINT".to_owned()]).described())]
     }
 
     fn table(&self) -> ResultTable<'_> {
-        ResultTable::new(SimulatedRow::columns(&self.cables), &self.rows)
+        ResultTable::new(SimulatedRow::columns(&self.cables, &self.points), &self.rows)
     }
 }
 

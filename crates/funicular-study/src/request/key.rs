@@ -86,6 +86,8 @@ pub enum ProgramForm {
     Band,
     /// Limit of a quantity of a map, `QUANTITY=VALUE`.
     Bound,
+    /// Point of the platform, `NAME=X,Y,Z`.
+    Point,
 }
 
 /// Kind of value of an option.

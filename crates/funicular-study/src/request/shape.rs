@@ -85,6 +85,7 @@ fn of_form(form: ProgramForm) -> Value {
         ProgramForm::Prior => prior(),
         ProgramForm::Band => numbers(Range::Positive, Some(2)),
         ProgramForm::Bound => bound(),
+        ProgramForm::Point => point(),
     }
 }
 
@@ -182,6 +183,10 @@ fn prior() -> Value {
 
 fn bound() -> Value {
     object(&["quantity", "value"], &json!({ "quantity": text(), "value": number(Range::Finite) }))
+}
+
+fn point() -> Value {
+    object(&["name", "point_m"], &json!({ "name": text(), "point_m": numbers(Range::Finite, Some(3)) }))
 }
 
 /// Events of a simulation. Their keys are checked when they are read.

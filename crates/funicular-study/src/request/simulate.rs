@@ -21,6 +21,9 @@ declared! {
         duration_s: f64 = 10.0 => (Number(Positive));
         /// Time between the rows of the result [s].
         sample_time_s: Option<f64> = None => (Number(Positive)).otherwise("a thousandth of the duration");
+        /// Point of the platform whose motion is a part of the result, by a name and its place in the platform frame [m], as
+        /// in hook=0,0,-0.5 (repeatable).
+        point: Vec<PointValue> = Vec::new() => (List(ProgramForm::Point)).form("NAME=X,Y,Z");
         /// Error of a position that one step may have [m].
         tolerance_m: f64 = SimulationSettings::TOLERANCE => (Number(Positive)).under("Accuracy");
         /// Number of elements of each rope.
@@ -50,6 +53,16 @@ declared! {
         "funicular simulate robots/yuan2014-4mm.toml --mass-kg 12.5 --scenario docs/simulation/release.toml --for 2",
         "funicular simulate robots/yuan2014-4mm.toml --scenario docs/simulation/stop.toml --for 3 --once -o stop.csv",
     }
+}
+
+/// Point of the platform with a name.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct PointValue {
+    /// Name, which columns of the result have.
+    pub name: String,
+    /// Place, platform frame [m].
+    pub point_m: [f64; 3],
 }
 
 const DEFAULT_MESH: ElementMesh = ElementMesh::STANDARD;

@@ -23,6 +23,7 @@ import * as response from "./response.js";
 import * as robot from "./robot.js";
 import * as saving from "./saving.js";
 import * as sliders from "./sliders.js";
+import * as simulation from "./simulation.js";
 import * as stop from "./stop.js";
 import { LinkError } from "./share.js";
 import { content, emit, on, page, shown } from "./store.js";
@@ -136,6 +137,7 @@ async function start() {
     influence,
     release,
     stop,
+    simulation,
     survey,
     places,
     opening,

@@ -1,4 +1,4 @@
-// Playback of a mode or of a release in the view.
+// Playback of a mode, of a release or of a simulation in the view.
 
 import { Quaternion, Vector3 } from "three";
 import { setCurve } from "./curve.js";
@@ -68,6 +68,60 @@ export class Playback {
     }
   }
 
+  /**
+   * Plays a simulated motion; null ends it.
+   * @param {object} simulation `times` [s], `poses` (position and quaternion w, x, y, z) and `curves` (coordinates of
+   *   the points of every cable) at these times, `enlargement` of the displacements since the start, `clock(seconds)`
+   */
+  setSimulation(simulation) {
+    const view = this.#view;
+    this.mode = simulation && { simulation, playing: true, start: performance.now() };
+    if (!simulation && view.frame) {
+      view.setFrame(view.frame, view.dragging);
+    }
+    view.draw();
+  }
+
+  /** Moves the robot to its place in the simulation at a time of the screen [ms], straight between two pictures. */
+  #showSimulation(now) {
+    const view = this.#view;
+    const { simulation, start } = this.mode;
+    const { times, poses, curves, enlargement, clock } = simulation;
+    const end = times.at(-1);
+    const t = Math.max(0, Math.min(((now - start) / 1000) % (RECORD_WITH_REST * end), end));
+    clock(t);
+    const next = Math.max(
+      1,
+      times.findIndex((time) => time >= t),
+    );
+    const part = (t - times[next - 1]) / (times[next] - times[next - 1]);
+    const between = (of, k) => of[next - 1][k] + part * (of[next][k] - of[next - 1][k]);
+    const larger = (first, value) => first + enlargement * (value - first);
+    view.lines.forEach((line, i) => {
+      const of = curves.map((frame) => frame[i]);
+      // A cable without mass that was cut is gone.
+      line.visible = of[next].length > 0;
+      if (line.visible && of[next - 1].length > 0) {
+        setCurve(
+          line,
+          of[next].map((_, k) => larger(of[0][k], between(of, k))),
+        );
+      }
+    });
+    view.platform.position.set(...[0, 1, 2].map((k) => larger(poses[0][k], between(poses, k))));
+    const turn = ([, , , w, x, y, z]) => new Quaternion(x, y, z, w);
+    const away = turn(poses[next - 1])
+      .slerp(turn(poses[next]), part)
+      .multiply(turn(poses[0]).invert());
+    const angle = 2 * Math.acos(Math.min(1, Math.abs(away.w)));
+    const axis = new Vector3(away.x, away.y, away.z).multiplyScalar(Math.sign(away.w) || 1);
+    const extra = new Quaternion().setFromAxisAngle(
+      axis.length() > 0 ? axis.normalize() : new Vector3(0, 0, 1),
+      enlargement * angle,
+    );
+    view.platform.quaternion.copy(extra.multiply(turn(poses[0])));
+  }
+
   /** Factor by which the motion of the release is larger than it is. */
   get releaseScale() {
     return this.mode?.release ? this.mode.scale * this.amplitude : 1;
@@ -105,6 +159,10 @@ export class Playback {
   /** Moves the bodies of the view to their places at a time of the screen [ms], if there is a motion. */
   show(now) {
     if (!this.mode) {
+      return;
+    }
+    if (this.mode.simulation) {
+      this.#showSimulation(now);
       return;
     }
     const view = this.#view;

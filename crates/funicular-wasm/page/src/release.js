@@ -6,7 +6,7 @@ import { history } from "./figures.js";
 import { $, element, plain, short } from "./format.js";
 import { decay, startOf, summed, wrenchOf } from "./free_response.js";
 import { accept, numberOf, refuse, tell as say } from "./messages.js";
-import { on, page, shown } from "./store.js";
+import { emit, on, page, shown } from "./store.js";
 
 const MAX_MODES = 60; // that are drawn, the largest first: more need more time per frame than they show
 const MAX_PERIODS = 24; // of the slowest large mode, until the record ends
@@ -108,6 +108,7 @@ async function release() {
   if (frame !== page.frame) {
     return;
   }
+  emit("release");
   shown.released = true;
   page.view.playback.setRelease({
     seconds,
@@ -262,6 +263,7 @@ export function listen() {
       stop();
     }
   });
+  on("simulate", stop); // the view has one motion
   on("remember", () => {
     if (page.before) {
       page.before.release = last;

@@ -1101,6 +1101,36 @@ test("a stop is computed with and without a shaper, as the program does it", asy
   await page.fill("#stop-speed", "0.5");
 });
 
+test("a simulated release and a simulated stop move the robot as the program says", async () => {
+  await choose("yuan2014-4mm");
+  await page.fill("#simulate-value", "1");
+  await page.fill("#simulate-time", "0.3");
+  await page.click("#simulate-form button:first-of-type");
+  await page.waitForFunction(() => /A run with a finer mesh/.test(document.getElementById("simulate").textContent));
+  const place = () => page.evaluate(() => window.funicular.view.platform.position.toArray().join());
+  const start = await place();
+  await page.waitForFunction((at) => window.funicular.view.platform.position.toArray().join() !== at, start);
+  const robot = { text: readFileSync(new URL("yuan2014-4mm.toml", library), "utf8") };
+  const scenario = { release: [{ at_s: 0, mass_kg: 1 }] };
+  const answer = native({ command: "simulate", robot, scenario, duration_s: 0.3, sample_time_s: 0.3 / 700 });
+  const told = Number(/differs by at most ([\d.e-]+) mm/.exec(await text("#simulate p"))[1]);
+  const position = answer.errors.find(({ column }) => column === "position_m");
+  near(told, 1000 * position.largest, 0.05, "difference of the finer run");
+  await page.screenshot({ path: join(pictures, "simulation.png") });
+
+  await page.selectOption("#simulate-what", "stop");
+  assert.equal(await text("#simulate-unit"), "m");
+  await page.fill("#simulate-value", "-1");
+  await page.click("#simulate-form button:first-of-type");
+  assert.match(await text("#simulate-form .field-message"), /“-1” is not a length/);
+  await page.fill("#simulate-value", "0.01");
+  await page.fill("#simulate-time", "1");
+  await page.click("#simulate-form button:first-of-type");
+  await page.waitForFunction(() => /over 1(\.0+)? seconds/.test(document.getElementById("simulate").innerHTML));
+  await page.click("#simulate-end");
+  assert.equal(await page.locator("#simulate svg").count(), 0);
+});
+
 test("a released payload swings from the static displacement of the complete model", async () => {
   for (const robot of ["cogiro", "ipanema2", "cogiro-winches"]) {
     await choose(robot);

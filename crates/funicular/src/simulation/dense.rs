@@ -30,6 +30,11 @@ impl DenseOutput {
         Self { from, until, rotation, before, after }
     }
 
+    /// Motions at both ends.
+    pub(super) fn motions(&mut self) -> [&mut MotionNumbers; 2] {
+        [&mut self.before, &mut self.after]
+    }
+
     /// Motion at a time of the step, written to `out`; ends of ropes on the platform are to be filled.
     pub(super) fn at(&self, time: f64, out: &mut MotionNumbers) {
         let h = self.until - self.from;

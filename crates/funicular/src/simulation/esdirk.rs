@@ -4,6 +4,8 @@
 //! convection-diffusion-reaction equations, Appl. Numer. Math. 44, 2003, pages 139 to 181: six stages, the first of
 //! which is the last of the step before; L-stable, so that waves that a step does not resolve fade.
 
+mod state;
+
 use super::dense::DenseOutput;
 use super::rope::{Newton, WoundLength};
 use super::arrow::Arrow;

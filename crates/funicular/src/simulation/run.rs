@@ -12,8 +12,10 @@ use crate::math::{Rotation, Vec3, Vec6};
 use crate::robot::{Pose, Robot};
 use crate::statics::{CableState, Equilibrium};
 
-/// Tension below which a cable counts as slack [N].
-const SLACK: f64 = 0.5;
+mod picture;
+mod state;
+
+const SLACK: f64 = SlackCable::TENSION;
 
 /// One cable at one time.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -78,6 +78,33 @@ fn compare(case: &Value, simulation: &mut Simulation, until: f64) -> [f64; 2] {
     worst
 }
 
+/// A simulation that is restored in the middle of an event-rich run goes on with the same bits.
+#[test]
+fn a_restored_simulation_goes_on_exactly() {
+    let mut robot = Robot::from_toml(funicular_robots::YUAN2014_4MM).unwrap();
+    robot.platform.mass = 12.5;
+    let rest = statics::solve(&robot, StaticModel::Catenary, None).unwrap().equilibrium;
+    let events = [
+        SimulationEvent::Release { time: 0.05, mass: 1.0, point_p: None },
+        SimulationEvent::Ramp { time: 0.02, duration: 0.2, changes: vec![-0.01, 0.0, 0.0, 0.0, 0.0, 0.0] },
+        SimulationEvent::Cut { cable: 1, at: CutAt::Time(0.1) },
+        SimulationEvent::Cut { cable: 2, at: CutAt::Tension(80.0) },
+    ];
+    let settings = SimulationSettings { tolerance: 1e-6, ..SimulationSettings::default() };
+    let new = || Simulation::new(&robot, &rest, &events, 0.3, &settings).unwrap();
+    for stop in [0.03, 0.07, 0.12, 0.2] {
+        let (mut first, mut second) = (new(), new());
+        first.at(stop).unwrap();
+        let state = first.state();
+        assert!(second.restore(&state));
+        for time in [stop + 1e-4, stop + 0.03, 0.3] {
+            assert_eq!(first.at(time).unwrap(), second.at(time).unwrap(), "{stop} {time}");
+        }
+        assert_eq!((first.cuts(), first.slack(), first.counts()), (second.cuts(), second.slack(), second.counts()));
+        assert!(!new().restore(&state[1..]));
+    }
+}
+
 /// A payload is released and all cables stay taut.
 #[test]
 fn a_taut_release_is_that_of_two_independent_methods() {

@@ -7,8 +7,9 @@ use crate::figures::hull::faces;
 use crate::figures::supports::SupportAtRest;
 use crate::figures::view::{EYE, extent, joined, polygon, ranges, sides};
 use funicular::math::Vec3;
-use funicular::robot::Robot;
+use funicular::robot::{Pose, Robot};
 use funicular::statics::{CableState, Equilibrium};
+use funicular_study::analyses::simulate::{SimulatedFrame, SimulatedPicture};
 use funicular_study::analyses::workspace::Workspace;
 use serde_json::{Value, json};
 
@@ -30,12 +31,23 @@ pub(crate) fn complete(robot: &Robot, equilibrium: &Equilibrium) -> PageFigure {
 /// per equilibrium, with the indices of these traces.
 pub(crate) fn moving(robot: &Robot, equilibria: &[&Equilibrium]) -> (PageFigure, Value) {
     let drawn: Vec<Drawn> = equilibria.iter().map(|equilibrium| Drawn::of(robot, equilibrium)).collect();
+    over_time("The robot on its path", &drawn)
+}
+
+/// Figure of a simulated robot at the first of its pictures; and the coordinates of all traces that move, as for a
+/// [`moving`] robot.
+pub(crate) fn simulated(of: &SimulatedPicture) -> (PageFigure, Value) {
+    let drawn: Vec<Drawn> = of.frames.iter().map(|frame| Drawn::simulated(of, frame)).collect();
+    over_time("The simulated robot", &drawn)
+}
+
+/// Figure of the first of several drawn robots, and the coordinates of the traces that move.
+fn over_time(what: &str, drawn: &[Drawn]) -> (PageFigure, Value) {
     let first = &drawn[0];
     let points: Vec<Vec3> = drawn.iter().flat_map(|drawn| drawn.points.iter().copied()).collect();
     let caption = format!(
-        "The robot on its path, with one scale for all three axes. Lines: cables; squares: anchors with the cables' \
-         names; dark body: the platform, spanned by the attachments.{} Move the time below, or play it; drag to rotate, \
-         scroll to zoom.",
+        "{what}, with one scale for all three axes. Lines: cables; squares: anchors with the cables' names; dark body: \
+         the platform, spanned by the attachments.{} Move the time below, or play it; drag to rotate, scroll to zoom.",
         first.further
     );
 
@@ -70,10 +82,24 @@ struct Drawn {
 
 impl Drawn {
     fn of(robot: &Robot, equilibrium: &Equilibrium) -> Self {
-        let mut traces: Vec<Value> = (0..robot.cables.len()).map(|i| cable(robot, equilibrium, i)).collect();
+        let cables = (0..robot.cables.len()).map(|i| cable(robot, equilibrium, i)).collect();
+        Self::with_cables(robot, equilibrium, &equilibrium.pose, cables)
+    }
+
+    /// Robot in a picture of a simulation. What lies behind the anchors stands as at the start.
+    fn simulated(of: &SimulatedPicture, frame: &SimulatedFrame) -> Self {
+        let hover = |i: usize| format!("cable {}<extra></extra>", plain(&of.robot.cables[i].name));
+        let cables = frame.curves.iter().enumerate().map(|(i, curve)| cable_line(i, curve, &hover(i))).collect();
+        let mut drawn = Self::with_cables(&of.robot, &of.rest, &frame.pose, cables);
+        drawn.points.extend(frame.curves.iter().flatten());
+        drawn
+    }
+
+    /// Robot with its platform at a pose and traces of its cables.
+    fn with_cables(robot: &Robot, equilibrium: &Equilibrium, pose: &Pose, mut traces: Vec<Value>) -> Self {
         let anchors: Vec<Vec3> = equilibrium.cables.iter().map(|c| c.anchor_w).collect();
         traces.push(named_anchors(robot, &anchors));
-        traces.extend(platform(robot, equilibrium, false));
+        traces.extend(platform(robot, pose, false));
 
         let mut points = anchors;
         for state in &equilibrium.cables {
@@ -95,7 +121,7 @@ impl Drawn {
 
         let mut bodies = BodySurface::obstacles(robot);
         let obstacles = if bodies.is_empty() { "" } else { " Grey bodies: obstacles." };
-        bodies.extend(BodySurface::of_platform(robot, &equilibrium.pose));
+        bodies.extend(BodySurface::of_platform(robot, pose));
         points.extend(bodies.iter().flat_map(BodySurface::points));
         traces.extend(bodies.iter().filter(|body| !body.triangles.is_empty()).map(surface));
         Self { traces, points, further: format!("{driven}{supported}{obstacles}") }
@@ -228,7 +254,7 @@ pub(crate) fn close_up(robot: &Robot, equilibrium: &Equilibrium) -> PageFigure {
         points.extend(stub);
     }
 
-    data.extend(platform(robot, equilibrium, true));
+    data.extend(platform(robot, &equilibrium.pose, true));
     let origin = equilibrium.pose.position_w;
     for (k, (name, colour)) in
         [("x", colour::VERMILION), ("y", colour::GREEN), ("z", colour::BLUE)].into_iter().enumerate()
@@ -327,9 +353,9 @@ fn labelled(points: &[Vec3], names: &[String], sides: &[&str], colour: &str, sym
 }
 
 /// Traces of the platform: body between the attachments and centre of mass; `names` adds the names of the attachments.
-fn platform(robot: &Robot, equilibrium: &Equilibrium, names: bool) -> Vec<Value> {
-    let attachments: Vec<Vec3> = equilibrium.cables.iter().map(|c| c.attachment_w).collect();
-    let com = equilibrium.pose.point_w(&robot.platform.center_of_mass_p);
+fn platform(robot: &Robot, pose: &Pose, names: bool) -> Vec<Value> {
+    let attachments: Vec<Vec3> = robot.cables.iter().map(|cable| pose.point_w(&cable.attachment_p)).collect();
+    let com = pose.point_w(&robot.platform.center_of_mass_p);
     let reach = extent(&attachments);
 
     let mut data = Vec::new();

@@ -1,7 +1,9 @@
 //! Error of a simulation: its difference from a finer run.
 
+use super::Simulated;
 use super::rows::SimulatedRow;
 use crate::columns::{Columns, column};
+use crate::text::significant;
 use funicular::math::Vec3;
 use serde::Serialize;
 
@@ -86,6 +88,27 @@ fn peak(rows: &[SimulatedRow], i: usize) -> f64 {
 
 fn effective(rows: &[SimulatedRow], i: usize) -> f64 {
     root_mean_square(rows.iter().map(|row| row.tensions_platform_n[i]))
+}
+
+impl Simulated {
+    /// Sentence on the error of the result.
+    pub fn error_in_words(&self) -> String {
+        let Some(position) = self.errors.iter().find(|of| of.column == "position_m") else {
+            return "The error is not known, because the run was not repeated with a finer mesh.".to_owned();
+        };
+        let worst = self.errors.iter().filter_map(|of| of.relative).fold(0.0, f64::max);
+        let statistics = if self.is_statistical {
+            " Cables go slack: peaks and root mean squares of the tensions after that are statistics."
+        } else {
+            ""
+        };
+        format!(
+            "A run with a finer mesh and tolerance differs by at most {} mm in position, and by at most {} % (root mean \
+             square) of a tension.{statistics}",
+            significant(1e3 * position.largest, 2),
+            significant(100.0 * worst, 2)
+        )
+    }
 }
 
 impl ColumnError {

@@ -3,7 +3,8 @@
 use crate::analyses::fields::{self, AXES};
 use crate::analyses::shared::PoseRow;
 use crate::columns::{Columns, column, parts};
-use funicular::math::Vec6;
+use crate::request::PointValue;
+use funicular::math::{Vec3, Vec6};
 use funicular::simulation::{CableSample, RobotSample};
 use serde::Serialize;
 
@@ -22,6 +23,12 @@ pub struct SimulatedRow {
     pub unstrained_lengths_m: Vec<f64>,
     /// Positive while a cable is paid out.
     pub length_rates_m_s: Vec<f64>,
+    /// Positions of the chosen points, world frame.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub points_m: Vec<[f64; 3]>,
+    /// Velocities of the chosen points, world axes.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub point_velocities_m_s: Vec<[f64; 3]>,
     pub kinetic_energy_j: f64,
     pub strain_energy_j: f64,
     pub potential_energy_j: f64,
@@ -35,12 +42,15 @@ pub struct SimulatedRow {
 }
 
 impl SimulatedRow {
-    pub(super) fn of(sample: &RobotSample) -> Self {
+    /// Row of a sample, with these points of the platform.
+    pub(super) fn of(sample: &RobotSample, points: &[PointValue]) -> Self {
         let halves = |of: &Vec6| [[of[0], of[1], of[2]], [of[3], of[4], of[5]]];
         let [velocity_m_s, angular_velocity_rad_s] = halves(&sample.velocity_w);
         let [acceleration_m_s2, angular_acceleration_rad_s2] = halves(&sample.acceleration_w);
         let each = |of: fn(&CableSample) -> f64| sample.cables.iter().map(of).collect();
         let energy = &sample.energy;
+        let (velocity, omega) = (Vec3::from(velocity_m_s), Vec3::from(angular_velocity_rad_s));
+        let levers = || points.iter().map(|point| sample.pose.rot_wp * Vec3::from(point.point_m));
         Self {
             t_s: sample.time,
             pose: PoseRow::of(&sample.pose),
@@ -52,6 +62,8 @@ impl SimulatedRow {
             tensions_anchor_n: each(|cable| cable.tension_anchor),
             unstrained_lengths_m: each(|cable| cable.length.value),
             length_rates_m_s: each(|cable| cable.length.rate),
+            points_m: levers().map(|lever| (sample.pose.position_w + lever).into()).collect(),
+            point_velocities_m_s: levers().map(|lever| (velocity + omega.cross(&lever)).into()).collect(),
             kinetic_energy_j: energy.kinetic,
             strain_energy_j: energy.strain,
             potential_energy_j: energy.potential,
@@ -63,9 +75,11 @@ impl SimulatedRow {
         }
     }
 
-    /// Columns of the rows for cables of these names.
-    pub fn columns(cables: &[String]) -> Columns<Self> {
+    /// Columns of the rows for cables and points of the platform of these names.
+    pub fn columns(cables: &[String], points: &[String]) -> Columns<Self> {
         let names = || cables.to_vec();
+        let of_points: Vec<String> =
+            points.iter().flat_map(|point| AXES.map(|axis| format!("{point}_{axis}"))).collect();
         let [position, angles] =
             fields::pose(|row: &Self| Some(row.pose.position_m), |row: &Self| Some(row.pose.roll_pitch_yaw_deg));
         let lowest = |row: &Self| row.tensions_platform_n.iter().copied().fold(f64::INFINITY, f64::min);
@@ -101,6 +115,12 @@ impl SimulatedRow {
             }),
             parts("length_rate_{}_m_s", names(), "m/s", "rate of the unstrained length of cable {}", |row: &Self| {
                 row.length_rates_m_s.clone()
+            }),
+            parts("point_{}_m", of_points.clone(), "m", "position of a chosen point, {}", |row: &Self| {
+                row.points_m.concat()
+            }),
+            parts("point_velocity_{}_m_s", of_points, "m/s", "velocity of a chosen point, {}", |row: &Self| {
+                row.point_velocities_m_s.concat()
             }),
             column("kinetic_energy_j", "J", "kinetic energy", |row: &Self| row.kinetic_energy_j).significant(
                 "kinetic energy",
