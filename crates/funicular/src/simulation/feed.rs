@@ -76,7 +76,7 @@ pub(super) struct Feed {
     /// True while the last station does what it is told: before its tension is set, and while the start is sought.
     pub(super) is_locked: bool,
     /// Unstrained rope between the last station and a winch that holds a tension without inertia [m].
-    behind: f64,
+    pub(super) behind: f64,
 }
 
 /// Forces of a feed on its stations and their derivatives.

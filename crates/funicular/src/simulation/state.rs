@@ -4,6 +4,8 @@
 //! have the same order.
 
 use super::body::MovingBody;
+use super::far_end::FarEnd;
+use super::feed::{Feed, Hold};
 use super::system::{RopeEnd, System};
 use crate::math::{Quaternion, Rotation};
 
@@ -43,6 +45,40 @@ impl System {
             count(&mut number, each);
             *end = [RopeEnd::Attached, RopeEnd::Free, RopeEnd::Gone][number.min(2)];
         }
+        for far in self.far_ends.iter_mut().flatten() {
+            far.each_number(each);
+        }
         count(&mut self.evaluations, each);
+    }
+}
+
+impl FarEnd {
+    fn each_number(&mut self, each: EachNumber) {
+        if let Some(contact) = &mut self.contact {
+            each(&mut contact.wrap);
+            contact.center_w.iter_mut().for_each(&mut *each);
+            contact.sideways_w = contact.axis_w.cross(&contact.center_w);
+        }
+        each(&mut self.off_tangent);
+        if let Some(feed) = &mut self.feed {
+            feed.each_number(each);
+        }
+    }
+}
+
+impl Feed {
+    fn each_number(&mut self, each: EachNumber) {
+        let mut is_locked = usize::from(self.is_locked);
+        count(&mut is_locked, each);
+        self.is_locked = is_locked > 0;
+        each(&mut self.bias);
+        each(&mut self.behind);
+        let mut of = match self.hold {
+            Hold::Length => [f64::NAN; 4],
+            Hold::Tension { from, duration, before, after } => [from, duration, before, after],
+        };
+        of.iter_mut().for_each(each);
+        let [from, duration, before, after] = of;
+        self.hold = if from.is_nan() { Hold::Length } else { Hold::Tension { from, duration, before, after } };
     }
 }

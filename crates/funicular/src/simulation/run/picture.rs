@@ -39,7 +39,8 @@ impl Simulation {
         // The motion is given about the rotation at the beginning of the step.
         let rotation = std::mem::replace(&mut system.rotation, dense.rotation);
         let body = system.body_motion(&motion);
-        system.fill_ends(&body, &mut motion);
+        let lengths = system.lengths(time);
+        system.fill_ends(&body, &lengths, &mut motion);
         system.rotation = rotation;
         let curves = self.curves_of(&motion);
         self.work = motion;

@@ -149,6 +149,7 @@ fn settings(sample: &RandomRobot, draw: &mut Draw) -> SimulationSettings {
         damping_frequency_hz: Some(draw.decades(-0.5, 1.0)),
         stretch_damping_time: (draw.between(0.0, 1.0) < 0.5).then(|| draw.decades(-5.0, -2.5)),
         platform_is_held: draw.between(0.0, 1.0) < 0.1,
+        gust_seed: None,
     }
 }
 
