@@ -242,7 +242,7 @@ fn a_small_swing_of_a_length_gives_the_frequency_response() {
     let times: Vec<f64> = found.iter().map(|sample| sample.time).collect();
     for (port, value) in ports[1..].iter().zip(values) {
         let values: Vec<f64> = found.iter().map(value).collect();
-        let (mean, most) = (values[0], values.iter().fold(0.0_f64, |most, x| most.max(x.abs())));
+        let mean = values[0];
         let values: Vec<f64> = values.iter().map(|x| x - mean).collect();
         let (a, _) = fitted(&times, &values, &lambdas)[0];
         // The command is −size e^{iωt} beside a constant, and phases count from the first sample.
