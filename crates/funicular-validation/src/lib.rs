@@ -21,6 +21,7 @@ mod paper;
 mod reference;
 mod robots;
 mod shapes;
+mod simulations;
 mod stretch_loss;
 mod sway;
 #[cfg(test)]
@@ -146,6 +147,7 @@ pub fn sections() -> Result<Vec<Section>> {
         distances::section(&reference::distances()?)?,
         trajectories::section(&reference::trajectories()?)?,
         workspaces::section(&reference::workspaces()?)?,
+        simulations::section(&reference::histories()?)?,
     ])
 }
 

@@ -5,6 +5,7 @@ mod distances;
 mod drives;
 mod exact;
 mod gradients;
+mod histories;
 mod identification;
 mod independent;
 mod load_factors;
@@ -29,6 +30,7 @@ pub(super) use drives::{
 };
 pub(super) use exact::{ExactCable, ExactReference, ExactRobot, exact};
 pub(super) use gradients::{GradientReference, GradientRobot, GradientRow, gradients};
+pub(super) use histories::{HistoryCase, HistoryReference, HistorySample, histories};
 pub(super) use identification::{IdentificationReference, MeasuredResponses, PlatformOfMakers, identification};
 pub(super) use independent::{
     ComplexMatrix, IndependentReference, IndependentRobot, Matrix, ModeList, ReferenceResponse, independent,

@@ -48,6 +48,11 @@ fn the_loss_of_the_stretch_is_that_of_the_independent_program() {
 }
 
 #[test]
+fn large_motion_is_that_of_two_methods() {
+    check(super::simulations::section(&reference::histories().unwrap()));
+}
+
+#[test]
 fn distances_are_those_of_the_independent_program() {
     check(super::distances::section(&reference::distances().unwrap()));
 }

@@ -12,6 +12,7 @@ use funicular::path::{CourseForm, MotionLimits, PlatformPath};
 use funicular::response::{self, Quantity, Signal};
 use funicular::robot::parameters::Parameters;
 use funicular::robot::{Robot, RobotChange, State, TensionLimits};
+use funicular::simulation::{Simulation, SimulationEvent, SimulationSettings};
 use funicular::statics::{self, Equilibrium, LoadCapacity, StaticModel, TensionRule};
 use funicular::trajectory::AlongPath;
 use funicular::{modes, robot::Pose};
@@ -331,9 +332,41 @@ fn trajectory(c: &mut Criterion) {
     });
 }
 
+/// Large motion of the robot: a release that keeps all cables taut, a move of all winches, and a drop after which the
+/// cables are slack again and again.
+fn simulations(c: &mut Criterion) {
+    let (mut robot, lengths) = robot();
+    for cable in &mut robot.cables {
+        cable.material.stretch_loss.time = 1e-4;
+    }
+    let mut group = c.benchmark_group("simulate");
+    group.sample_size(10);
+    let release = |mass| SimulationEvent::Release { time: 0.0, mass, point_p: None };
+    let changes = vec![-0.12, 0.1, -0.1, 0.12, 0.15, -0.1];
+    let ramp = SimulationEvent::Ramp { time: 0.0, duration: 4.0, changes };
+    let cases = [
+        ("taut release, 20 s", 12.5, release(1.95), 20.0),
+        ("move of six winches, 5 s", 10.55, ramp, 5.0),
+        ("drop with slack cables, 20 s", 86.35, release(75.8), 20.0),
+    ];
+    for (name, mass, event, seconds) in cases {
+        robot.platform.mass = mass;
+        let rest = statics::forward(&robot, &lengths, StaticModel::Catenary, None).expect("converges");
+        let settings = SimulationSettings::default();
+        group.bench_function(name, |b| {
+            b.iter(|| {
+                let events = std::slice::from_ref(black_box(&event));
+                let mut simulation = Simulation::new(&robot, &rest, events, seconds, &settings).expect("begins");
+                simulation.at(seconds).expect("goes on").pose
+            });
+        });
+    }
+    group.finish();
+}
+
 criterion_group! {
     name = jobs;
     config = Criterion::default().warm_up_time(Duration::from_secs(1)).measurement_time(Duration::from_secs(3)).sample_size(30);
-    targets = one_catenary, statics_both_ways, tension_distribution, load_factors, distances, trajectory, first_frequencies, first_frequencies_of_eight_cables, responses, natural_frequencies, catenary_dynamic_cables, gradients
+    targets = one_catenary, statics_both_ways, tension_distribution, load_factors, distances, trajectory, first_frequencies, first_frequencies_of_eight_cables, responses, natural_frequencies, catenary_dynamic_cables, gradients, simulations
 }
 criterion_main!(jobs);
