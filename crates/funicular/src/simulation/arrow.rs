@@ -5,8 +5,7 @@ use super::far_end::FarEnd;
 use super::rope::{Border, Newton, RopeMesh, WoundLength};
 use super::skyline::{NotPositive, Profile3, Skyline};
 use super::system::{MotionNumbers, RopeEnd, System, six, three};
-use crate::math::{DMat, Mat3, Mat6, Vec3, inverse6, skew};
-use nalgebra::DVector;
+use crate::math::{DMat, DVec, Mat3, Mat6, Vec3, inverse6, skew};
 
 /// Factored Newton matrix of the system.
 pub(super) struct Arrow {
@@ -31,7 +30,7 @@ struct Posts {
     /// Between supports (rows) and platform.
     by_body: DMat,
     /// Right-hand side.
-    needed: DVector<f64>,
+    needed: DVec,
 }
 
 /// Far end of a rope in the matrix: its own numbers z, behind them the end of the rope at the platform and the support.
@@ -46,7 +45,7 @@ struct FarBorder {
     /// Number of numbers z.
     count: usize,
     /// Numbers z of a correction.
-    z: DVector<f64>,
+    z: DVec,
     /// Direction in which the last node moves with the swivel, and its number.
     swivel: Option<(usize, Vec3)>,
     /// True for numbers z that do not move.
@@ -69,7 +68,7 @@ impl Arrow {
             posts: Posts {
                 inverse: DMat::zeros(posts, posts),
                 by_body: DMat::zeros(posts, 6),
-                needed: DVector::zeros(posts),
+                needed: DVec::zeros(posts),
             },
             inverse: Mat6::identity(),
             rows: system.ropes.iter().map(|rope| vec![0.0; rope.size() - 3]).collect(),
@@ -186,7 +185,7 @@ impl Arrow {
         let move_of_body = -system.body.expanded(&(self.inverse * system.body.reduced(&on_body)));
         let (translation, turn) = halves(&move_of_body);
         needed[..6].copy_from_slice(move_of_body.as_slice());
-        let by_body = DVector::from_column_slice(move_of_body.as_slice());
+        let by_body = DVec::from_column_slice(move_of_body.as_slice());
         let of_posts = -held - &self.posts.inverse * (&self.posts.by_body * by_body);
         for index in 0..system.posts.len() {
             needed[System::of_post(index)].copy_from_slice(&of_posts.as_slice()[3 * index..3 * index + 3]);
@@ -246,7 +245,7 @@ impl FarBorder {
             inverse: DMat::zeros(count, count),
             outer: DMat::zeros(count, OUTER),
             count,
-            z: DVector::zeros(count),
+            z: DVec::zeros(count),
             swivel: None,
             is_held: vec![false; count],
         }
@@ -447,7 +446,7 @@ impl FarBorder {
     /// Correction of z, and what the rope's right-hand side loses by it and by the motion of the support.
     fn backward(&mut self, rows: &mut [f64], of_end: &Vec3, of_post: &Vec3) {
         let outside = joined(of_end, of_post);
-        let outside = DVector::from_column_slice(outside.as_slice());
+        let outside = DVec::from_column_slice(outside.as_slice());
         self.z = -&self.z - &self.inverse * (&self.outer * outside);
         for (k, column) in self.columns.iter().enumerate() {
             let by = if k < self.count { self.z[k] } else { of_post[k - self.count] };

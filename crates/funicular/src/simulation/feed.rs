@@ -31,14 +31,14 @@ pub(super) enum FeedLink {
 
 /// What holds the last station.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Hold {
+pub(super) enum WinchHold {
     /// The commanded unstrained length, or the motor that follows it.
     Length,
     /// A tension at the drum that goes from one value to another.
     Tension { from: f64, duration: f64, before: f64, after: f64 },
 }
 
-impl Hold {
+impl WinchHold {
     /// Tension of the drum at a time [N]; `None` if a length is commanded.
     pub(super) fn tension(&self, time: f64) -> Option<f64> {
         let Self::Tension { from, duration, before, after } = *self else { return None };
@@ -67,7 +67,7 @@ pub(super) struct Feed {
     /// Mass of each station at the rope [kg].
     pub(super) masses: Vec<f64>,
     motor: Option<FeedMotor>,
-    pub(super) hold: Hold,
+    pub(super) hold: WinchHold,
     /// Force of the motor that balances the rest position of its controller [N].
     pub(super) bias: f64,
     /// Stretch with which the rope was wound.
@@ -125,7 +125,7 @@ impl Feed {
             links: Vec::new(),
             masses: vec![anchor.pulley.as_ref().map_or(0.0, |pulley| pulley.inertia / pulley.radius.powi(2))],
             motor: None,
-            hold: Hold::Length,
+            hold: WinchHold::Length,
             bias: 0.0,
             stretch,
             axial_stiffness,
@@ -145,7 +145,7 @@ impl Feed {
             links: Vec::new(),
             masses: vec![0.0],
             motor: None,
-            hold: Hold::Length,
+            hold: WinchHold::Length,
             bias: 0.0,
             stretch: 1.0,
             axial_stiffness,
@@ -238,7 +238,7 @@ impl Feed {
         }
         if torque && self.motor.is_none() {
             let tension = forces.tension_entry;
-            self.hold = Hold::Tension { from: 0.0, duration: 0.0, before: tension, after: tension };
+            self.hold = WinchHold::Tension { from: 0.0, duration: 0.0, before: tension, after: tension };
         }
         self.is_locked = false;
     }
@@ -265,7 +265,7 @@ impl Feed {
 
     /// Unstrained length from the platform to what holds the rope.
     pub(super) fn whole(&self, given: WoundLength, z: [&[f64]; 3]) -> WoundLength {
-        if self.is_open() && self.hold == Hold::Length {
+        if self.is_open() && self.hold == WinchHold::Length {
             return given;
         }
         let [value, rate, acceleration] = z.map(|of| of[self.count() - 1]);
@@ -273,8 +273,8 @@ impl Feed {
     }
 
     /// From now on the winch holds a tension, which was `before` and becomes `after` within a duration.
-    pub(super) fn hold_tension(&mut self, hold: Hold, given: f64, last: f64) {
-        if self.hold == Hold::Length && self.is_open() {
+    pub(super) fn hold_tension(&mut self, hold: WinchHold, given: f64, last: f64) {
+        if self.hold == WinchHold::Length && self.is_open() {
             self.behind = given - last;
         }
         self.hold = hold;
@@ -389,7 +389,7 @@ impl Feed {
             let tension = force / self.stretch;
             (out.first, out.tension_entry, out.tension_drum) = (force, tension, tension);
         }
-        if let (Some(servo), Hold::Length) = (motor.servo, self.hold) {
+        if let (Some(servo), WinchHold::Length) = (motor.servo, self.hold) {
             let integral = if motor.integral_gain > 0.0 { y[last + 1] } else { 0.0 };
             force += scale
                 * (servo.position_gain * (y[last] - given.value)

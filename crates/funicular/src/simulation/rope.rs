@@ -468,14 +468,13 @@ impl RopeMesh {
         }
     }
 
-    /// Tension at the anchor [N] from the force that the anchor exerts on the last node.
+    /// Tension at the anchor [N] from the force that the anchor exerts on the last node: with the momentum of the rope that
+    /// passes it.
     ///
     /// # References
     /// docs/theory.md, equation (97f).
-    pub(super) fn anchor_tension(&self, length: &WoundLength, reaction: &Vec3) -> f64 {
-        let force = reaction.norm();
-        let flux = self.mass * length.rate * length.rate;
-        force + flux * (1.0 + force / self.stiffness)
+    pub(super) fn anchor_tension(&self, length: &WoundLength, x: &[f64], reaction: &Vec3) -> f64 {
+        (reaction + self.slope_at_end(length, x) * (self.mass * length.rate * length.rate)).norm()
     }
 
     /// Energies and powers. The power of the winch is that of the mesh, so that the books of a coarse mesh, of slack rope

@@ -382,7 +382,7 @@ impl Simulation {
         let platform = if system.ends[i] == RopeEnd::Attached { at(range.start).norm() } else { 0.0 };
         let anchor = match system.far_forces(i, time, &lengths[i], m, needed) {
             Some(forces) => forces.exit_w.norm(),
-            None => system.ropes[i].anchor_tension(&lengths[i], &at(range.end - 3)),
+            None => system.ropes[i].anchor_tension(&lengths[i], &m.x[range.clone()], &at(range.end - 3)),
         };
         [platform, anchor]
     }

@@ -5,7 +5,7 @@
 
 use super::body::MovingBody;
 use super::far_end::FarEnd;
-use super::feed::{Feed, Hold};
+use super::feed::{Feed, WinchHold};
 use super::system::{RopeEnd, System};
 use crate::math::{Quaternion, Rotation};
 
@@ -74,11 +74,11 @@ impl Feed {
         each(&mut self.bias);
         each(&mut self.behind);
         let mut of = match self.hold {
-            Hold::Length => [f64::NAN; 4],
-            Hold::Tension { from, duration, before, after } => [from, duration, before, after],
+            WinchHold::Length => [f64::NAN; 4],
+            WinchHold::Tension { from, duration, before, after } => [from, duration, before, after],
         };
         of.iter_mut().for_each(each);
         let [from, duration, before, after] = of;
-        self.hold = if from.is_nan() { Hold::Length } else { Hold::Tension { from, duration, before, after } };
+        self.hold = if from.is_nan() { WinchHold::Length } else { WinchHold::Tension { from, duration, before, after } };
     }
 }

@@ -3,7 +3,7 @@
 use super::body::{BodyMotion, MovingBody, halves, joined};
 use super::esdirk::Stepper;
 use super::event::EventFault;
-use super::feed::Hold;
+use super::feed::WinchHold;
 use super::system::{RopeEnd, six};
 use crate::math::{Mat3, Mat6, Vec3, Vec6, inverse6, skew};
 
@@ -126,7 +126,7 @@ impl Stepper {
             let last = numbers + at + feed.count() - 1;
             // A winch whose length was commanded has the tension of the rope at its exit point.
             let before = if feed.is_locked { forces.exit_w.norm() } else { forces.feed.tension_drum };
-            feed.hold_tension(Hold::Tension { from: time, duration, before, after }, whole, self.now.x[last]);
+            feed.hold_tension(WinchHold::Tension { from: time, duration, before, after }, whole, self.now.x[last]);
         }
     }
 
