@@ -89,6 +89,8 @@ OTHERS: dict[tuple[str | None, str], tuple[str, Callable[..., Any]]] = {
     ("trajectory", "--lengths"): ("`unstrained_lengths_m` of the rows", Robot.trajectory),
     ("settle", "--lengths"): ("`lengths` of the result", Equilibrium.settle),
     ("calibrate", "--calibrated"): ("`robot_file` of the result", Robot.calibrate),
+    ("simulate", "--resume"): ("a run stays in memory, and Ctrl-C keeps what there is", Robot.simulate),
+    ("simulate", "--discard"): ("a run stays in memory, and Ctrl-C keeps what there is", Robot.simulate),
     ("design", "--output-file"): ("`json.dumps(result.details)`", funicular.Designed.to_dict),
     ("design", "--designed"): ("`result.robot_file`, `result.robot`", funicular.Designed.to_dict),
     ("design", "--page"): ("`result.page(path)`", funicular.Designed.page),

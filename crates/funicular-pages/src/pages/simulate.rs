@@ -143,10 +143,9 @@ fn pose(found: &Simulated) -> Vec<PageFigure> {
         &moved,
         json!({"yaxis": axis(&title, json!({}))}),
     )];
-    if found.rows.iter().any(|row| row.pose.roll_pitch_yaw_deg != first.pose.roll_pitch_yaw_deg) {
-        let turned = lines(["roll", "pitch", "yaw"], &|row, k| {
-            row.pose.roll_pitch_yaw_deg[k] - first.pose.roll_pitch_yaw_deg[k]
-        });
+    let turn = |row: &SimulatedRow, k: usize| row.pose.roll_pitch_yaw_deg[k] - first.pose.roll_pitch_yaw_deg[k];
+    if found.rows.iter().any(|row| (0..3).any(|k| turn(row, k) != 0.0)) {
+        let turned = lines(["roll", "pitch", "yaw"], &turn);
         let caption = "Change of roll, pitch and yaw since the start.";
         let layout = json!({"yaxis": axis("turn [°]", json!({}))});
         figures.push(over_time(found, "figure-turn", 300, caption, &turned, layout));

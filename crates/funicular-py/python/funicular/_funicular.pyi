@@ -1460,7 +1460,7 @@ class Robot(Analyses):
         -------
         The keys of the program's JSON: `points` with one entry for each mass.
         """
-    def simulate(self, /, scenario: Any = None, duration_s: SupportsFloat | SupportsIndex | None = None, *, sample_time_s: SupportsFloat | SupportsIndex | None = None, tolerance_m: SupportsFloat | SupportsIndex | None = None, elements: SupportsIndex | None = None, degree: SupportsIndex | None = None, once: bool = False, damping_frequency_hz: SupportsFloat | SupportsIndex | None = None, stretch_damping_time_s: SupportsFloat | SupportsIndex | None = None, hold_platform: bool = False, lengths_m: ArrayLike | None = None, pose: Pose | ArrayLike | None = None, hold_lengths_of_pose: bool = False, mass_kg: SupportsFloat | SupportsIndex | None = None, static_model: StaticModel = "catenary", force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, wind_m_s: ArrayLike | None = None, cable_load_n_per_m: ArrayLike | None = None, tension_rule: TensionRule | None = None, target_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None) -> Results:
+    def simulate(self, /, scenario: Any = None, duration_s: SupportsFloat | SupportsIndex | None = None, *, sample_time_s: SupportsFloat | SupportsIndex | None = None, point: Mapping[str, ArrayLike] | None = None, tolerance_m: SupportsFloat | SupportsIndex | None = None, elements: SupportsIndex | None = None, degree: SupportsIndex | None = None, once: bool = False, damping_frequency_hz: SupportsFloat | SupportsIndex | None = None, stretch_damping_time_s: SupportsFloat | SupportsIndex | None = None, hold_platform: bool = False, lengths_m: ArrayLike | None = None, pose: Pose | ArrayLike | None = None, hold_lengths_of_pose: bool = False, mass_kg: SupportsFloat | SupportsIndex | None = None, static_model: StaticModel = "catenary", force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, wind_m_s: ArrayLike | None = None, cable_load_n_per_m: ArrayLike | None = None, tension_rule: TensionRule | None = None, target_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, page: str | PathLike[str] | None = None, figure: str | PathLike[str] | None = None, animation: str | PathLike[str] | None = None) -> Results:
         """
         Simulates large motion in time of platform and sagging ropes.
 
@@ -1473,6 +1473,9 @@ class Robot(Analyses):
             Simulated time [s]; 10 if not given.
         sample_time_s
             Time between the rows of the result [s]; if not given: a thousandth of the duration.
+        point
+            Points of the platform whose motion is a part of the result: a mapping from names to places x, y, z in the platform
+            frame [m].
         tolerance_m
             Error of a position that one step may have [m]; 1e-07 if not given.
         elements
@@ -1523,6 +1526,12 @@ class Robot(Analyses):
             Minimum tension anywhere in a cable [N]; if not given: from the robot file, or 2.5 times the cable's weight.
         max_tension_n
             Maximum tension anywhere in a cable [N]; if not given: from the robot file, or none.
+        page
+            HTML file of a page with the moving robot, pose and tensions over time, and the spectrum of the motion.
+        figure
+            File of a figure of pose and tensions over time, .svg or .pdf.
+        animation
+            SVG file of an animated drawing of the moving robot, which any browser shows in true time.
 
         Returns
         -------

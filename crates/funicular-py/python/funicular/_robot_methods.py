@@ -195,6 +195,9 @@ def simulate(
     scenario
         What happens: a mapping from `release`, `pick`, `lengths`, `tension`, `stop`, `push` and `cut` to lists of events, each a
         mapping with the keys of docs/simulation.md.
+    point
+        Points of the platform whose motion is a part of the result: a mapping from names to places x, y, z in the platform
+        frame [m].
     page
         HTML file of a page with the moving robot, pose and tensions over time, and the spectrum of the motion.
     figure

@@ -176,7 +176,7 @@ fn check_points(points: &[PointValue], robot: &Robot) -> Result<()> {
         for x in point.point_m {
             finite(x).map_err(|reason| anyhow!("⟪point⟫ {name}: {reason}"))?;
         }
-        let is_origin = point.point_m == [0.0; 3];
+        let is_origin = point.point_m.iter().all(|x| *x == 0.0);
         if robot.platform.motion == PlatformMotion::PointMass && !is_origin {
             bail!("⟪point⟫ {name}: a point mass has no point except its origin: give {name}=0,0,0, or leave it out");
         }

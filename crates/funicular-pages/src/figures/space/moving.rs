@@ -45,7 +45,9 @@ pub fn animation_of_simulation(found: &Simulated) -> String {
     let factor = picture.enlargement();
     let mut shapes: Vec<RobotShape> = frames.iter().map(|frame| shape(picture, frame)).collect();
     let start = shapes[0].clone();
-    shapes.iter_mut().for_each(|shape| enlarge(shape, &start, factor));
+    for shape in &mut shapes {
+        enlarge(shape, &start, factor);
+    }
     for face in space.faces_from_behind(&view, &shapes[0]) {
         let corners = |shape: &RobotShape| face.iter().map(|i| view.at(shape.corners[*i])).collect();
         let each: Vec<Vec<PaperPoint>> = shapes.iter().map(corners).collect();

@@ -2,7 +2,7 @@
 
 use crate::analyses::fields::{self, AXES};
 use crate::analyses::shared::PoseRow;
-use crate::columns::{Columns, column, parts};
+use crate::columns::{Columns, Field, column, parts};
 use crate::request::PointValue;
 use funicular::math::{Vec3, Vec6};
 use funicular::simulation::{CableSample, RobotSample};
@@ -84,7 +84,7 @@ impl SimulatedRow {
             fields::pose(|row: &Self| Some(row.pose.position_m), |row: &Self| Some(row.pose.roll_pitch_yaw_deg));
         let lowest = |row: &Self| row.tensions_platform_n.iter().copied().fold(f64::INFINITY, f64::min);
         let highest = |row: &Self| row.tensions_anchor_n.iter().copied().fold(0.0, f64::max);
-        Columns::new([
+        let motion = [
             column("t_s", "s", "time", |row: &Self| row.t_s).decimals("t", "s", 3),
             position.shown("position", "m", |row, style| style.vector(&row.pose.position_m, 5)),
             angles.shown("roll, pitch, yaw", "°", |row, style| style.vector(&row.pose.roll_pitch_yaw_deg, 3)),
@@ -122,6 +122,13 @@ impl SimulatedRow {
             parts("point_velocity_{}_m_s", of_points, "m/s", "velocity of a chosen point, {}", |row: &Self| {
                 row.point_velocities_m_s.concat()
             }),
+        ];
+        Columns::new(motion.into_iter().chain(Self::energies()))
+    }
+
+    /// Columns of the energies and works.
+    fn energies() -> Vec<Field<Self>> {
+        vec![
             column("kinetic_energy_j", "J", "kinetic energy", |row: &Self| row.kinetic_energy_j).significant(
                 "kinetic energy",
                 "J",
@@ -141,6 +148,6 @@ impl SimulatedRow {
                 |row: &Self| row.energy_of_payloads_j,
             ),
             column("energy_defect_j", "J", "what the books of the energy are off by", |row: &Self| row.energy_defect_j),
-        ])
+        ]
     }
 }

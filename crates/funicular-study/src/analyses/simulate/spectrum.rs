@@ -61,14 +61,16 @@ impl Simulated {
         let apart = averaged as f64 * duration / (rows.len() - 1) as f64;
         let highest = 0.5 / apart;
         let step = (1.0 / (FINER * duration)).max(highest / MAX_FREQUENCIES as f64);
-        let frequency_hz: Vec<f64> = (1..).map(|k| step * f64::from(k)).take_while(|hz| *hz <= highest).collect();
+        let frequency_hz: Vec<f64> = (1..=(highest / step) as usize).map(|k| step * k as f64).collect();
         let mut amplitude_m = values.map(|of| amplitudes(&of, &frequency_hz, apart));
         let most = amplitude_m.iter().map(|of| size(of)).fold(0.0, f64::max);
         let is_shown = |k: &usize| amplitude_m.iter().any(|of| of[*k] > SHOWN * most);
         let shown = (0..frequency_hz.len()).rfind(is_shown).unwrap_or_default();
         let limit = (ABOVE * frequency_hz[shown]).min(highest);
         let kept = frequency_hz.partition_point(|hz| *hz <= limit);
-        amplitude_m.iter_mut().for_each(|of| of.truncate(kept));
+        for of in &mut amplitude_m {
+            of.truncate(kept);
+        }
         let (modes, without_modes) = match self.modes_at_end(last, limit) {
             Ok(modes) => (modes, None),
             Err(reason) => (Vec::new(), Some(reason.to_string())),
