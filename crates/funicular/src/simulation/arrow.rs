@@ -229,7 +229,8 @@ fn posts_alone(system: &System, of: Newton) -> DMat {
     let size = 3 * system.posts.len();
     let mut matrix = DMat::zeros(size, size);
     for (index, post) in system.posts.iter().enumerate() {
-        let own = post.stiffness_w * (of.stiffness + of.damping * post.damping_time) + Mat3::identity() * (post.mass * of.mass);
+        let own = post.stiffness_w * (of.stiffness + of.damping * post.damping_time)
+            + Mat3::identity() * (post.mass * of.mass);
         matrix.fixed_view_mut::<3, 3>(3 * index, 3 * index).copy_from(&own);
     }
     matrix
@@ -455,4 +456,3 @@ impl FarBorder {
         }
     }
 }
-

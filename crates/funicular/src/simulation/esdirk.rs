@@ -6,9 +6,9 @@
 
 mod state;
 
+use super::arrow::Arrow;
 use super::dense::DenseOutput;
 use super::rope::{Newton, WoundLength};
-use super::arrow::Arrow;
 use super::system::{BODY, MotionNumbers, System, turn_rate};
 use crate::math::Vec3;
 

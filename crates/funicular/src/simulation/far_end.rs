@@ -233,7 +233,7 @@ impl FarEnd {
     /// Force on the support: of the exit point, of the weight behind it, and of a drum side from the ground.
     fn load_post(&self, post: &OnPost, of: &FarState, out: &mut FarForces) {
         out.post_w = out.exit_w;
-                let behind = self.whole(of.given, of.z, of.free).value - of.free.value - post.length_from_ground();
+        let behind = self.whole(of.given, of.z, of.free).value - of.free.value - post.length_from_ground();
         out.post_w -= of.rope.load_w * behind;
         if let Some(side_w) = post.from_ground_w {
             let along_w = side_w + of.post_w;
@@ -295,8 +295,7 @@ impl FarEnd {
     pub(super) fn missing_wrap(&self, swivel: f64, exit_w: &Vec3) -> f64 {
         let Some(contact) = self.contact_at(swivel) else { return 0.0 };
         let force_w = -exit_w;
-        let (along, across) =
-            (force_w.dot(&contact.exit_direction_w()), force_w.dot(&contact.exit_normal_w()));
+        let (along, across) = (force_w.dot(&contact.exit_direction_w()), force_w.dot(&contact.exit_normal_w()));
         if along <= SLACK { 0.0 } else { across.atan2(along).clamp(-MAX_ROLL, MAX_ROLL) }
     }
 

@@ -186,7 +186,8 @@ impl Feed {
     fn add_winch(&mut self, winch: &Winch, control: Control, on_drum: f64) {
         let has_rope = !self.links.is_empty();
         let is_stiff = !winch.stiffness.is_finite();
-        let drum = if is_stiff && control != Control::Ideal { winch.drum_mass + winch.motor_mass } else { winch.drum_mass };
+        let drum =
+            if is_stiff && control != Control::Ideal { winch.drum_mass + winch.motor_mass } else { winch.drum_mass };
         let drum_is_station = if is_stiff { control != Control::Ideal && drum > 0.0 } else { drum > 0.0 || !has_rope };
         if drum_is_station {
             self.station(has_rope, drum + on_drum);
@@ -207,10 +208,13 @@ impl Feed {
         let inertia = winch.drum_mass + winch.motor_mass;
         let gain = |servo: &Servo| {
             let bandwidth = (servo.position_gain / inertia).sqrt();
-            if servo.integral && bandwidth.is_finite() { servo.position_gain * bandwidth / INTEGRAL_RADIANS } else { 0.0 }
+            if servo.integral && bandwidth.is_finite() {
+                servo.position_gain * bandwidth / INTEGRAL_RADIANS
+            } else {
+                0.0
+            }
         };
-        self.motor =
-            Some(FeedMotor { damping: winch.damping, servo, integral_gain: servo.as_ref().map_or(0.0, gain) });
+        self.motor = Some(FeedMotor { damping: winch.damping, servo, integral_gain: servo.as_ref().map_or(0.0, gain) });
     }
 
     /// Adds a mass as a station of its own, or to the exit point if no rope lies between them.

@@ -196,7 +196,15 @@ impl RopeMesh {
     ///
     /// # References
     /// docs/theory.md, equation (97d).
-    pub(super) fn needed(&self, length: &WoundLength, winds: &[Wind], x: &[f64], v: &[f64], a: &[f64], out: &mut [f64]) {
+    pub(super) fn needed(
+        &self,
+        length: &WoundLength,
+        winds: &[Wind],
+        x: &[f64],
+        v: &[f64],
+        a: &[f64],
+        out: &mut [f64],
+    ) {
         for e in 0..self.elements {
             let nodes = self.of_element(e);
             let (x, v, out) = (&x[nodes.clone()], &v[nodes.clone()], &mut out[nodes.clone()]);

@@ -343,8 +343,7 @@ impl Simulation {
         };
         let now = (self.stepper.time, &self.stepper.now, &self.stepper.needed[..]);
         let reached = |fuse: &&(usize, usize, f64)| {
-            self.stepper.system.ends[fuse.1] == RopeEnd::Attached
-                && over(self, fuse.1, now, &lengths) >= fuse.2
+            self.stepper.system.ends[fuse.1] == RopeEnd::Attached && over(self, fuse.1, now, &lengths) >= fuse.2
         };
         let (event, cable, limit) = *self.fuses.iter().find(reached)?;
         let (mut below, mut above) = (dense.from, dense.until);
@@ -352,7 +351,11 @@ impl Simulation {
         for _ in 0..40 {
             let middle = 0.5 * (below + above);
             let lengths = self.stepper.system.within(dense, middle, &mut self.work, &mut needed);
-            if over(self, cable, (middle, &self.work, &needed), &lengths) >= limit { above = middle } else { below = middle }
+            if over(self, cable, (middle, &self.work, &needed), &lengths) >= limit {
+                above = middle
+            } else {
+                below = middle
+            }
         }
         self.needed = needed;
         Some((event, cable, above))
@@ -372,7 +375,12 @@ impl Simulation {
     }
 
     /// Tensions of a cable at the platform and at its anchor [N].
-    fn tensions(&self, i: usize, (time, m, needed): (f64, &MotionNumbers, &[f64]), lengths: &[WoundLength]) -> [f64; 2] {
+    fn tensions(
+        &self,
+        i: usize,
+        (time, m, needed): (f64, &MotionNumbers, &[f64]),
+        lengths: &[WoundLength],
+    ) -> [f64; 2] {
         let system = &self.stepper.system;
         let range = system.of_rope(i);
         let at = |from: usize| Vec3::from_column_slice(&needed[from..from + 3]);

@@ -79,6 +79,7 @@ impl Feed {
         };
         of.iter_mut().for_each(each);
         let [from, duration, before, after] = of;
-        self.hold = if from.is_nan() { WinchHold::Length } else { WinchHold::Tension { from, duration, before, after } };
+        self.hold =
+            if from.is_nan() { WinchHold::Length } else { WinchHold::Tension { from, duration, before, after } };
     }
 }

@@ -11,7 +11,11 @@ use funicular::statics::{self, Equilibrium, StaticModel};
 
 /// Tables of drives, each with what its cables name.
 const DRIVES: [(&str, &str, &str); 8] = [
-    ("pulley", "pulley = \"wheel\"", "[pulleys.wheel]\nradius_m = 0.05\nentry_direction = [0.0, 0.0, 1.0]\ninertia_kg_m2 = 1e-4\n"),
+    (
+        "pulley",
+        "pulley = \"wheel\"",
+        "[pulleys.wheel]\nradius_m = 0.05\nentry_direction = [0.0, 0.0, 1.0]\ninertia_kg_m2 = 1e-4\n",
+    ),
     (
         "inclined pulley with a drum side",
         "pulley = \"wheel\"\nwinch = \"drum\"",
@@ -94,8 +98,8 @@ fn subjects() -> Vec<(String, Robot, Equilibrium)> {
 #[test]
 fn drives_at_rest_are_those_of_statics() {
     for (name, robot, rest) in subjects() {
-        let mut simulation =
-            Simulation::new(&robot, &rest, &[], 0.2, &SimulationSettings::default()).unwrap_or_else(|e| panic!("{name}: {e}"));
+        let mut simulation = Simulation::new(&robot, &rest, &[], 0.2, &SimulationSettings::default())
+            .unwrap_or_else(|e| panic!("{name}: {e}"));
         let start = simulation.at(0.0).unwrap();
         let off = (start.pose.position_w - rest.pose.position_w).norm();
         assert!(off < 2e-9, "{name}: {off}");
@@ -105,7 +109,9 @@ fn drives_at_rest_are_those_of_statics() {
             assert!((cable.tension_anchor - state.tension_anchor).abs() < 1e-6 * scale, "{name}");
             // A servo without integral action has paid out what it yields.
             let yielded = state.drive.as_ref().filter(|_| name == "servo");
-            let paid_out = yielded.map_or(0.0, |drive| drive.winch_yield / (1.0 + drive.tension_drum / robot.cables[0].material.axial_stiffness));
+            let paid_out = yielded.map_or(0.0, |drive| {
+                drive.winch_yield / (1.0 + drive.tension_drum / robot.cables[0].material.axial_stiffness)
+            });
             let off = cable.length.value - state.unstrained_length - paid_out;
             assert!(off.abs() < 1e-9 + 1e-5 * paid_out, "{name}: {off}");
         }
@@ -119,7 +125,9 @@ fn drives_at_rest_are_those_of_statics() {
 #[test]
 fn a_small_push_rings_at_the_modes_of_drives() {
     for (name, mut robot, rest) in subjects() {
-        if ["plain", "drum side", "two masses", "torque", "supports, Nothing", "supports, DrumsOnSupports"].contains(&name.as_str()) {
+        if ["plain", "drum side", "two masses", "torque", "supports, Nothing", "supports, DrumsOnSupports"]
+            .contains(&name.as_str())
+        {
             // The slow integral of the two masses is not in the modes; the others are parts of subjects that are here.
             continue;
         }
@@ -130,7 +138,13 @@ fn a_small_push_rings_at_the_modes_of_drives() {
         let first_hz = modes::below(&dynamics, 8.0).modes[0].frequency_hz;
         let scale = robot.platform.mass / 10.0;
         let of = Ring { cycles: 25.0, tolerance: 1e-11, off: 1e-5, part: 0.05, least: 3 };
-        rings_at_its_modes(&(robot, rest), first_hz, Vec3::new(3e-4, 2e-4, 5e-4) * scale, Vec3::new(2e-5, 1e-5, 3e-5) * scale, &of);
+        rings_at_its_modes(
+            &(robot, rest),
+            first_hz,
+            Vec3::new(3e-4, 2e-4, 5e-4) * scale,
+            Vec3::new(2e-5, 1e-5, 3e-5) * scale,
+            &of,
+        );
         println!("{name}");
     }
 }
@@ -210,7 +224,12 @@ fn winches_hold_tensions() {
             assert!((at_anchor / tension - 1.0).abs() < 0.02 || k < 9, "{name}: {at_anchor} of {tension}");
             pulled_in = rest.cables[1].unstrained_length - sample.cables[1].length.value;
             let energy = &sample.energy;
-            assert!(energy.defect().abs() < 1e-3 * energy.winches.abs().max(1e-3), "{name}: {:e} of {:e}", energy.defect(), energy.winches);
+            assert!(
+                energy.defect().abs() < 1e-3 * energy.winches.abs().max(1e-3),
+                "{name}: {:e} of {:e}",
+                energy.defect(),
+                energy.winches
+            );
         }
         assert!(pulled_in > 1e-3, "{name}: {pulled_in}");
     }
