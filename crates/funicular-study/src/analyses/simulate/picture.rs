@@ -146,6 +146,10 @@ fn marks(robot: &Robot, events: &[SimulationEvent]) -> Vec<EventMark> {
                 let moved = (0..lengths.len()).filter(|i| lengths[*i].is_some()).collect();
                 (*time, times.last().copied(), format!("lengths{}", named(moved)))
             }
+            SimulationEvent::Tension { time, duration, tensions } => {
+                let held = (0..tensions.len()).filter(|i| tensions[*i].is_some()).collect();
+                (*time, Some(*duration), format!("tension{}", named(held)))
+            }
             SimulationEvent::Stop { time, duration, cables } => {
                 (*time, Some(*duration), format!("stop{}", named(cables.clone())))
             }
