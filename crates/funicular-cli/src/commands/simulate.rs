@@ -109,7 +109,7 @@ impl Printed for Simulated {
         let _ = write!(text, "\n{table}\n{} of {} shown.\n", shown.len(), counted(self.rows.len(), "row"));
         let _ = write!(text, "\nLargest tensions\n{}", Table::of(&Peak::columns(), &self.peaks));
         if self.errors.is_empty() {
-            let _ = writeln!(text, "\nNo error: the run was not repeated with a finer mesh.");
+            let _ = writeln!(text, "\nThe error is not known: the run was not repeated with a finer mesh.");
         } else {
             let _ = write!(
                 text,

@@ -7,7 +7,7 @@ use std::borrow::Cow;
 use std::cell::RefCell;
 use std::f64::consts::TAU;
 
-/// Largest frequency of simulated gusts [Hz]. Gusts beyond it have a hundredth of the drag of the mean, and neither
+/// Largest frequency of simulated gusts [Hz]. DrawnGusts beyond it have a hundredth of the drag of the mean, and neither
 /// platforms nor the first modes of their cables are as fast.
 pub(super) const MAX_GUST_HZ: f64 = 10.0;
 /// Numbers of waves: the lines are as far apart as the duration tells apart, twice over, but not fewer than makes gusts
@@ -20,14 +20,14 @@ const RIDGE: f64 = 1e-12;
 #[derive(Debug, Clone)]
 pub(super) struct Air {
     mean: Wind,
-    gusts: Option<Gusts>,
+    gusts: Option<DrawnGusts>,
     /// First place of each rope and the number of its places.
     places: Vec<(usize, usize)>,
 }
 
 /// Waves of the gusts. The platform is the first place.
 #[derive(Debug, Clone)]
-struct Gusts {
+struct DrawnGusts {
     /// Angular frequencies [rad/s].
     omegas: Vec<f64>,
     /// Amplitudes of cosine and sine at each place, a row of all waves for each, world axes [m/s].
@@ -59,7 +59,7 @@ impl Air {
             places.push((all.len(), rope.len()));
             all.extend(rope.iter().map(|[from, to]| GustPlace { center_w: (from + to) * 0.5, extent_w: to - from }));
         }
-        Ok(Self { mean: robot.wind, gusts: Some(Gusts::new(&field, &all, duration, seed)), places })
+        Ok(Self { mean: robot.wind, gusts: Some(DrawnGusts::new(&field, &all, duration, seed)), places })
     }
 
     fn at(&self, place: usize, time: f64) -> Wind {
@@ -81,7 +81,7 @@ impl Air {
     }
 }
 
-impl Gusts {
+impl DrawnGusts {
     fn new(field: &TurbulentField, places: &[GustPlace], duration: f64, seed: u64) -> Self {
         let mut random = fastrand::Rng::with_seed(seed);
         let count = (2.0 * duration * MAX_GUST_HZ).clamp(WAVES[0], WAVES[1]) as usize;

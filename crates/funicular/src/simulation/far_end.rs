@@ -212,12 +212,10 @@ impl FarEnd {
         if let (Some(at), Some(contact)) = (places.swivel, self.contact) {
             let radius = contact.radius;
             let turned = contact.turned(0.0, of.z[0][at] / radius);
-            let moment = |(angle, length): (f64, f64)| (length, contact.offset_w(angle).dot(&contact.center_w));
-            let nodes = || crate::drive::arc_nodes(&contact.wheel()).map(moment);
-            let first: f64 = nodes().map(|(length, distance)| length * distance).sum();
-            let second: f64 = nodes().map(|(length, distance)| length * distance * distance).sum();
+            let moment = |(angle, length): (f64, f64)| length * contact.offset_w(angle).dot(&contact.center_w);
+            let first: f64 = crate::drive::arc_nodes(&contact.wheel()).map(moment).sum();
             let square = radius * radius;
-            out.swivel_mass = (self.swivel_inertia + of.rope.mass * second) / square;
+            out.swivel_mass = self.swivel_inertia / square;
             let lever = turned.distance_from_axis() / radius;
             out.swivel = lever * turned.sideways_w.dot(&out.exit_w) - load_w.dot(&turned.sideways_w) * first / radius
                 + out.swivel_mass * of.z[2][at];
@@ -305,6 +303,11 @@ impl FarEnd {
         let Some(contact) = self.contact else { return 0.0 };
         let wrap = wrap.max(-contact.wrap);
         self.contact = Some(contact.turned(wrap, swivel / contact.radius));
-        contact.radius * wrap / (1.0 + tension / axial_stiffness)
+        let shorter = contact.radius * wrap / (1.0 + tension / axial_stiffness);
+        // What leaves the free span lies between it and the winch.
+        if let Some(feed) = self.feed.as_mut().filter(|feed| feed.count() == 1) {
+            feed.behind += shorter;
+        }
+        shorter
     }
 }

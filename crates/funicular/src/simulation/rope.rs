@@ -117,12 +117,6 @@ fn add(values: &mut [f64], node: usize, vector: &Vec3) {
     }
 }
 
-/// Wind at an element: one for the whole rope, or one for each element.
-#[inline]
-fn wind_at(winds: &[Wind], element: usize) -> &Wind {
-    &winds[element.min(winds.len() - 1)]
-}
-
 /// Σ slopes · values over the nodes of an element.
 #[inline]
 fn along(slopes: &[f64], values: &[f64]) -> Vec3 {
@@ -209,7 +203,7 @@ impl RopeMesh {
             let nodes = self.of_element(e);
             let (x, v, out) = (&x[nodes.clone()], &v[nodes.clone()], &mut out[nodes.clone()]);
             self.inner_forces(length, x, v, out);
-            self.lumped_forces(length, wind_at(winds, e), e, [x, v, &a[nodes]], out);
+            self.lumped_forces(length, winds, e, [x, v, &a[nodes]], out);
             if length.rate != 0.0 || length.acceleration != 0.0 {
                 self.winding_forces(length, e, x, v, out);
             }
@@ -234,7 +228,7 @@ impl RopeMesh {
 
     /// Inertia, dead load and damping of the nodes.
     #[inline]
-    fn lumped_forces(&self, length: &WoundLength, wind: &Wind, e: usize, [x, v, a]: [&[f64]; 3], out: &mut [f64]) {
+    fn lumped_forces(&self, length: &WoundLength, winds: &[Wind], e: usize, [x, v, a]: [&[f64]; 3], out: &mut [f64]) {
         let share = length.value / self.elements as f64;
         let has_drag = self.drag_width > 0.0;
         for q in 0..=self.basis.degree {
@@ -250,7 +244,7 @@ impl RopeMesh {
             let velocity = self.velocity(length, e, q, x, v);
             let mut force = velocity * viscous;
             if has_drag {
-                force -= self.drag(wind, q, x, &velocity) * part;
+                force -= self.drag(self.wind_at(winds, e, q), q, x, &velocity) * part;
             }
             add(out, q, &force);
         }
@@ -265,6 +259,13 @@ impl RopeMesh {
         // σ times the number of elements.
         let place = e as f64 + self.basis.nodes[q];
         at(v, q) - along(self.basis.at_node(q), x) * (place * length.rate / length.value)
+    }
+
+    /// Wind at node `q` of element `e`: winds are those of equal pieces of the rope.
+    #[inline]
+    fn wind_at<'a>(&self, winds: &'a [Wind], e: usize, q: usize) -> &'a Wind {
+        let sigma = (e as f64 + self.basis.nodes[q]) / self.elements as f64;
+        &winds[((sigma * winds.len() as f64) as usize).min(winds.len() - 1)]
     }
 
     /// Drag per unstrained length at node `q` of an element [N/m].
@@ -343,7 +344,7 @@ impl RopeMesh {
                 sum += part * (self.mass * inertia - self.load_w.dot(&(at(x, q) - entry_w)));
                 let mut lost = velocity * self.viscous;
                 if self.drag_width > 0.0 {
-                    lost -= self.drag(wind_at(winds, e), q, x, &velocity);
+                    lost -= self.drag(self.wind_at(winds, e, q), q, x, &velocity);
                 }
                 sum -= part * sigma * lost.dot(&x_slope);
             }
@@ -506,7 +507,7 @@ impl RopeMesh {
                 energy.dissipation += part * self.viscous * velocity.norm_squared();
                 energy.loads += part * dead_load.dot(&velocity);
                 if self.drag_width > 0.0 {
-                    energy.loads += part * self.drag(wind_at(winds, e), q, x, &velocity).dot(&velocity);
+                    energy.loads += part * self.drag(self.wind_at(winds, e, q), q, x, &velocity).dot(&velocity);
                 }
             }
             for g in 0..self.basis.degree {

@@ -283,11 +283,16 @@ pub(super) fn at_rest(
     Ok(stepper)
 }
 
-/// Ends of each element of the ropes at rest, as places of gusts.
+/// Least number of pieces of a rope at which gusts are drawn. With half of them the motion of a camera on ropes of 150 m is a
+/// tenth too small.
+const MIN_GUSTY_PIECES: usize = 8;
+
+/// Ends of equal pieces of the ropes at rest, as places of gusts: at least one for each element.
 fn gusty_places(ropes: &[RopeMesh], rest: &Equilibrium) -> Vec<Vec<[Vec3; 2]>> {
     let of_rope = |(rope, state): (&RopeMesh, &CableState)| {
-        let chord_w = state.chord_w() / rope.elements as f64;
-        (0..rope.elements).map(|e| [e, e + 1].map(|k| state.attachment_w + chord_w * k as f64)).collect()
+        let count = rope.elements.max(MIN_GUSTY_PIECES);
+        let chord_w = state.chord_w() / count as f64;
+        (0..count).map(|e| [e, e + 1].map(|k| state.attachment_w + chord_w * k as f64)).collect()
     };
     ropes.iter().zip(&rest.cables).map(of_rope).collect()
 }

