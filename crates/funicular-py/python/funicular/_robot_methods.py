@@ -193,8 +193,8 @@ def simulate(
     Parameters
     ----------
     scenario
-        What happens: a mapping from `release`, `pick`, `lengths`, `tension`, `stop`, `push` and `cut` to lists of events, each a
-        mapping with the keys of docs/simulation.md.
+        What happens: a mapping from `release`, `pick`, `lengths`, `tension`, `stop`, `push` and `cut` to lists of events,
+        each a mapping with the keys of docs/simulation.md.
     point
         Points of the platform whose motion is a part of the result: a mapping from names to places x, y, z in the platform
         frame [m].

@@ -195,7 +195,7 @@ fn after_a_move_the_robot_rests_where_statics_has_it() {
 /// A winch that holds a tension holds it, also while the platform moves, and its books balance.
 #[test]
 fn winches_hold_tensions() {
-    for (name, robot, rest) in subjects().into_iter().take(3) {
+    for (name, robot, rest) in subjects().into_iter().take(2) {
         let tension = 1.1 * rest.cables[1].tension_drum();
         let mut tensions = vec![None; robot.cables.len()];
         tensions[1] = Some(tension);
