@@ -32,8 +32,8 @@ struct DrawnGusts {
     omegas: Vec<f64>,
     /// Amplitudes of cosine and sine at each place, a row of all waves for each, world axes [m/s].
     amplitudes: Vec<Vec<[Vec3; 2]>>,
-    /// Cosines and sines at the time of the last call.
-    phases: RefCell<(f64, Vec<[f64; 2]>)>,
+    /// Bits of the time of the last call, and the cosines and sines at it.
+    phases: RefCell<(u64, Vec<[f64; 2]>)>,
 }
 
 impl Air {
@@ -90,7 +90,7 @@ impl DrawnGusts {
         let mut gusts = Self {
             omegas: Vec::with_capacity(count),
             amplitudes: vec![Vec::with_capacity(count); places.len()],
-            phases: RefCell::new((f64::NAN, Vec::new())),
+            phases: RefCell::new((f64::NAN.to_bits(), Vec::new())),
         };
         for k in 0..count {
             // Somewhere in its interval, so that the sum has no period.
@@ -128,12 +128,12 @@ impl DrawnGusts {
 
     fn at(&self, place: usize, time: f64) -> Vec3 {
         let mut phases = self.phases.borrow_mut();
-        if phases.0 != time {
+        if phases.0 != time.to_bits() {
             let at = |omega: &f64| {
                 let (sine, cosine) = (omega * time).sin_cos();
                 [cosine, sine]
             };
-            *phases = (time, self.omegas.iter().map(at).collect());
+            *phases = (time.to_bits(), self.omegas.iter().map(at).collect());
         }
         let mut sum = Vec3::zeros();
         for ([cosine_w, sine_w], [cosine, sine]) in self.amplitudes[place].iter().zip(&phases.1) {

@@ -324,11 +324,11 @@ impl FarBorder {
         let mut view = own.fixed_view_mut::<3, 3>(self.count, self.count);
         view += end + forces.post_stiffness_w * of.stiffness;
 
-        self.eliminate(far, rope, factor, own)
+        self.eliminate(far, rope, factor, &own)
     }
 
     /// Columns of the rope's inner nodes for z and support, and what stays after them.
-    fn eliminate(&mut self, far: &FarEnd, rope: &RopeMesh, factor: &Skyline, own: DMat) -> Result<Mat6, NotPositive> {
+    fn eliminate(&mut self, far: &FarEnd, rope: &RopeMesh, factor: &Skyline, own: &DMat) -> Result<Mat6, NotPositive> {
         let places = far.places();
         let mut on_end = vec![Vec3::zeros(); self.columns.len()];
         for (k, column) in self.columns.iter_mut().enumerate() {
@@ -431,8 +431,8 @@ impl FarBorder {
     /// both.
     fn forward(&mut self, rows: &[f64], needed: &[f64]) -> [Vec3; 2] {
         let inner = |a: &[f64]| rows.iter().zip(a).map(|(x, y)| x * y).sum::<f64>();
-        for k in 0..self.count {
-            self.z[k] = if self.is_held[k] { 0.0 } else { needed[k] - inner(&self.columns[k]) };
+        for (k, needed) in needed.iter().enumerate() {
+            self.z[k] = if self.is_held[k] { 0.0 } else { needed - inner(&self.columns[k]) };
         }
         let solved = &self.inverse * &self.z;
         let received = self.outer.transpose() * &solved;

@@ -352,9 +352,9 @@ impl Simulation {
             let middle = 0.5 * (below + above);
             let lengths = self.stepper.system.within(dense, middle, &mut self.work, &mut needed);
             if over(self, cable, (middle, &self.work, &needed), &lengths) >= limit {
-                above = middle
+                above = middle;
             } else {
-                below = middle
+                below = middle;
             }
         }
         self.needed = needed;

@@ -167,12 +167,12 @@ impl System {
             (m.x[last], m.v[last], m.a[last]) = (given.value, given.rate, given.acceleration);
         }
         let swivel = places.swivel.map_or([0.0; 3], |at| [m.x[from + at], m.v[from + at], m.a[from + at]]);
-        let exit = far.exit(swivel, &self.post_motion(far, m));
+        let exit = far.exit(swivel, &Self::post_motion(far, m));
         m.put(self.of_rope(i).end - 3, &exit);
     }
 
     /// Motion of the support of a far end.
-    fn post_motion(&self, far: &FarEnd, m: &MotionNumbers) -> ExitMotion {
+    fn post_motion(far: &FarEnd, m: &MotionNumbers) -> ExitMotion {
         far.support.map_or([Vec3::zeros(); 3], |post| m.point(Self::of_post(post.index).start))
     }
 
@@ -281,7 +281,7 @@ impl System {
         if let (Some(feed), Some(at)) = (&far.feed, places.feed) {
             let (range, free) = (self.of_rope(i), self.free_length(i, given, m));
             let wind = self.air.on_rope(i, time);
-            let entry_w = far.entry_w + self.post_motion(far, m)[0];
+            let entry_w = far.entry_w + Self::post_motion(far, m)[0];
             let of_rope = [&m.x[range.clone()], &m.v[range.clone()], &m.a[range]];
             let scale = feed.stretch * feed.stretch;
             for (j, (needed, mass)) in forces.feed.needed.iter().zip(&feed.masses).enumerate() {

@@ -5,7 +5,7 @@ use super::small_motion::{Ring, rings_at_its_modes};
 use funicular::dynamics::{Dynamics, Linearisation};
 use funicular::math::Vec3;
 use funicular::modes;
-use funicular::robot::{Damping, Robot, State};
+use funicular::robot::{Damping, Pose, Robot, State};
 use funicular::simulation::{Simulation, SimulationEvent, SimulationSettings};
 use funicular::statics::{self, Equilibrium, StaticModel};
 
@@ -66,11 +66,9 @@ fn with_drives(names: &str, tables: &str) -> Robot {
     Robot::from_toml(&text.replacen("[[cables]]", &format!("{tables}[[cables]]"), 1)).unwrap()
 }
 
-/// Robot with lengths that hold its pose, at rest.
-fn at_rest(mut robot: Robot, pose: Option<State>) -> (Robot, Equilibrium) {
-    if let Some(State::Pose(pose)) = pose {
-        robot.state = State::Pose(pose);
-    }
+/// Robot with lengths that hold a pose, at rest.
+fn at_rest(mut robot: Robot, pose: Pose) -> (Robot, Equilibrium) {
+    robot.state = State::Pose(pose);
     let rest = statics::solve(&robot, StaticModel::Catenary, None).unwrap().equilibrium;
     robot.state = State::Lengths(rest.cables.iter().map(|cable| cable.unstrained_length).collect());
     (robot, rest)
@@ -80,10 +78,10 @@ fn subjects() -> Vec<(String, Robot, Equilibrium)> {
     let plain = Robot::from_toml(funicular_robots::YUAN2014_4MM).unwrap();
     let pose = statics::solve(&plain, StaticModel::Catenary, None).unwrap().equilibrium.pose;
     let mut all = Vec::new();
-    let (robot, rest) = at_rest(plain, Some(State::Pose(pose)));
+    let (robot, rest) = at_rest(plain, pose);
     all.push(("plain".to_owned(), robot, rest));
     for (name, names, tables) in DRIVES {
-        let (robot, rest) = at_rest(with_drives(names, tables), Some(State::Pose(pose)));
+        let (robot, rest) = at_rest(with_drives(names, tables), pose);
         all.push((name.to_owned(), robot, rest));
     }
     for behind in [Behind::Nothing, Behind::DrumsOnSupports, Behind::DrumsOnGround] {
