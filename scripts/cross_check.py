@@ -51,15 +51,16 @@ STIFFNESS_RATIO = 1e-3
 
 BARS = 20
 
-# Motions in MoorDyn: options, events, and the difference of the tensions from `simulate` over their root mean square.
+# Motions in MoorDyn: time [s], options, events, and the difference of the tensions from `simulate` over their root mean square.
 RELEASE = "[[release]]\nat_s = 0.0\nmass_kg = 1.95\n"
 MOVE = (
     "[[lengths]]\nat_s = 0.2\nduration_s = 1.0\nchange_m = { 1 = -0.01, 2 = -0.01, 3 = -0.01, 4 = -0.01, 5 = -0.01, 6 = -0.01 }\n"
     "[[stop]]\nat_s = 0.7\nduration_s = 0.2\n"
 )
-SCENARIOS = [("release", ["--mass-kg=12.5"], RELEASE, 3e-2), ("move", [], MOVE, 3e-3)]
+CUT = '[[cut]]\ncable = "1"\nat_s = 0.1\n'
+SCENARIOS = [("release", 2.0, ["--mass-kg=12.5"], RELEASE, 3e-2), ("move", 2.0, [], MOVE, 3e-3), ("cut", 1.0, [], CUT, 3e-2)]
 # Part of the difference that is left with twice as many segments: 1/4 for long waves, more for a step.
-HALVED = 0.6
+HALVED = 0.7
 
 
 class Case:
@@ -356,16 +357,16 @@ def check_moordyn(robot, folder, table, seconds, segments):
     table.row(robot.name, f"MoorDyn, {seconds:g} s", "mean position of the attachments [m]", moved, POSITION_M)
 
 
-def check_scenario(robot, folder, table, name, scenario, limit):
+def check_scenario(robot, folder, table, name, seconds, scenario, limit):
     """Compares the tensions of a motion with those of `simulate`, both with the same loss of the stretch and no other.
 
     The difference is the error of MoorDyn's segments, which falls with the square of their length: `simulate` has three elements
-    of degree eight in each rope. A release sends steps of tension along the ropes, and chains of segments carry short waves too
-    slowly, so that its difference falls less: twice as many segments leave half of it instead of a quarter.
+    of degree eight in each rope. A release and a cut send steps of tension along the ropes, and chains of segments carry short
+    waves too slowly, so that their difference falls less: twice as many segments leave half of it or more instead of a quarter.
     """
     path = folder / f"{name}.toml"
     path.write_text(scenario)
-    options = ["--scenario", str(path), "--for", "2"]
+    options = ["--scenario", str(path), "--for", str(seconds)]
     for value in ("damping_ratio=0", "axial_damping_time_s=1e-4"):
         options += ["--set", f"materials.rope-4mm.{value}"]
     found = folder / f"{name}.csv"
@@ -737,9 +738,9 @@ def main():
             check_vtk(robot, folder, table)
             if robot.components:
                 check_uff(robot, folder, table)
-        for name, loaded, scenario, limit in SCENARIOS:
+        for name, seconds, loaded, scenario, limit in SCENARIOS:
             robot = Robot(program, Case(f"yuan2014-4mm, {name}", robot="yuan2014-4mm", options=loaded), folder)
-            check_scenario(robot, folder, table, name, scenario, limit)
+            check_scenario(robot, folder, table, name, seconds, scenario, limit)
         for case in SIMULATED[:3] if options else SIMULATED:
             robot = Robot(program, case, folder)
             check_mujoco(robot, folder, table)

@@ -32,6 +32,8 @@ COMMANDS = [
 {% endfor -%}
 ]
 TIMES = [row[0] for row in COMMANDS]
+# Cables that fail: time [s], line, and its point at the platform.
+CUTS = {{ cuts }}
 INPUT = [
 {% for line in input -%}
 {{ "    " }}{{ line }},
@@ -59,6 +61,13 @@ def command(lines, begin, end):
         moordyn.SetLineUnstretchedLengthVel(lines[number - 1], (after - before) / (end - begin))
 
 
+def steps(begin, end):
+    """Times between two rows: where a rate changes and where a line breaks."""
+    parts = math.ceil((end - begin) / COMMAND_S - 1e-9) if MOVED else 1
+    times = {begin + (end - begin) * part / parts for part in range(parts)}
+    return [*sorted(times | {time for time, _, _ in CUTS if begin < time < end}), end]
+
+
 def row_of(time, system, lines):
     """Row of the result: the forces at the ends of a line, with the weight of half a segment, are its tensions."""
     {% if is_body %}place = moordyn.GetBodyPos(moordyn.GetBody(system, 1)){% else %}place = moordyn.GetPointPos(moordyn.GetPoint(system, len(CABLES) + 1)){% endif %}
@@ -74,10 +83,13 @@ def run(path):
     moordyn.Init(system, [], [])
     lines = [moordyn.GetLine(system, 1 + i) for i in range(len(CABLES))]
     rows = []
-    parts = math.ceil(ROW_S / COMMAND_S - 1e-9) if MOVED else 1
+    cuts = list(CUTS)
     for k in range(round((END_S - START_S) / ROW_S)):
-        for j in range(parts):
-            begin, end = (START_S + (k + part / parts) * ROW_S for part in (j, j + 1))
+        times = steps(START_S + k * ROW_S, START_S + (k + 1) * ROW_S)
+        for begin, end in zip(times, times[1:]):
+            while cuts and cuts[0][0] <= begin + 1e-12:
+                _, line, point = cuts.pop(0)
+                moordyn.BreakLine(system, moordyn.GetPoint(system, point), lines[line - 1])
             if MOVED:
                 command(lines, begin, end)
             moordyn.Step(system, [], [], begin, end - begin)

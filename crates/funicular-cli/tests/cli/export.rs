@@ -80,20 +80,38 @@ fn a_script_for_moordyn_has_the_lengths_of_the_winches_until_they_stand() {
 }
 
 #[test]
+fn a_script_for_moordyn_breaks_lines_in_their_order() {
+    let scenario = "[[cut]]\ncable = \"4\"\nat_s = 0.3\n[[cut]]\ncable = \"1\"\nat_s = 0.2\n";
+    let script = moving(scenario, &["--segments", "5"]);
+    assert_eq!(script.status.code(), Some(0), "{}", stderr(&script));
+    // Of six cables the first six points are the anchors.
+    assert_eq!(value_of(stdout(&script), "CUTS"), "[[0.2,1,7],[0.3,4,10]]");
+}
+
+#[test]
 fn events_that_moordyn_cannot_hold_are_refused_by_their_names() {
     let release = "[[release]]\nat_s = 0.5\nmass_kg = 1.0\n";
     let lengths = "[[lengths]]\nat_s = 0.1\nduration_s = 1.0\nchange_m = { 2 = -0.1 }\n";
+    let cut = "[[cut]]\ncable = \"1\"\nat_s = 0.2\n";
     let [tension, push] = [
         "[[tension]]\nat_s = 0.5\nduration_s = 1.0\ntension_n = { 1 = 9.0 }\n",
         "[[push]]\nat_s = 0.5\nduration_s = 1.0\nforce_n = [1.0, 0.0, 0.0]\n",
     ];
     for (scenario, says) in [
         (release.replace("release", "pick"), "[[pick]] of --scenario: a body of MoorDyn keeps the mass"),
-        (tension.to_owned(), "[[tension]] of --scenario: a line of MoorDyn has a commanded length"),
+        (tension.to_owned(), "[[tension]] of --scenario: a line of MoorDyn has a length"),
         (push.to_owned(), "[[push]] of --scenario: MoorDyn has no forces on a body"),
-        ("[[cut]]\ncable = \"1\"\nat_tension_n = 900.0\n".to_owned(), "[[cut]] of --scenario: a script for MoorDyn"),
+        (
+            "[[cut]]\ncable = \"1\"\nat_tension_n = 900.0\n".to_owned(),
+            "[[cut]] of --scenario: a line of MoorDyn breaks when the script says so",
+        ),
         (release.to_owned() + &release.replace("0.5", "0.6"), "[[release]] number 2 of --scenario is at another time"),
-        (release.to_owned() + lengths, "[[release]] of --scenario: at 0.5 s the winches have begun to move"),
+        (release.to_owned() + lengths, "[[release]] of --scenario: at 0.5 s the robot is no longer at rest"),
+        (release.to_owned() + cut, "[[release]] of --scenario: at 0.5 s the robot is no longer at rest"),
+        (
+            cut.to_owned() + &cut.replace("0.2", "0.3"),
+            "[[cut]] number 2 of --scenario: cable \"1\" has been cut before",
+        ),
         (release.replace("1.0", "13.0"), "[[release]] of --scenario: the payload's 13 kg leave nothing"),
         (release.replace("0.5", "11.0"), "[[release]] of --scenario: its time 11 s is not within the simulated time"),
         (release.replace("0.5", "10.0"), "[[release]] of --scenario is at the end"),
@@ -106,7 +124,7 @@ fn events_that_moordyn_cannot_hold_are_refused_by_their_names() {
     for (options, says) in [
         (vec!["--to", "vtk", "--scenario", &path], "has no events: leave out --scenario"),
         (vec!["--to", "moordyn", "--for", "2"], "--duration-s is the time of a --scenario"),
-        (vec!["--to", "moordyn", "--scenario", &path, "-o", "drop.txt"], "would hold a Python script for MoorDyn"),
+        (vec!["--to", "moordyn", "--scenario", &path, "-o", "drop.xml"], "would hold a Python script for MoorDyn"),
     ] {
         let output = run(&[&["export", "ROBOT"][..], &options].concat());
         assert_eq!(output.status.code(), Some(2), "{options:?}");
