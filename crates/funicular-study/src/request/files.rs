@@ -119,8 +119,8 @@ declared! {
         /// compare with.
         modes_below_hz: Option<f64> = None =>
             (Number(Positive)).otherwise("no modes in VTK, the first ten in OpenSees");
-        /// Events that MoorDyn runs from the equilibrium on, as in `simulate`: lists `release`, `lengths` and `stop`. The file
-        /// is then a Python script with the input file in it.
+        /// Events that MoorDyn runs from the equilibrium on, as in `simulate`: lists `release`, `lengths`, `stop` and
+        /// `cut`. The file is then a Python script with the input file in it.
         scenario: Option<Scenario> = None => (Data(shape::scenario));
         /// Time that MoorDyn simulates with ⟪scenario⟫ [s].
         duration_s: Option<f64> = None => (Number(Positive)).otherwise("10 with a scenario");

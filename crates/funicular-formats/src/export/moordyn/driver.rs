@@ -54,7 +54,7 @@ pub(crate) fn refuse(scenario: &Scenario) -> Result<()> {
              a time: leave it out, or use `simulate`"
         );
     }
-    let later = release.iter().position(|of| of.at_s != release[0].at_s);
+    let later = release.iter().position(|of| of.at_s.total_cmp(&release[0].at_s).is_ne());
     if let Some(k) = later {
         bail!(
             "[[release]] number {} of ⟪scenario⟫ is at another time than the first: {kept}, so that a file can begin with \
