@@ -1,6 +1,7 @@
 """Comparison of funicular with other programs on robots of the library; scripts/cross-check runs it."""
 
 import contextlib
+import csv
 import io
 import json
 import logging
@@ -49,6 +50,17 @@ MAX_TIMES = 20
 STIFFNESS_RATIO = 1e-3
 
 BARS = 20
+
+# Motions in MoorDyn: time [s], options, events, and the difference of the tensions from `simulate` over their root mean square.
+RELEASE = "[[release]]\nat_s = 0.0\nmass_kg = 1.95\n"
+MOVE = (
+    "[[lengths]]\nat_s = 0.2\nduration_s = 1.0\nchange_m = { 1 = -0.01, 2 = -0.01, 3 = -0.01, 4 = -0.01, 5 = -0.01, 6 = -0.01 }\n"
+    "[[stop]]\nat_s = 0.7\nduration_s = 0.2\n"
+)
+CUT = '[[cut]]\ncable = "1"\nat_s = 0.1\n'
+SCENARIOS = [("release", 2.0, ["--mass-kg=12.5"], RELEASE, 3e-2), ("move", 2.0, [], MOVE, 3e-3), ("cut", 1.0, [], CUT, 3e-2)]
+# Part of the difference that is left with twice as many segments: 1/4 for long waves, more for a step.
+HALVED = 0.7
 
 
 class Case:
@@ -343,6 +355,48 @@ def check_moordyn(robot, folder, table, seconds, segments):
     ours = robot.position if robot.is_point else robot.position + robot.attachments @ robot.rotation.T
     moved = np.linalg.norm(np.atleast_2d(mean - ours), axis=1).max()
     table.row(robot.name, f"MoorDyn, {seconds:g} s", "mean position of the attachments [m]", moved, POSITION_M)
+
+
+def check_scenario(robot, folder, table, name, seconds, scenario, limit):
+    """Compares the tensions of a motion with those of `simulate`, both with the same loss of the stretch and no other.
+
+    The difference is the error of MoorDyn's segments, which falls with the square of their length: `simulate` has three elements
+    of degree eight in each rope. A release and a cut send steps of tension along the ropes, and chains of segments carry short
+    waves too slowly, so that their difference falls less: twice as many segments leave half of it or more instead of a quarter.
+    """
+    path = folder / f"{name}.toml"
+    path.write_text(scenario)
+    options = ["--scenario", str(path), "--for", str(seconds)]
+    for value in ("damping_ratio=0", "axial_damping_time_s=1e-4"):
+        options += ["--set", f"materials.rope-4mm.{value}"]
+    found = folder / f"{name}.csv"
+    robot.run("simulate", *options, "--once", "-o", str(found))
+    ours = columns_of(found)
+    tensions = [column for column in ours if column.startswith("tension_")]
+    size = rms([ours[column] for column in tensions])
+    off = []
+    for segments in (BARS, 2 * BARS):
+        script = folder / f"{name}.py"
+        robot.export("moordyn", script, *options, "--segments", str(segments))
+        done = subprocess.run([sys.executable, str(script)], capture_output=True, text=True)
+        if done.returncode != 0:
+            raise SystemExit(f"{script}: {done.stderr}")
+        theirs = columns_of(script.with_suffix(".moordyn.csv"))
+        assert np.allclose(theirs["t_s"], ours["t_s"][1:], atol=1e-9), "the same times"
+        off.append(rms([theirs[column] - ours[column][1:] for column in tensions]) / size)
+    table.row(robot.name, f"MoorDyn, {2 * BARS} segments", f"tensions of a {name} / their r.m.s.", off[1], limit)
+    table.row(robot.name, "MoorDyn", f"tensions of a {name}, {2 * BARS} over {BARS} segments", off[1] / off[0], HALVED)
+
+
+def columns_of(path):
+    """Columns of a CSV file by their names."""
+    with path.open(newline="") as file:
+        names, *rows = csv.reader(file)
+    return dict(zip(names, np.array(rows, dtype=float).T))
+
+
+def rms(values):
+    return np.sqrt(np.mean(np.square(values)))
 
 
 class Simulated:
@@ -684,6 +738,9 @@ def main():
             check_vtk(robot, folder, table)
             if robot.components:
                 check_uff(robot, folder, table)
+        for name, seconds, loaded, scenario, limit in SCENARIOS:
+            robot = Robot(program, Case(f"yuan2014-4mm, {name}", robot="yuan2014-4mm", options=loaded), folder)
+            check_scenario(robot, folder, table, name, seconds, scenario, limit)
         for case in SIMULATED[:3] if options else SIMULATED:
             robot = Robot(program, case, folder)
             check_mujoco(robot, folder, table)

@@ -8,7 +8,7 @@ pub(crate) mod values;
 use anyhow::{Context, Result};
 use clap::{Arg, ArgAction, ArgMatches, Args, Command, FromArgMatches};
 pub(crate) use files::{
-    CalibrateArgs, ChangeArgs, DesignArgs, DrawArgs, DrawModesArgs, FigureArgs, FileArgs, Format, GustArgs,
+    CalibrateArgs, ChangeArgs, DesignArgs, DrawArgs, DrawModesArgs, ExportArgs, FigureArgs, FileArgs, Format, GustArgs,
     IdentifyArgs, ImportArgs, MapArgs, MergeArgs, NewArgs, OutputArgs, PageArgs, PlotArgs, ReduceArgs, ReducedTo,
     RequestArgs, RunArgs, SettleArgs, SimulateArgs, TrajectoryArgs, UncertaintyArgs, WorkspaceArgs,
 };
@@ -138,7 +138,8 @@ fn with_files(name: &str, command: Command) -> Command {
     };
     match name {
         "new" => NewArgs::augment_args(command),
-        "schema" | "export" => FileArgs::augment_args(command),
+        "schema" => FileArgs::augment_args(command),
+        "export" => ExportArgs::augment_args(command).mut_arg("duration_s", |arg| arg.visible_alias("for")),
         "statics" | "frf" | "compare" => DrawArgs::augment_args(command),
         "modes" => DrawModesArgs::augment_args(command),
         "uncertainty" => UncertaintyArgs::augment_args(command),

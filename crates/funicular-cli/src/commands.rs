@@ -87,7 +87,7 @@ pub(crate) fn run(cli: &Cli) -> Result<()> {
         Request::New(of) => new_robot::run(of, &cli.files()?),
         Request::Schema(of) => schema::write(of, &mut Guard::default(), &cli.files::<FileArgs>()?.output_file),
         Request::Import(of) => import::run(of, &cli.files()?),
-        Request::Export(of) => export::run(of, &mut guard(), &cli.files::<FileArgs>()?.output_file),
+        Request::Export(of) => export::run(of, &cli.files()?, &mut guard()),
         _ => analysis::print(&request, &cli.files::<OutputArgs>()?, guard()),
     }
 }
@@ -112,6 +112,7 @@ fn request_of(cli: &Cli) -> Result<Request> {
         "gust" => gust::request(cli, further),
         "trajectory" => trajectory::request(cli, further),
         "simulate" => simulate::request(cli, further),
+        "export" => export::request(cli, further),
         "merge" => merge::request(cli, further),
         "plot" => page::plot_request(cli, further),
         "new" => new_robot::request(cli, further),

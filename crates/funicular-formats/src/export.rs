@@ -59,7 +59,13 @@ pub fn run(at_rest: &AtRest, request: &request::ExportRequest) -> Result<Exporte
     let at_rest = rigid.as_ref().unwrap_or(at_rest);
     let text = match to {
         ExportFormat::Opensees => opensees::script(at_rest, segments, modes_below_hz, &mut warnings)?,
-        ExportFormat::Moordyn => moordyn::input(at_rest, segments, &mut warnings)?,
+        ExportFormat::Moordyn => match &request.scenario {
+            None => moordyn::input(at_rest, segments, &mut warnings)?,
+            Some(scenario) => {
+                let duration = request.duration_s.unwrap_or(request::SIMULATED_S);
+                moordyn::script(at_rest, scenario, duration, segments, &mut warnings)?
+            }
+        },
         ExportFormat::Mujoco => mujoco::model(at_rest, given, &mut warnings)?,
         ExportFormat::Sdf => links::sdf(at_rest, given, &mut warnings)?,
         ExportFormat::Urdf => links::urdf(at_rest, given, &mut warnings)?,
@@ -88,6 +94,13 @@ pub fn refuse(request: &request::ExportRequest) -> Result<()> {
     if !request.to.has_modes() && request.modes_below_hz.is_some() {
         bail!("{} has no modes: leave out ⟪modes_below_hz⟫", request.to.program());
     }
+    match (&request.scenario, request.to) {
+        (Some(scenario), ExportFormat::Moordyn) => moordyn::refuse_scenario(scenario)?,
+        (Some(_), to) => bail!("a file of {} has no events: leave out ⟪scenario⟫, or export to MoorDyn", to.program()),
+        (None, _) if request.duration_s.is_some() => bail!("⟪duration_s⟫ is the time of a ⟪scenario⟫: leave it out"),
+        (None, _) => {}
+    }
+    request::check("duration_s", request.duration_s, positive)?;
     if !(1..=MAX_SEGMENTS).contains(&request.segments) {
         bail!("⟪segments⟫: {} is not a number of elements from 1 to {MAX_SEGMENTS}", request.segments);
     }

@@ -155,6 +155,7 @@ MORE = [
     f"funicular sweep {ROBOT} --vary cables.3.unstrained_length_m=6.7,6.8 --static-model spring --set platform.mass_kg=12",
     f"funicular report {ROBOT} --below-hz 3 --input mz --output arz --cable-model spring --mass-kg 12",
     f"funicular export {ROBOT} --to moordyn --segments 5 --pose 0,0,0.5 --mass-kg 12 --wind-m-s 5,0,0",
+    f"funicular export {ROBOT} --to moordyn --segments 5 --mass-kg 12.5 --scenario docs/simulation/release.toml --duration-s 2",
     f"funicular report {ROBOT} --input-point-m 0.1,0,0 --output-point-m 0,0,0.1 {STATE} {MODEL}",
     f"funicular export robots/cogiro.toml --to vtk {TENSIONS} {STATE}",
     f"funicular sweep robots/cogiro.toml --vary platform.mass_kg=200,300 {TENSIONS} {STATE} {MODEL} --up-to-hz 50",

@@ -423,7 +423,18 @@ fn requests() -> Vec<Value> {
             })],
         ),
         of("schema", &[&json!({ "of": "request" })]),
-        of("export", &[&robot, &state, &tensions, &json!({ "to": "vtk", "segments": 5, "modes_below_hz": 10.0 })]),
+        of(
+            "export",
+            &[
+                &robot,
+                &state,
+                &tensions,
+                &json!({
+                    "to": "vtk", "segments": 5, "modes_below_hz": 10.0, "duration_s": 2.0,
+                    "scenario": { "release": [{ "at_s": 0.1, "mass_kg": 1.0 }] },
+                }),
+            ],
+        ),
         of("validate", &[]),
     ]
 }

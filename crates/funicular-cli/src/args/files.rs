@@ -217,6 +217,17 @@ pub(crate) struct FileArgs {
     pub(crate) output_file: PathBuf,
 }
 
+/// Scenario for MoorDyn, and destination of the file.
+#[derive(Debug, Args)]
+pub(crate) struct ExportArgs {
+    /// Events for MoorDyn in a TOML file, as `simulate` reads them: [[release]] from rest, [[lengths]], [[stop]] and [[cut]] at a
+    /// time; the file is then a Python script that runs MoorDyn
+    #[arg(long, value_name = "FILE.toml")]
+    pub(crate) scenario: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) to: FileArgs,
+}
+
 /// Table and destination of a new robot file.
 #[derive(Debug, Args)]
 pub(crate) struct NewArgs {

@@ -1,5 +1,7 @@
 //! `export`: the robot at its equilibrium as a file of another program.
 
+use super::simulate;
+use crate::args::{Cli, ExportArgs};
 use crate::errors;
 use crate::output::{Content, Target};
 use anyhow::Result;
@@ -8,19 +10,34 @@ use funicular_files::Guard;
 use funicular_files::endings::Kind;
 use funicular_formats::export::{self, ExportFormat};
 use funicular_study::at_rest;
-use funicular_study::request::ExportRequest;
+use funicular_study::request::{ExportRequest, Request};
+use serde_json::{Map, Value};
 use std::path::Path;
 
+/// Request of an export. Errors of its scenario name the file.
+pub(super) fn request(cli: &Cli, further: Map<String, Value>) -> Result<Request> {
+    let mut request = cli.request(further)?;
+    let files = cli.files::<ExportArgs>()?;
+    if let (Request::Export(of), Some(path)) = (&mut request, &files.scenario) {
+        of.scenario = Some(simulate::scenario(path)?);
+    }
+    Ok(request)
+}
+
 /// Writes the robot at its equilibrium as a file of another program.
-pub(super) fn run(of: &ExportRequest, guard: &mut Guard, path: &Path) -> Result<()> {
+pub(super) fn run(of: &ExportRequest, args: &ExportArgs, guard: &mut Guard) -> Result<()> {
+    if let Some(path) = &args.scenario {
+        guard.reads("the scenario", path);
+    }
     let robot = of.robot.read()?.robot;
-    write(of, robot, guard, path)
+    write(of, robot, guard, &args.to.output_file)
 }
 
 /// Writes the file of an exported robot.
 pub(super) fn write(of: &ExportRequest, robot: Robot, guard: &mut Guard, path: &Path) -> Result<()> {
     let (in_words, fitting): (_, &[Kind]) = match of.to {
         ExportFormat::Opensees => ("a Python script for OpenSees", &[Kind::Python]),
+        ExportFormat::Moordyn if of.scenario.is_some() => ("a Python script for MoorDyn", &[Kind::Python]),
         ExportFormat::Moordyn => ("an input file of MoorDyn", &[Kind::Text]),
         ExportFormat::Mujoco => ("a model of MuJoCo", &[Kind::Xml]),
         ExportFormat::Sdf => ("a world of Gazebo", &[Kind::Sdf]),

@@ -13,7 +13,7 @@ use funicular_files::Guard;
 use funicular_pages::figures;
 use funicular_study::Cancelled;
 use funicular_study::analyses::simulate::{self, ColumnError, Peak, Simulated, SimulatedRow};
-use funicular_study::request::{Request, SimulateRequest};
+use funicular_study::request::{Request, Scenario, SimulateRequest};
 use funicular_study::wording::{Words, worded};
 use partial::{EarlierRun, PartialRows};
 use serde_json::{Map, Value};
@@ -29,14 +29,18 @@ pub(super) fn request(cli: &Cli, further: Map<String, Value>) -> Result<Request>
     let mut request = cli.request(further)?;
     let files = cli.files::<SimulateArgs>()?;
     if let (Request::Simulate(of), Some(path)) = (&mut request, &files.scenario) {
-        let shown = path.display();
-        let text = fs::read_to_string(path).with_context(|| format!("cannot read the scenario {shown}"))?;
-        let folder = path.parent().unwrap_or(Path::new("")).to_owned();
-        let table = |name: &str| number_table::read(&folder.join(name), "the table", |_| Ok(()));
-        of.scenario =
-            simulate::scenario_from_toml(&text, table).map_err(|error| anyhow!("the scenario {shown}: {error}"))?;
+        of.scenario = scenario(path)?;
     }
     Ok(request)
+}
+
+/// Reads a scenario and the tables that it names.
+pub(super) fn scenario(path: &Path) -> Result<Scenario> {
+    let shown = path.display();
+    let text = fs::read_to_string(path).with_context(|| format!("cannot read the scenario {shown}"))?;
+    let folder = path.parent().unwrap_or(Path::new("")).to_owned();
+    let table = |name: &str| number_table::read(&folder.join(name), "the table", |_| Ok(()));
+    simulate::scenario_from_toml(&text, table).map_err(|error| anyhow!("the scenario {shown}: {error}"))
 }
 
 /// Runs `simulate`. Rows of a CSV file are written as they become ready.

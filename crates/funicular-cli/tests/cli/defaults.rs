@@ -9,7 +9,7 @@ use funicular_pages::figures;
 use funicular_study::analyses::reduce;
 use funicular_study::frequency_range::{LOWEST, START_POINTS};
 use funicular_study::measurements;
-use funicular_study::request::RobotText;
+use funicular_study::request::{RobotText, SIMULATED_S};
 use funicular_study::{Request, at_rest};
 use serde_json::{Map, Value};
 use std::collections::BTreeMap;
@@ -201,6 +201,8 @@ fn filled_in() -> Vec<(&'static str, &'static str, Vec<String>)> {
     let tensions =
         |command| (command, "min-tension-n", vec![format!("from the robot file, or {} times", rounded(taut))]);
     all.extend(["statics", "map", "sweep", "export"].map(tensions));
+
+    all.push(("export", "duration-s", vec![format!("{SIMULATED_S} with a scenario")]));
 
     // Figures.
     let column = figures::WIDTHS.iter().find(|(_, width)| *width == figures::DEFAULT_WIDTH_MM).unwrap().0;

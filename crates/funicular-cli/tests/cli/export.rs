@@ -28,6 +28,110 @@ fn a_robot_exported_to_moordyn_and_imported_again_has_the_same_equilibrium() {
     }
 }
 
+/// Script for MoorDyn of the robot with a payload, to which a scenario happens.
+fn moving(scenario: &str, options: &[&str]) -> std::process::Output {
+    let directory = tempfile::tempdir().unwrap();
+    let path = directory.path().join("scenario.toml");
+    std::fs::write(&path, scenario).unwrap();
+    let of = ["export", "ROBOT", "--to", "moordyn", "--mass-kg", "12.5", "--scenario", path.to_str().unwrap()];
+    run(&[&of[..], options].concat())
+}
+
+/// Value of a line `KEY = VALUE` of a script.
+fn value_of<'a>(script: &'a str, key: &str) -> &'a str {
+    script.lines().find_map(|line| line.strip_prefix(key)?.strip_prefix(" = ")).unwrap_or_else(|| panic!("{key}"))
+}
+
+#[test]
+fn a_script_for_moordyn_has_the_mass_after_a_release_and_the_place_before() {
+    let release = "[[release]]\nat_s = 0.5\nmass_kg = 1.95\n";
+    let script = moving(release, &["--for", "2", "--segments", "5"]);
+    assert_eq!(script.status.code(), Some(0), "{}", stderr(&script));
+    let script = stdout(&script);
+    assert_eq!(["START_S", "END_S", "ROW_S", "MOVED"].map(|key| value_of(script, key)), ["0.5", "2", "0.002", "[]"]);
+    let before = succeed(&["export", "ROBOT", "--to", "moordyn", "--mass-kg", "12.5", "--segments", "5"]);
+    let body = before.lines().find(|line| line.contains("  free  ")).unwrap();
+    assert!(body.contains("  12.5  0|0|0  "), "{before}");
+    assert!(script.contains(&body.replace("  12.5  0|0|0  ", "  10.55  0|0|0  ")), "{script}");
+    for line in before.lines().filter(|line| line.contains("rope-4mm_")) {
+        assert!(script.contains(line), "the lines are those before the release: {line}");
+    }
+}
+
+#[test]
+fn a_script_for_moordyn_has_the_lengths_of_the_winches_until_they_stand() {
+    let scenario = "[[lengths]]\nat_s = 0.5\nduration_s = 1.0\nchange_m = { 2 = -0.1 }\n\
+                    [[stop]]\nat_s = 1.0\nduration_s = 0.5\n";
+    let script = moving(scenario, &["--segments", "5"]);
+    assert_eq!(script.status.code(), Some(0), "{}", stderr(&script));
+    let script = stdout(&script);
+    assert_eq!(["START_S", "END_S", "MOVED"].map(|key| value_of(script, key)), ["0", "10", "[2]"]);
+    let rows: Vec<(f64, [f64; 1], [f64; 1])> = (script.lines().skip_while(|line| *line != "COMMANDS = ["))
+        .skip(1)
+        .take_while(|line| *line != "]")
+        .map(|line| serde_json::from_str(line.trim().trim_end_matches(',')).unwrap())
+        .collect();
+    assert_eq!((rows[0], rows[rows.len() - 1].0), ((0.5, [0.0], [0.0]), 1.5));
+    // Half of the change, at the largest rate, when the brake begins; half of what follows at that rate when it ends.
+    let (_, [change], [rate]) = rows.iter().find(|(time, ..)| (time - 1.0).abs() < 1e-9).unwrap();
+    assert!((change + 0.05).abs() < 1e-12 && (rate + 0.1875).abs() < 1e-12, "{change} {rate}");
+    let (_, [change], [rate]) = rows[rows.len() - 1];
+    assert!((change + 0.05 + 0.5 * 0.5 * 0.1875).abs() < 1e-12 && rate == 0.0, "{change} {rate}");
+}
+
+#[test]
+fn a_script_for_moordyn_breaks_lines_in_their_order() {
+    let scenario = "[[cut]]\ncable = \"4\"\nat_s = 0.3\n[[cut]]\ncable = \"1\"\nat_s = 0.2\n";
+    let script = moving(scenario, &["--segments", "5"]);
+    assert_eq!(script.status.code(), Some(0), "{}", stderr(&script));
+    // Of six cables the first six points are the anchors.
+    assert_eq!(value_of(stdout(&script), "CUTS"), "[[0.2,1,7],[0.3,4,10]]");
+}
+
+#[test]
+fn events_that_moordyn_cannot_hold_are_refused_by_their_names() {
+    let release = "[[release]]\nat_s = 0.5\nmass_kg = 1.0\n";
+    let lengths = "[[lengths]]\nat_s = 0.1\nduration_s = 1.0\nchange_m = { 2 = -0.1 }\n";
+    let cut = "[[cut]]\ncable = \"1\"\nat_s = 0.2\n";
+    let [tension, push] = [
+        "[[tension]]\nat_s = 0.5\nduration_s = 1.0\ntension_n = { 1 = 9.0 }\n",
+        "[[push]]\nat_s = 0.5\nduration_s = 1.0\nforce_n = [1.0, 0.0, 0.0]\n",
+    ];
+    for (scenario, says) in [
+        (release.replace("release", "pick"), "[[pick]] of --scenario: a body of MoorDyn keeps the mass"),
+        (tension.to_owned(), "[[tension]] of --scenario: a line of MoorDyn has a length"),
+        (push.to_owned(), "[[push]] of --scenario: MoorDyn has no forces on a body"),
+        (
+            "[[cut]]\ncable = \"1\"\nat_tension_n = 900.0\n".to_owned(),
+            "[[cut]] of --scenario: a line of MoorDyn breaks when the script says so",
+        ),
+        (release.to_owned() + &release.replace("0.5", "0.6"), "[[release]] number 2 of --scenario is at another time"),
+        (release.to_owned() + lengths, "[[release]] of --scenario: at 0.5 s the robot is no longer at rest"),
+        (release.to_owned() + cut, "[[release]] of --scenario: at 0.5 s the robot is no longer at rest"),
+        (
+            cut.to_owned() + &cut.replace("0.2", "0.3"),
+            "[[cut]] number 2 of --scenario: cable \"1\" has been cut before",
+        ),
+        (release.replace("1.0", "13.0"), "[[release]] of --scenario: the payload's 13 kg leave nothing"),
+        (release.replace("0.5", "11.0"), "[[release]] of --scenario: its time 11 s is not within the simulated time"),
+        (release.replace("0.5", "10.0"), "[[release]] of --scenario is at the end"),
+    ] {
+        let output = moving(&scenario, &[]);
+        assert_eq!(output.status.code(), Some(2), "{scenario}: {}", stderr(&output));
+        assert!(stderr(&output).contains(says) && stdout(&output).is_empty(), "{scenario}: {}", stderr(&output));
+    }
+    let path = super::project("docs/simulation/release.toml");
+    for (options, says) in [
+        (vec!["--to", "vtk", "--scenario", &path], "has no events: leave out --scenario"),
+        (vec!["--to", "moordyn", "--for", "2"], "--duration-s is the time of a --scenario"),
+        (vec!["--to", "moordyn", "--scenario", &path, "-o", "drop.xml"], "would hold a Python script for MoorDyn"),
+    ] {
+        let output = run(&[&["export", "ROBOT"][..], &options].concat());
+        assert_eq!(output.status.code(), Some(2), "{options:?}");
+        assert!(stderr(&output).contains(says), "{options:?}: {}", stderr(&output));
+    }
+}
+
 #[test]
 fn ropes_whose_long_names_begin_alike_stay_apart_in_moordyn_and_on_the_way_back() {
     let directory = tempfile::tempdir().unwrap();

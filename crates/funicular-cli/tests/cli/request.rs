@@ -157,7 +157,7 @@ fn the_request_of_every_command_runs_again() {
     let machine = super::project("docs/calibration/machine.toml");
     let release = super::project("docs/simulation/release.toml");
     let belts = super::project("docs/calibration/belts.csv");
-    let lines: [(&[&str], &[&str]); 12] = [
+    let lines: [(&[&str], &[&str]); 13] = [
         (&["reduce", "ROBOT", "--below-hz", "1.3", "--input", "fz", "--output", "z", "--order", "4"], &[]),
         (&["reduce", "ROBOT", "--below-hz", "1.3", "--form", "second-order"], &[]),
         (&["payload", &cogiro, "--pose", "1,2,1.5"], &[]),
@@ -171,6 +171,7 @@ fn the_request_of_every_command_runs_again() {
             &["simulate", "ROBOT", "--mass-kg", "12.5", "--scenario", &release, "--for", "0.05", "--point", "a=0,0,1"],
             &[],
         ),
+        (&["export", "ROBOT", "--to", "moordyn", "--mass-kg", "12.5", "--scenario", &release, "--for", "0.05"], &[]),
         (&["import", &tripod], &[]),
         (&["report", "ROBOT", "--below-hz", "1.3"], &["-o", "-"]),
         (&["validate"], &[]),

@@ -4,13 +4,17 @@
 //! own mass per length. MoorDyn takes only principal moments of inertia, so the axes of its body are the platform's
 //! principal axes. The origin of the body is the origin of the platform.
 
+mod driver;
+
 use super::chain::Chain;
 use super::one_line;
 use anyhow::{Result, bail};
 use askama::Template;
+use driver::MoorDynCourse;
 use funicular::math::{Mat3, Vec3};
 use funicular::robot::{Damping, Material, PlatformMotion, Robot};
 use funicular_study::at_rest::AtRest;
+use funicular_study::request::Scenario;
 
 #[derive(Template)]
 #[template(path = "moordyn.txt", escape = "none")]
@@ -21,6 +25,8 @@ struct MoorDynFile {
     shortened: f64,
     heavier: f64,
     body_axes: &'static str,
+    /// Mass that the platform has released [kg].
+    released: f64,
     driven: bool,
     damping: bool,
     types: Vec<LineType>,
@@ -36,6 +42,8 @@ struct LineType {
     name: String,
     mass_per_length: f64,
     axial_stiffness: f64,
+    /// Damping BA [N s].
+    damping: f64,
 }
 
 struct BodyRow {
@@ -64,6 +72,35 @@ struct LineRow {
 /// # Errors
 /// A slack cable, or a feature that MoorDyn lacks: guides, loads, massless lines, gravity in another direction than −z.
 pub(crate) fn input(at_rest: &AtRest, segments: usize, warnings: &mut Vec<String>) -> Result<String> {
+    input_after(at_rest, 0.0, segments, warnings)
+}
+
+/// Refuses a scenario that MoorDyn cannot hold.
+///
+/// # Errors
+/// The event, and why.
+pub(crate) fn refuse_scenario(scenario: &Scenario) -> Result<()> {
+    driver::refuse(scenario)
+}
+
+/// Writes a script that runs a scenario of `duration` [s].
+///
+/// # Errors
+/// Those of [`input`], and an event that cannot happen.
+pub(crate) fn script(
+    at_rest: &AtRest,
+    scenario: &Scenario,
+    duration: f64,
+    segments: usize,
+    warnings: &mut Vec<String>,
+) -> Result<String> {
+    let course = MoorDynCourse::of(&at_rest.vibrating(), scenario, duration)?;
+    let input = input_after(&course.after, course.released, segments, warnings)?;
+    course.script(&input, warnings)
+}
+
+/// Writes the input file of a robot that has released a mass [kg].
+fn input_after(at_rest: &AtRest, released: f64, segments: usize, warnings: &mut Vec<String>) -> Result<String> {
     let AtRest { robot, equilibrium, .. } = at_rest;
     refuse(robot)?;
     warn_of_drives(robot, warnings);
@@ -89,8 +126,9 @@ pub(crate) fn input(at_rest: &AtRest, segments: usize, warnings: &mut Vec<String
             Some(frame) if frame.axes_p != Mat3::identity() => "principal axes of inertia",
             _ => "axes of the platform frame",
         },
+        released,
         driven: robot.cables.iter().any(|cable| !cable.anchor.is_fixed()),
-        damping: !robot.cables.iter().all(|cable| is_undamped(&cable.material)),
+        damping: !robot.cables.iter().all(|cable| is_held(&cable.material)),
         types: lines.types,
         body: body.map(|frame| frame.row),
         points: lines.points,
@@ -146,13 +184,16 @@ impl MoorDynLines {
                 chain.weight_factor * cable.material.mass_per_length * (state.free_length() / unstrained_length);
             let wave = (cable.material.axial_stiffness / cable.material.mass_per_length).sqrt();
             all.heavier = all.heavier.max((mass_per_length / cable.material.mass_per_length - 1.0).abs());
-            all.step = all.step.min(STEP * chain.bar_length / wave);
+            let crossing = chain.bar_length / wave;
+            let loss = cable.material.stretch_loss.time;
+            all.step = all.step.min(STEP * crossing).min(STEP * crossing * crossing / loss);
             all.shortened = all.shortened.max(state.free_length() - unstrained_length);
             all.lowest = chain.nodes_w.iter().map(|node| node.z).fold(all.lowest, f64::min);
 
             let name = type_name(&cable.material.name, i);
             let axial_stiffness = cable.material.axial_stiffness;
-            all.types.push(LineType { name: name.clone(), mass_per_length, axial_stiffness });
+            let damping = axial_stiffness * loss;
+            all.types.push(LineType { name: name.clone(), mass_per_length, axial_stiffness, damping });
             all.points.push(MoorDynPointRow { id: i + 1, attachment: "Fixed", at: state.anchor_w, mass: 0.0 });
             let mut end = cables + 1;
             if let Some(frame) = body {
@@ -166,14 +207,14 @@ impl MoorDynLines {
     }
 }
 
-fn is_undamped(material: &Material) -> bool {
-    match material.damping {
-        Damping::Ratio(coefficient) | Damping::Viscous(coefficient) => coefficient == 0.0,
-    }
+/// True if MoorDyn has all damping of a rope.
+fn is_held(material: &Material) -> bool {
+    let (Damping::Ratio(coefficient) | Damping::Viscous(coefficient)) = material.damping;
+    coefficient == 0.0 && material.stretch_loss.factor == 0.0
 }
 
 /// Ratio of the time step to the time that a wave takes along a segment. The Runge-Kutta method of fourth order is
-/// stable up to √2.
+/// stable up to √2; with damping BA it is up to 0.7 times the square of this time over BA/EA.
 const STEP: f64 = 0.5;
 
 fn refuse(robot: &Robot) -> Result<()> {

@@ -106,7 +106,7 @@ class Analyses:
         -------
         The keys of the program's JSON; lists of numbers are arrays.
         """
-    def export(self, /, to: ExportFormat, path: str | PathLike[str], *, segments: SupportsIndex | None = None, modes_below_hz: SupportsFloat | SupportsIndex | None = None) -> list[str]:
+    def export(self, /, to: ExportFormat, path: str | PathLike[str], *, segments: SupportsIndex | None = None, modes_below_hz: SupportsFloat | SupportsIndex | None = None, scenario: Any = None, duration_s: SupportsFloat | SupportsIndex | None = None) -> list[str]:
         """
         Writes the equilibrium as a file of another program; returns the caveats of the file.
 
@@ -125,6 +125,11 @@ class Analyses:
         modes_below_hz
             Upper limit of the frequencies of modes in the file [Hz]: in VTK one field per mode, in OpenSees the modes
             to compare with; if not given: no modes in VTK, the first ten in OpenSees.
+        scenario
+            Events for MoorDyn, as `Robot.simulate` takes them: `release` from rest, `lengths`, `stop`, `cut`. The file is
+            then a Python script that runs MoorDyn.
+        duration_s
+            Time that MoorDyn simulates with `scenario` [s]; if not given: 10 with a scenario.
 
         Raises
         ------

@@ -8,7 +8,7 @@ mod rows;
 mod spectrum;
 
 pub use error::{ColumnError, Peak};
-pub use events::scenario_from_toml;
+pub use events::{ScenarioEvents, scenario_from_toml};
 pub use keeping::{BegunRun, NothingKept, RowKeeper};
 pub use picture::{EventMark, SimulatedFrame, SimulatedPicture, SlackSpan};
 pub use rows::SimulatedRow;
@@ -25,7 +25,6 @@ use crate::values::finite;
 use crate::watch::Watch;
 use anyhow::{Result, anyhow, bail};
 use error::errors;
-use events::Events;
 use funicular::robot::{PlatformMotion, Robot};
 use funicular::simulation::{ElementMesh, Simulation, SimulationError, SimulationSettings, StepCounts};
 use keeping::STATE_ROWS;
@@ -126,7 +125,7 @@ pub fn run_with(
 ) -> Result<Simulated> {
     let at_rest = at_rest::equilibrium(robot, &request.robot, &request.state, &request.tensions)?;
     let vibrating = at_rest.vibrating();
-    let events = Events::of(&request.scenario, &vibrating)?;
+    let events = ScenarioEvents::of(&request.scenario, &vibrating)?;
     let settings = settings(request)?;
     let times = times(request)?;
 
@@ -161,7 +160,7 @@ struct History {
 /// What both runs have in common.
 struct Course<'a> {
     at_rest: &'a AtRest,
-    events: &'a Events,
+    events: &'a ScenarioEvents,
     times: &'a [f64],
     points: &'a [PointValue],
 }
@@ -337,9 +336,9 @@ impl Tabled for Simulated {
 
 found!(Simulated, "simulate");
 
-impl Events {
+impl ScenarioEvents {
     /// Error of a simulation with the name of the event in the scenario.
-    fn told(&self, error: SimulationError) -> anyhow::Error {
+    pub fn told(&self, error: SimulationError) -> anyhow::Error {
         match error {
             SimulationError::Event { event, fault } => {
                 anyhow!("{} of ⟪scenario⟫: {fault}", self.labels.get(event).map_or("an event", String::as_str))

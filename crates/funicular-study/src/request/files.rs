@@ -2,6 +2,7 @@
 
 use super::key::declared;
 use super::parts::{ImportPlatform, ImportRopes, Pose, RobotText, State, Tensions};
+use super::simulate::Scenario;
 use super::source_file::SourceFile;
 use crate::names::{ExportFormat, LengthUnit, NewMotion, RopeType, SchemaSubject, optional};
 
@@ -103,9 +104,9 @@ declared! {
     /// Export the robot at its equilibrium for OpenSees, MoorDyn, MuJoCo, Gazebo or ParaView.
     ///
     /// opensees: a Python script for OpenSeesPy that prints its statics and modes beside those of funicular. moordyn: an input
-    /// file of version 2. mujoco: a model with straight cables whose lengths and tensions are commanded. sdf: a world of Gazebo.
-    /// urdf: frame and platform for viewers. vtk: a .vtp file of cables and platform, with modes on request. docs/export.md
-    /// describes the files and the differences between the programs.
+    /// file of version 2, with a scenario a Python script that runs it. mujoco: a model with straight cables whose lengths and
+    /// tensions are commanded. sdf: a world of Gazebo. urdf: frame and platform for viewers. vtk: a .vtp file of cables and
+    /// platform, with modes on request. docs/export.md describes the files and the differences between the programs.
     pub struct ExportRequest {
         /// Robot file.
         robot: RobotText = RobotText::default() => (Data(shape::robot)).required();
@@ -118,6 +119,11 @@ declared! {
         /// compare with.
         modes_below_hz: Option<f64> = None =>
             (Number(Positive)).otherwise("no modes in VTK, the first ten in OpenSees");
+        /// Events that MoorDyn runs from the equilibrium on, as in `simulate`: lists `release`, `lengths`, `stop` and
+        /// `cut`. The file is then a Python script with the input file in it.
+        scenario: Option<Scenario> = None => (Data(shape::scenario));
+        /// Time that MoorDyn simulates with ⟪scenario⟫ [s].
+        duration_s: Option<f64> = None => (Number(Positive)).otherwise("10 with a scenario");
         /// State and loads.
         #[serde(flatten)]
         state: State = State::default() => group;
@@ -128,6 +134,7 @@ declared! {
     examples {
         "funicular export robots/yuan2014-4mm.toml --to opensees -o yuan.py && python3 yuan.py",
         "funicular export robots/cogiro.toml --to moordyn --segments 20 -o cogiro.txt",
+        "funicular export robots/yuan2014-4mm.toml --to moordyn --mass-kg 12.5 \\\n    --scenario docs/simulation/release.toml --for 2 -o drop.py && python3 drop.py",
         "funicular export robots/cogiro.toml --to mujoco -o cogiro.xml",
         "funicular export robots/cogiro.toml --to vtk --pose 1,2,1.5 --modes-below-hz 10 -o cogiro.vtp",
     }

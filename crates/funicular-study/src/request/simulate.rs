@@ -18,7 +18,7 @@ declared! {
         /// Events: lists `release`, `pick`, `lengths`, `tension`, `stop`, `push` and `cut` of events.
         scenario: Scenario = Scenario::default() => (Data(shape::scenario));
         /// Simulated time [s].
-        duration_s: f64 = 10.0 => (Number(Positive));
+        duration_s: f64 = SIMULATED_S => (Number(Positive));
         /// Time between the rows of the result [s].
         sample_time_s: Option<f64> = None => (Number(Positive)).otherwise("a thousandth of the duration");
         /// Point of the platform whose motion is a part of the result, by a name and its place in the platform frame [m], as
@@ -64,6 +64,9 @@ pub struct PointValue {
     /// Place, platform frame [m].
     pub point_m: [f64; 3],
 }
+
+/// Simulated time if none is given [s].
+pub const SIMULATED_S: f64 = 10.0;
 
 const DEFAULT_MESH: ElementMesh = ElementMesh::STANDARD;
 

@@ -3,14 +3,15 @@
 use super::books::{EnergyBooks, StepPowers};
 use super::dense::DenseOutput;
 use super::esdirk::{StepCounts, Stepper};
-use super::event::{CutAt, EventFault, Faulty, SimulationEvent, windings};
+use super::event::{CutAt, EventFault, Faulty, SimulationEvent};
+use super::planned::CommandedLengths;
 use super::rope::WoundLength;
 use super::start::{SimulationError, SimulationSettings, at_rest};
 use super::system::{BODY, MotionNumbers, RopeEnd};
 use super::winding::Winding;
 use crate::math::{Rotation, Vec3, Vec6};
 use crate::robot::{Pose, Robot};
-use crate::statics::{CableState, Equilibrium};
+use crate::statics::Equilibrium;
 
 mod picture;
 mod state;
@@ -107,16 +108,7 @@ impl Simulation {
         duration: f64,
         settings: &SimulationSettings,
     ) -> Result<Self, SimulationError> {
-        for (event, of) in events.iter().enumerate() {
-            of.check(robot, duration).map_err(|fault| SimulationError::Event { event, fault })?;
-        }
-        let mut order: Vec<usize> = (0..events.len()).filter(|k| events[*k].time().is_some()).collect();
-        let time = |k: usize| events[k].time().unwrap_or_default();
-        order.sort_by(|a, b| time(*a).total_cmp(&time(*b)));
-
-        let initial: Vec<f64> = rest.cables.iter().map(|cable| cable.unstrained_length).collect();
-        let free: Vec<f64> = rest.cables.iter().map(CableState::free_length).collect();
-        let windings = windings(robot, (&initial, &free), events, &order).map_err(of_event)?;
+        let CommandedLengths { windings, order } = CommandedLengths::new(robot, rest, events, duration)?;
         let mut breaks: Vec<f64> = windings.iter().flat_map(Winding::breaks).collect();
         let holds_tension = |i: usize| events.iter().any(|event| event.tension_of(i).is_some());
         let stepper = at_rest(robot, rest, settings, (windings, &holds_tension), duration)?;

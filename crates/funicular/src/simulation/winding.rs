@@ -91,6 +91,26 @@ impl Winding {
         self.changes.iter().flat_map(|change| [change.from, change.until])
     }
 
+    /// Times between which the length is a cubic, at least nearly: those of splines, and `parts` parts of other changes [s].
+    pub(super) fn knots(&self, parts: usize) -> Vec<f64> {
+        let mut knots = Vec::new();
+        for (i, change) in self.changes.iter().enumerate() {
+            // A brake ends the change before it.
+            let until = self.changes.get(i + 1).map_or(change.until, |next| change.until.min(next.from));
+            match &change.course {
+                LengthCourse::Spline(spline) => {
+                    knots.extend(spline.times.iter().map(|time| change.from + time).filter(|time| *time < until));
+                    knots.push(until);
+                }
+                _ => {
+                    let part = (until - change.from) / parts as f64;
+                    knots.extend((0..=parts).map(|k| change.from + part * k as f64));
+                }
+            }
+        }
+        knots
+    }
+
     /// Least length of all times, at steps of `step` [m], and its time [s].
     pub(super) fn least(&self, step: f64) -> (f64, f64) {
         let mut least = (self.initial, 0.0);

@@ -12,15 +12,18 @@ use funicular::simulation::{CutAt, SimulationEvent};
 use funicular::statics;
 use serde_json::{Map, Value};
 
-/// Events in the order of the scenario, with their names in messages.
-pub(super) struct Events {
-    pub(super) list: Vec<SimulationEvent>,
-    pub(super) labels: Vec<String>,
+/// ScenarioEvents in the order of the scenario, with their names in messages.
+pub struct ScenarioEvents {
+    pub list: Vec<SimulationEvent>,
+    pub labels: Vec<String>,
 }
 
-impl Events {
+impl ScenarioEvents {
     /// Events of a scenario for a robot at rest.
-    pub(super) fn of(scenario: &Scenario, at_rest: &AtRest) -> Result<Self> {
+    ///
+    /// # Errors
+    /// A name or a number that is none; the message names the event.
+    pub fn of(scenario: &Scenario, at_rest: &AtRest) -> Result<Self> {
         let mut events = Self { list: Vec::new(), labels: Vec::new() };
         let robot = &at_rest.robot;
         events.add("release", &scenario.release, |of| {
