@@ -79,7 +79,7 @@ MORE = [
     f"funicular simulate robots/cogiro.toml --duration-s 0.01 --once {TENSIONS} --hold-lengths-of-pose",
     f"funicular simulate {ROBOT} --duration-s 0.01 --once {LENGTHS}",
     f"funicular simulate {ROBOT} --duration-s 0.02 --once --stretch-damping-time-s 1e-4 --hold-platform",
-    f"funicular simulate {GUSTY} --duration-s 0.02 --once --gust-seed 1",
+    "funicular simulate windy.toml --duration-s 0.02 --once --gust-seed 1",
     f"funicular calibrate {MACHINE} --unknowns anchors --hold-anchors bl,br --starts 3 --position-std-m 0.01 --tension-std-n 2",
     f"funicular calibrate {MACHINE} --prior cables.tl.anchor_m=±0.05 --prior cables.tr.anchor_m.y=3.8±0.1 --profile anchors",
     "funicular calibrate robots/ipanema2.toml --readings docs/tutorials/ipanema-lengths.csv --static-model spring --tension-range-n 200:2000",
