@@ -290,8 +290,8 @@ def export(of: Any, given: Given, path: File) -> list[str]:
     path
         Path of the file, which is complete or absent.
     scenario
-        Events for MoorDyn, as `Robot.simulate` takes them: `release` from rest, `lengths`, `stop`, `cut`. The file is then a Python
-        script that runs MoorDyn.
+        Events for MoorDyn, as `Robot.simulate` takes them: `release` from rest, `lengths`, `stop`, `cut`. The file is
+        then a Python script that runs MoorDyn.
 
     Raises
     ------

@@ -126,8 +126,8 @@ class Analyses:
             Upper limit of the frequencies of modes in the file [Hz]: in VTK one field per mode, in OpenSees the modes
             to compare with; if not given: no modes in VTK, the first ten in OpenSees.
         scenario
-            Events for MoorDyn, as `Robot.simulate` takes them: `release` from rest, `lengths`, `stop`, `cut`. The file is then a Python
-            script that runs MoorDyn.
+            Events for MoorDyn, as `Robot.simulate` takes them: `release` from rest, `lengths`, `stop`, `cut`. The file is
+            then a Python script that runs MoorDyn.
         duration_s
             Time that MoorDyn simulates with `scenario` [s]; if not given: 10 with a scenario.
 
