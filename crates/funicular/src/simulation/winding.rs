@@ -97,15 +97,12 @@ impl Winding {
         for (i, change) in self.changes.iter().enumerate() {
             // A brake ends the change before it.
             let until = self.changes.get(i + 1).map_or(change.until, |next| change.until.min(next.from));
-            match &change.course {
-                LengthCourse::Spline(spline) => {
-                    knots.extend(spline.times.iter().map(|time| change.from + time).filter(|time| *time < until));
-                    knots.push(until);
-                }
-                _ => {
-                    let part = (until - change.from) / parts as f64;
-                    knots.extend((0..=parts).map(|k| change.from + part * k as f64));
-                }
+            if let LengthCourse::Spline(spline) = &change.course {
+                knots.extend(spline.times.iter().map(|time| change.from + time).filter(|time| *time < until));
+                knots.push(until);
+            } else {
+                let part = (until - change.from) / parts as f64;
+                knots.extend((0..=parts).map(|k| change.from + part * k as f64));
             }
         }
         knots
