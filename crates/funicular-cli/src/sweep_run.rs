@@ -90,11 +90,7 @@ fn to_stdout(plan: &Plan, threads: NonZeroUsize) -> Result<()> {
 
 fn to_file(job: &Job, plan: &Plan, record: Record, path: &Path, threads: NonZeroUsize) -> Result<()> {
     let run = job.run;
-    let begin = match (run.resume, run.discard) {
-        (true, _) => Begin::Resume,
-        (_, true) => Begin::Discard,
-        _ => Begin::Anew,
-    };
+    let begin = Begin::of(run.resume, run.discard);
     let range = record.range();
     let rows = record.rows_of(range.clone());
 

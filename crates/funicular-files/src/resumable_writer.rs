@@ -21,6 +21,17 @@ pub enum Begin {
     Discard,
 }
 
+impl Begin {
+    /// Treatment that two options ask for; to resume goes first.
+    pub fn of(resume: bool, discard: bool) -> Self {
+        match (resume, discard) {
+            (true, _) => Self::Resume,
+            (_, true) => Self::Discard,
+            _ => Self::Anew,
+        }
+    }
+}
+
 /// File of rows that is being written.
 pub struct Job {
     path: PathBuf,

@@ -243,7 +243,7 @@ fn end_force_w(span: &HangingCable) -> Vec3 {
     -(along_w * span.catenary.horizontal_force() + up_w * span.catenary.vertical_force_at_end())
 }
 
-pub(crate) use arc::{arc_nodes, tension_at_drum};
+pub(crate) use arc::{arc_nodes, stretch_of, tension_at_drum, tension_of};
 pub(crate) use balance::contact_of_span;
 
 #[cfg(test)]

@@ -13,6 +13,7 @@ mod books;
 mod dense;
 mod esdirk;
 mod event;
+mod far_border;
 mod far_end;
 mod feed;
 mod planned;

@@ -9,13 +9,14 @@ use crate::output::{FigureSink, Printed};
 use crate::progress::TerminalProgress;
 use crate::table::{Table, counted, significant};
 use anyhow::{Context, Result, anyhow};
+use funicular_files::Begin;
 use funicular_files::Guard;
 use funicular_pages::figures;
 use funicular_study::Cancelled;
 use funicular_study::analyses::simulate::{self, ColumnError, Peak, Simulated, SimulatedRow};
 use funicular_study::request::{Request, Scenario, SimulateRequest};
 use funicular_study::wording::{Words, worded};
-use partial::{EarlierRun, PartialRows};
+use partial::PartialRows;
 use serde_json::{Map, Value};
 use std::fmt::Write as _;
 use std::fs;
@@ -59,11 +60,7 @@ pub(super) fn run(of: &SimulateRequest, args: &SimulateArgs, guard: &mut Guard) 
     let animation = OtherFile::animation(args.animation.as_deref());
     let files = ResultFiles::open(&printed, animation, args.page.as_deref(), guard)?;
     let cables: Vec<String> = robot.cables.iter().map(|cable| cable.name.clone()).collect();
-    let earlier = match (args.resume, args.discard) {
-        (true, _) => EarlierRun::Resume,
-        (_, true) => EarlierRun::Discard,
-        _ => EarlierRun::Refuse,
-    };
+    let earlier = Begin::of(args.resume, args.discard);
     let (mut partial, begun) = PartialRows::beside(printed.output_file.as_deref(), of, cables, earlier, guard)?;
 
     let mut watch = TerminalProgress::new();

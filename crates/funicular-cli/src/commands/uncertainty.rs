@@ -45,11 +45,7 @@ pub(super) fn run(of: &UncertaintyRequest, args: &UncertaintyArgs, guard: &mut G
     let sink = Sink::open(&printed, &[Kind::Html], guard)?;
     let page =
         page.map(|path| Ok::<_, anyhow::Error>((Target::open(Some(path), Content::PAGE, guard)?, path))).transpose()?;
-    let begin = match (args.resume, args.discard) {
-        (true, _) => Begin::Resume,
-        (_, true) => Begin::Discard,
-        _ => Begin::Anew,
-    };
+    let begin = Begin::of(args.resume, args.discard);
     if let Some(path) = &args.samples_file {
         guard.writes_rows(path, true)?;
     }

@@ -84,7 +84,7 @@ fn a_script_for_moordyn_breaks_lines_in_their_order() {
     let scenario = "[[cut]]\ncable = \"4\"\nat_s = 0.3\n[[cut]]\ncable = \"1\"\nat_s = 0.2\n";
     let script = moving(scenario, &["--segments", "5"]);
     assert_eq!(script.status.code(), Some(0), "{}", stderr(&script));
-    // Of six cables the first six points are the anchors.
+    // The first six points are the anchors of the six cables.
     assert_eq!(value_of(stdout(&script), "CUTS"), "[[0.2,1,7],[0.3,4,10]]");
 }
 

@@ -105,7 +105,7 @@ impl PyRobot {
         let Request::Uncertainty(request) = self.request_of("uncertainty", given)? else {
             unreachable!("the request is of uncertainty")
         };
-        let samples = samples_file.map(|path| (path, begin(resume, discard)));
+        let samples = samples_file.map(|path| (path, Begin::of(resume, discard)));
         if samples.is_none() && (resume || discard) {
             return Err(errors::input("`resume` and `discard` need `samples_file`".to_owned()));
         }
@@ -283,15 +283,6 @@ fn workspace_of(
         (Some(found), None) => Ok(found),
         // Only Ctrl-C stops the work, and its exception has been raised before.
         (None, None) => Err(PyKeyboardInterrupt::new_err("stopped before anything was found")),
-    }
-}
-
-/// Beginning of the work on a file of samples.
-fn begin(resume: bool, discard: bool) -> Begin {
-    match (resume, discard) {
-        (true, _) => Begin::Resume,
-        (_, true) => Begin::Discard,
-        _ => Begin::Anew,
     }
 }
 

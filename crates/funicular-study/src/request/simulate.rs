@@ -1,4 +1,4 @@
-//! Request of a simulation in time, and the scenario: what happens to the robot.
+//! Request of a simulation in time, and its scenario of events.
 
 use super::key::declared;
 use super::parts::{NumberColumns, RobotText, State, Tensions};
@@ -70,7 +70,7 @@ pub const SIMULATED_S: f64 = 10.0;
 
 const DEFAULT_MESH: ElementMesh = ElementMesh::STANDARD;
 
-/// What happens to a robot: lists of events, as a TOML file has them in tables `[[release]]`, `[[lengths]]` and so on.
+/// Scenario of a simulation: lists of events, as a TOML file has them in tables `[[release]]`, `[[lengths]]` and so on.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Scenario {

@@ -282,3 +282,15 @@ export function slice({ axes, ranges, cells, here, label, unit, width }) {
   const at = (px, py) => [u0 + ((px - left) / inside) * (u1 - u0), v1 - ((py - top) / high) * (v1 - v0)];
   return { svg, at, cross };
 }
+
+/** Moves the line of the present time in the figure that an element begins with. */
+export function moveClock(holder, t) {
+  const figure = holder.firstElementChild;
+  const line = figure?.querySelector("[data-clock]");
+  if (line) {
+    const { left, inside, end } = figure.dataset;
+    const at = (Number(left) + (Number(inside) * t) / Number(end)).toFixed(1);
+    line.setAttribute("x1", at);
+    line.setAttribute("x2", at);
+  }
+}

@@ -2,7 +2,7 @@
 
 import { findFirst, listModes, modeOf, statics } from "./computation.js";
 import { Cancelled, Job } from "./engine.js";
-import { history } from "./figures.js";
+import { history, moveClock } from "./figures.js";
 import { $, element, plain, short } from "./format.js";
 import { decay, startOf, summed, wrenchOf } from "./free_response.js";
 import { accept, numberOf, refuse, tell as say } from "./messages.js";
@@ -113,7 +113,7 @@ async function release() {
   page.view.playback.setRelease({
     seconds,
     slowdown: last.slowdown,
-    clock: moveClock,
+    clock: (t) => moveClock($("release"), t),
     start: { shape: last.start, cables: cables && summed(cables, own) },
     at: (t) => {
       const factors = modes.map((mode, k) => own[k] * decay(mode, t));
@@ -217,18 +217,6 @@ function show() {
   $("release").innerHTML = figure;
   const slowdown = last.slowdown > 1 ? `${short(last.slowdown, 2)} times slower` : "as it is";
   $("release").append(element("p", { class: "soft" }, `Time runs ${slowdown}; ${motion}. ${last.note ?? ""}`));
-}
-
-/** Moves the line of the present time in the figure. */
-function moveClock(t) {
-  const figure = $("release").firstElementChild;
-  const line = figure?.querySelector("[data-clock]");
-  if (line) {
-    const { left, inside, end } = figure.dataset;
-    const at = (Number(left) + (Number(inside) * t) / Number(end)).toFixed(1);
-    line.setAttribute("x1", at);
-    line.setAttribute("x2", at);
-  }
 }
 
 /** Ends the motion in the view. */

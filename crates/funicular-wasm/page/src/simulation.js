@@ -3,7 +3,7 @@
 
 import { statics } from "./computation.js";
 import { Cancelled, Job } from "./engine.js";
-import { history } from "./figures.js";
+import { history, moveClock } from "./figures.js";
 import { $, element, plain, short } from "./format.js";
 import { accept, busy, numberOf, refuse } from "./messages.js";
 import { emit, on, page, shown } from "./store.js";
@@ -84,7 +84,7 @@ function play() {
   const { t_s: times, poses, curves_m: curves, enlargement } = last.picture;
   emit("simulate");
   shown.simulated = true;
-  page.view.playback.setSimulation({ times, poses, curves, enlargement, clock: moveClock });
+  page.view.playback.setSimulation({ times, poses, curves, enlargement, clock: (t) => moveClock($("simulate"), t) });
   $("simulate-end").hidden = false;
   show();
 }
@@ -125,18 +125,6 @@ function show() {
     element("p", { class: "soft" }, `${scale}, in true time.${slack.join("")}${errorOf(last)}`),
     ...(last.warnings ?? []).map((text) => element("p", { class: "soft" }, `${text}.`)),
   );
-}
-
-/** Moves the line of the present time in the figure. */
-function moveClock(t) {
-  const figure = $("simulate").firstElementChild;
-  const line = figure?.querySelector("[data-clock]");
-  if (line) {
-    const { left, inside, end } = figure.dataset;
-    const at = (Number(left) + (Number(inside) * t) / Number(end)).toFixed(1);
-    line.setAttribute("x1", at);
-    line.setAttribute("x2", at);
-  }
 }
 
 /** Ends the motion in the view. */

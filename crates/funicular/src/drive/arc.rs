@@ -216,12 +216,12 @@ pub(crate) fn tension_at_drum(span: &HangingCable, contact: Option<&PulleyContac
 }
 
 /// Tension [N] of ψ and the stretch λ: T = 2ψ/(1 + λ).
-fn tension_of<T: Real>(potential: T, stretch: T) -> T {
+pub(crate) fn tension_of<T: Real>(potential: T, stretch: T) -> T {
     potential * 2.0 / (T::from(1.0) + stretch)
 }
 
 /// Stretch λ = √(1 + 2ψ/EA).
-pub(super) fn stretch_of<T: Real>(potential: T, axial_stiffness: T) -> T {
+pub(crate) fn stretch_of<T: Real>(potential: T, axial_stiffness: T) -> T {
     let squared = T::from(1.0) + potential * 2.0 / axial_stiffness;
     if squared.value() >= MIN_SQUARED_STRETCH { squared.sqrt() } else { T::from(MIN_SQUARED_STRETCH).sqrt() }
 }

@@ -7,11 +7,11 @@ use std::borrow::Cow;
 use std::cell::RefCell;
 use std::f64::consts::TAU;
 
-/// Largest frequency of simulated gusts [Hz]. DrawnGusts beyond it have a hundredth of the drag of the mean, and neither
-/// platforms nor the first modes of their cables are as fast.
+/// Maximum frequency of simulated gusts [Hz]: slow against the waves that a step of the ropes resolves. Parts of a platform's
+/// motion that are faster are left out.
 pub(super) const MAX_GUST_HZ: f64 = 10.0;
-/// Numbers of waves: the lines are as far apart as the duration tells apart, twice over, but not fewer than makes gusts
-/// normal and not more than fits a second of computing.
+/// Minimum and maximum number of waves. There are two for each frequency that the duration tells apart; below the minimum
+/// the sum of a few waves is not normal, and the maximum is that of 100 s.
 const WAVES: [f64; 2] = [300.0, 2000.0];
 /// Part of a coherence matrix on its diagonal that keeps it positive where places see the same gusts.
 const RIDGE: f64 = 1e-12;

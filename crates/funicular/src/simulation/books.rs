@@ -104,11 +104,11 @@ impl System {
             powers.loads += of.loads;
             powers.dissipation += of.dissipation;
         }
-        for (index, post) in self.posts.iter().enumerate() {
-            let [place, velocity, _] = m.point(Self::of_post(index).start);
-            books.kinetic += 0.5 * post.mass * velocity.norm_squared();
-            books.strain += 0.5 * place.dot(&(post.stiffness_w * place));
-            powers.dissipation += post.damping_time * velocity.dot(&(post.stiffness_w * velocity));
+        for (index, support) in self.supports.iter().enumerate() {
+            let [place, velocity, _] = m.point(Self::of_support(index).start);
+            books.kinetic += 0.5 * support.mass * velocity.norm_squared();
+            books.strain += 0.5 * place.dot(&(support.stiffness_w * place));
+            powers.dissipation += support.damping_time * velocity.dot(&(support.stiffness_w * velocity));
         }
         (books, powers)
     }

@@ -1,5 +1,4 @@
-//! What happens to a robot while it is simulated: releases, pick-ups, changes of length and tension, stops,
-//! pushes and cuts.
+//! Events of a simulation: releases, pick-ups, changes of length and tension, stops, pushes and cuts.
 
 use super::body::Push;
 use super::winding::Winding;
@@ -7,7 +6,7 @@ use crate::math::Vec3;
 use crate::robot::{Cable, Control, Robot};
 use thiserror::Error;
 
-/// What happens to a robot at or from a time on [s].
+/// Event that changes a robot at a time or from it on.
 #[derive(Debug, Clone, PartialEq)]
 pub enum SimulationEvent {
     /// The platform lets a payload go, which takes its momentum with it.

@@ -19,14 +19,14 @@ const MAX_ROLL: f64 = 0.05;
 
 /// Support of an anchor.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct OnPost {
+pub(super) struct SupportedEnd {
     /// Index of the support.
     pub(super) index: usize,
     /// Drum side from the ground to the entry point without a displacement [m], if the drum stays there.
     pub(super) from_ground_w: Option<Vec3>,
 }
 
-impl OnPost {
+impl SupportedEnd {
     /// Length of a drum side from the ground, whose weight is not the support's [m].
     fn length_from_ground(&self) -> f64 {
         self.from_ground_w.map_or(0.0, |side_w| side_w.norm())
@@ -41,7 +41,7 @@ pub(super) struct FarEnd {
     /// Place of the rope on the pulley, with the swivel where it was at the last roll.
     pub(super) contact: Option<PulleyContact>,
     swivel_inertia: f64,
-    pub(super) support: Option<OnPost>,
+    pub(super) support: Option<SupportedEnd>,
     pub(super) feed: Option<Feed>,
     /// Angle by which the rope leaves the wheel off its tangent, without fast waves [rad].
     pub(super) off_tangent: f64,
@@ -73,17 +73,17 @@ impl FarEnd {
         if contact.is_none() && support.is_none() && feed.is_none() {
             return None;
         }
-        let on_post = |index: usize| {
+        let on_support = |index: usize| {
             let of: &Support = &robot.supports[index];
             let direction_w = of.drum_side_from_ground(&cable.anchor);
             let length = cable.anchor.drum_side_length();
-            OnPost { index, from_ground_w: direction_w.map(|direction_w| direction_w * length) }
+            SupportedEnd { index, from_ground_w: direction_w.map(|direction_w| direction_w * length) }
         };
         Some(Self {
             entry_w: *point_w,
             contact,
             swivel_inertia: pulley.as_ref().map_or(0.0, |pulley| pulley.swivel_inertia),
-            support: support.map(on_post),
+            support: support.map(on_support),
             feed,
             off_tangent: 0.0,
         })
@@ -112,8 +112,8 @@ impl FarEnd {
     }
 
     /// Motion of the exit point with numbers of this far end and the motion of its support.
-    pub(super) fn exit(&self, z: [f64; 3], post: &ExitMotion) -> ExitMotion {
-        let [place, velocity, acceleration] = *post;
+    pub(super) fn exit(&self, z: [f64; 3], support: &ExitMotion) -> ExitMotion {
+        let [place, velocity, acceleration] = *support;
         let entry_w = self.entry_w + place;
         let Some(contact) = self.contact_at(z[0]) else { return [entry_w, velocity, acceleration] };
         let (rate, change) = (z[1] / contact.radius, z[2] / contact.radius);
@@ -139,16 +139,16 @@ pub(super) struct FarForces {
     /// Force that the exit point needs, world axes [N].
     pub(super) exit_w: Vec3,
     /// Force that the support needs for this rope, world axes [N].
-    pub(super) post_w: Vec3,
+    pub(super) support_w: Vec3,
     /// Force that the swivel needs, conjugate to its arc, and its stiffness but for the rope's.
     pub(super) swivel: f64,
     pub(super) swivel_stiffness: f64,
     /// Inertia of the swivel over the square of the radius [kg].
     pub(super) swivel_mass: f64,
     /// Stiffness of a drum side from the ground against motion of the support [N/m].
-    pub(super) post_stiffness_w: Mat3,
+    pub(super) support_stiffness_w: Mat3,
     /// Length of the first piece per motion of the support: the direction of a drum side from the ground.
-    pub(super) post_along_w: Vec3,
+    pub(super) support_along_w: Vec3,
 }
 
 /// Everything that the forces at a far end depend on.
@@ -162,7 +162,9 @@ pub(super) struct FarState<'a> {
     /// Positions, velocities and accelerations of its coordinates.
     pub(super) z: [&'a [f64]; 3],
     /// Displacement of its support.
-    pub(super) post_w: Vec3,
+    pub(super) support_w: Vec3,
+    /// Force that the last station needs, conjugate to its length [N]; zero without a feed.
+    pub(super) held: f64,
     /// Lagrange's force of the last node, and its velocity and slope.
     pub(super) node_w: Vec3,
     pub(super) velocity_w: Vec3,
@@ -180,20 +182,20 @@ impl FarEnd {
         let (Some(feed), Some(at)) = (&self.feed, places.feed) else { return FeedForces::default() };
         let swivel = places.swivel.map_or(0.0, |at| of.z[0][at]);
         let arc = self.arc(swivel, &of.rope.load_w);
-        feed.forces(of.time, &of.given, (&of.z[0][at..], &of.z[1][at..]), (arc.as_ref(), self.longer(&of.post_w)))
+        feed.forces(of.time, &of.given, (&of.z[0][at..], &of.z[1][at..]), (arc.as_ref(), self.longer(&of.support_w)))
     }
 
     /// By how much a drum side from the ground is longer than without a displacement of the support [m].
-    fn longer(&self, post_w: &Vec3) -> f64 {
-        let side_w = self.support.and_then(|post| post.from_ground_w);
-        side_w.map_or(0.0, |side_w| (side_w + post_w).norm() - side_w.norm())
+    fn longer(&self, support_w: &Vec3) -> f64 {
+        let side_w = self.support.and_then(|support| support.from_ground_w);
+        side_w.map_or(0.0, |side_w| (side_w + support_w).norm() - side_w.norm())
     }
 
     /// Unstrained lengths of the stations at rest.
-    pub(super) fn stations_at_rest(&self, free: f64, tension_entry: f64, load_w: &Vec3, post_w: &Vec3) -> Vec<f64> {
+    pub(super) fn stations_at_rest(&self, free: f64, tension_entry: f64, load_w: &Vec3, support_w: &Vec3) -> Vec<f64> {
         let Some(feed) = &self.feed else { return Vec::new() };
         let psi = feed.psi(tension_entry);
-        feed.at_rest(free, psi, self.arc(0.0, load_w).as_ref(), self.longer(post_w))
+        feed.at_rest(free, psi, self.arc(0.0, load_w).as_ref(), self.longer(support_w))
     }
 
     /// Forces that the far end needs.
@@ -222,25 +224,25 @@ impl FarEnd {
             out.swivel_stiffness =
                 -lever / radius * turned.center_w.dot(&out.exit_w) + load_w.dot(&turned.center_w) * first / square;
         }
-        if let Some(post) = self.support {
-            self.load_post(&post, of, &mut out);
+        if let Some(support) = self.support {
+            self.load_support(&support, of, &mut out);
         }
         out
     }
 
     /// Force on the support: of the exit point, of the weight behind it, and of a drum side from the ground.
-    fn load_post(&self, post: &OnPost, of: &FarState, out: &mut FarForces) {
-        out.post_w = out.exit_w;
-        let behind = self.whole(of.given, of.z, of.free).value - of.free.value - post.length_from_ground();
-        out.post_w -= of.rope.load_w * behind;
-        if let Some(side_w) = post.from_ground_w {
-            let along_w = side_w + of.post_w;
+    fn load_support(&self, support: &SupportedEnd, of: &FarState, out: &mut FarForces) {
+        out.support_w = out.exit_w;
+        let behind = self.whole(of.given, of.z, of.free).value - of.free.value - support.length_from_ground();
+        out.support_w -= of.rope.load_w * behind;
+        if let Some(side_w) = support.from_ground_w {
+            let along_w = side_w + of.support_w;
             let length = along_w.norm();
             let direction_w = along_w / length;
-            out.post_w += direction_w * out.feed.tension_entry;
-            out.post_along_w = direction_w;
+            out.support_w += direction_w * out.feed.tension_entry;
+            out.support_along_w = direction_w;
             let across = Mat3::identity() - direction_w * direction_w.transpose();
-            out.post_stiffness_w = across * (out.feed.tension_entry / length);
+            out.support_stiffness_w = across * (out.feed.tension_entry / length);
         }
     }
 
@@ -269,11 +271,11 @@ impl FarEnd {
         energy.dissipation = forces.feed.dissipation;
 
         // Rope on the wheel has its own heights, and all behind it that of the entry point.
-        let entry_w = self.entry_w + of.post_w;
+        let entry_w = self.entry_w + of.support_w;
         let weight_w = rope.gravity_w * rope.mass;
         let dead_w = rope.load_w - weight_w;
         let whole = self.whole(of.given, of.z, of.free);
-        let mut behind = whole.value - of.free.value - self.support.map_or(0.0, |post| post.length_from_ground());
+        let mut behind = whole.value - of.free.value - self.support.map_or(0.0, |support| support.length_from_ground());
         if let Some(contact) = self.contact_at(places.swivel.map_or(0.0, |at| of.z[0][at])) {
             let psi = feed.psi(forces.feed.tension_entry);
             for (angle, length) in crate::drive::arc_nodes(&contact.wheel()) {
@@ -285,7 +287,8 @@ impl FarEnd {
             energy.loads += dead_w.dot(&contact.exit_offset_w()) * of.free.rate;
         }
         energy.potential -= weight_w.dot(&entry_w) * behind;
-        energy.winch = forces.feed.power - weight_w.dot(&entry_w) * whole.rate;
+        let held = if feed.follows_command() { of.held * whole.rate } else { 0.0 };
+        energy.winch = forces.feed.power + held - weight_w.dot(&entry_w) * whole.rate;
         energy
     }
 

@@ -5,12 +5,13 @@
 //! winch. What holds the last station is a commanded length, a motor, or a given tension.
 
 use super::rope::WoundLength;
+use crate::drive::{arc_nodes, stretch_of, tension_of};
 use crate::math::Vec3;
 use crate::robot::{Anchor, Control, DrumSide, PulleyContact, Servo, Winch};
 use crate::statics::CableState;
 
-/// Number of pieces of a drum side with mass between two stations: its axial waves then have the error of a lumped bar,
-/// 1 % at the second one, while the drum side itself is far stiffer than anything that moves.
+/// Number of pieces of a drum side with mass between two stations. The first axial wave of a bar with six lumped masses is
+/// 1 % too slow and the second 4.5 %, by `sin x = x (1 − x²/6 …)` at x = nπ/12.
 const ROD_PIECES: usize = 6;
 /// Geometric length of a piece below which it counts as this long [m]: a piece of no length has no stiffness, and its
 /// stretch of a thousandth would be 1e-7 m.
@@ -56,7 +57,18 @@ struct FeedMotor {
     integral_gain: f64,
 }
 
-/// Rope on a pulley at one moment: lengths of its parts [m], and ψ at the entry point less that of each part [N].
+impl FeedMotor {
+    fn of(winch: &Winch) -> Self {
+        let servo = if let Control::Position(servo) = winch.control { Some(servo) } else { None };
+        let gain = |servo: &Servo| {
+            let bandwidth = (servo.position_gain / (winch.drum_mass + winch.motor_mass)).sqrt();
+            if servo.integral { servo.position_gain * bandwidth / INTEGRAL_RADIANS } else { 0.0 }
+        };
+        Self { damping: winch.damping, servo, integral_gain: servo.as_ref().map_or(0.0, gain) }
+    }
+}
+
+/// Rope on a pulley at one moment: lengths of its parts [m], and ψ of each part less that at the entry point [N].
 pub(super) type ArcParts = [(f64, f64); 6];
 
 /// Rope and winch behind an exit point.
@@ -75,6 +87,8 @@ pub(super) struct Feed {
     axial_stiffness: f64,
     /// True while the last station does what it is told: before its tension is set, and while the start is sought.
     pub(super) is_locked: bool,
+    /// Length by which a locked last station is beyond its command [m]: that by which a winch without inertia yields.
+    ahead: f64,
     /// Unstrained rope between the last station and a winch that holds a tension without inertia [m].
     pub(super) behind: f64,
 }
@@ -88,10 +102,9 @@ pub(super) struct FeedForces {
     pub(super) stiffness: Vec<f64>,
     pub(super) damping: Vec<f64>,
     pub(super) coupling: Vec<f64>,
-    /// ψ of the first piece and tension of the last [N].
-    pub(super) first: f64,
-    pub(super) tension_drum: f64,
-    /// Tension between entry point and the next station [N].
+    /// Tension of the last piece of rope or of the shaft [N]; `None` if the drum is at the exit point.
+    pub(super) tension_drum: Option<f64>,
+    /// Tension between the entry point and the next station [N]; zero if the drum is at the exit point.
     pub(super) tension_entry: f64,
     /// Energy of pieces and shaft [J], without weight.
     pub(super) strain: f64,
@@ -130,11 +143,12 @@ impl Feed {
             stretch,
             axial_stiffness,
             is_locked: false,
+            ahead: 0.0,
             behind: 0.0,
         };
         let on_drum = if has_rope { feed.add_drum_side(winch, anchor.drum_side_length(), mass) } else { 0.0 };
         if let Some(winch) = winch {
-            feed.add_winch(winch, control, on_drum);
+            feed.add_winch(winch, on_drum);
         }
         Some(feed)
     }
@@ -150,6 +164,7 @@ impl Feed {
             stretch: 1.0,
             axial_stiffness,
             is_locked: true,
+            ahead: 0.0,
             behind: 0.0,
         }
     }
@@ -182,39 +197,28 @@ impl Feed {
         self.masses.pop().unwrap_or(0.0)
     }
 
-    /// Drum, shaft and motor.
-    fn add_winch(&mut self, winch: &Winch, control: Control, on_drum: f64) {
+    /// Drum, shaft and motor; `on_drum` is the mass of rope there [kg].
+    fn add_winch(&mut self, winch: &Winch, on_drum: f64) {
+        let motor_moves = winch.control != Control::Ideal;
+        // A motor with constant torque and without inertia pulls the drum itself.
+        let has_shaft = winch.stiffness.is_finite() && !(motor_moves && winch.motor_mass == 0.0);
+        let turning = winch.drum_mass + if motor_moves && !has_shaft { winch.motor_mass } else { 0.0 };
         let has_rope = !self.links.is_empty();
-        let is_stiff = !winch.stiffness.is_finite();
-        let drum =
-            if is_stiff && control != Control::Ideal { winch.drum_mass + winch.motor_mass } else { winch.drum_mass };
-        let drum_is_station = if is_stiff { control != Control::Ideal && drum > 0.0 } else { drum > 0.0 || !has_rope };
-        if drum_is_station {
-            self.station(has_rope, drum + on_drum);
-        }
-        if !is_stiff {
-            match (drum_is_station, self.links.last_mut()) {
-                (false, Some(FeedLink::Rope { compliance, .. })) => *compliance = 1.0 / winch.stiffness,
-                _ => self.links.push(FeedLink::Shaft(winch.stiffness)),
+
+        if has_shaft {
+            match self.links.last_mut() {
+                Some(FeedLink::Rope { compliance, .. }) if turning == 0.0 => *compliance = 1.0 / winch.stiffness,
+                _ => {
+                    self.station(has_rope, turning + on_drum);
+                    self.links.push(FeedLink::Shaft(winch.stiffness));
+                }
             }
         }
-        if control == Control::Ideal || (is_stiff && !drum_is_station) {
-            return;
+        let mass = if has_shaft { winch.motor_mass } else { turning + on_drum };
+        if motor_moves && mass > 0.0 {
+            self.station(has_rope || has_shaft, mass);
+            self.motor = Some(FeedMotor::of(winch));
         }
-        if !is_stiff {
-            self.station(true, winch.motor_mass);
-        }
-        let servo = if let Control::Position(servo) = control { Some(servo) } else { None };
-        let inertia = winch.drum_mass + winch.motor_mass;
-        let gain = |servo: &Servo| {
-            let bandwidth = (servo.position_gain / inertia).sqrt();
-            if servo.integral && bandwidth.is_finite() {
-                servo.position_gain * bandwidth / INTEGRAL_RADIANS
-            } else {
-                0.0
-            }
-        };
-        self.motor = Some(FeedMotor { damping: winch.damping, servo, integral_gain: servo.as_ref().map_or(0.0, gain) });
     }
 
     /// Adds a mass as a station of its own, or to the exit point if no rope lies between them.
@@ -225,24 +229,24 @@ impl Feed {
         }
     }
 
-    /// Locks the last station while the start is sought, if what holds it does so at any tension.
-    pub(super) fn lock(&mut self) {
+    /// Locks the last station while the start is sought, if what holds it does so at any tension. `beyond` is its length in
+    /// statics over the commanded one [m].
+    pub(super) fn lock(&mut self, beyond: f64) {
+        self.ahead = beyond;
         self.is_locked = self.is_locked || self.has_integral() || self.motor.is_none_or(|motor| motor.servo.is_none());
     }
 
-    /// Lets the last station go after the start has been found; `forces` are those at rest, `torque` says that its motor
-    /// has a constant torque.
-    pub(super) fn let_go(&mut self, forces: &FeedForces, torque: bool) {
-        if let Some(last) = forces.needed.last()
-            && !self.is_open()
-            && self.motor.is_some()
-            && self.is_locked
-        {
+    /// Lets the last station go after the start has been found; `forces` are those at rest. A motor with constant `torque`
+    /// holds the tension `exit` of the exit point or that at the drum; `lengths` are the commanded length and that of the
+    /// last station.
+    pub(super) fn let_go(&mut self, forces: &FeedForces, exit: f64, torque: bool, lengths: [f64; 2]) {
+        if let (Some(_), true, Some(last)) = (self.motor, self.follows_command(), forces.needed.last()) {
             self.bias = -last / self.stretch;
         }
         if torque && self.motor.is_none() {
-            let tension = forces.tension_entry;
-            self.hold = WinchHold::Tension { from: 0.0, duration: 0.0, before: tension, after: tension };
+            let tension = forces.tension_drum.unwrap_or(exit);
+            let hold = WinchHold::Tension { from: 0.0, duration: 0.0, before: tension, after: tension };
+            self.hold_tension(hold, lengths);
         }
         self.is_locked = false;
     }
@@ -267,6 +271,11 @@ impl Feed {
         self.is_locked && !self.is_open()
     }
 
+    /// Motion of a last station that follows its command.
+    pub(super) fn commanded(&self, given: &WoundLength) -> WoundLength {
+        WoundLength { value: given.value + self.ahead, ..*given }
+    }
+
     /// Unstrained length from the platform to what holds the rope.
     pub(super) fn whole(&self, given: WoundLength, z: [&[f64]; 3]) -> WoundLength {
         if self.is_open() && self.hold == WinchHold::Length {
@@ -276,8 +285,8 @@ impl Feed {
         WoundLength { value: value + self.behind, rate, acceleration }
     }
 
-    /// From now on the winch holds a tension, which was `before` and becomes `after` within a duration.
-    pub(super) fn hold_tension(&mut self, hold: WinchHold, given: f64, last: f64) {
+    /// From now on the winch holds a tension. `lengths` are the unstrained lengths to the winch and to the last station.
+    pub(super) fn hold_tension(&mut self, hold: WinchHold, [given, last]: [f64; 2]) {
         if self.hold == WinchHold::Length && self.is_open() {
             self.behind = given - last;
         }
@@ -285,8 +294,8 @@ impl Feed {
         self.is_locked = false;
     }
 
-    /// State of piece `j` with this content. The first piece has an arc, and its
-    /// straight part may be longer than at the start.
+    /// State of piece `j` with this content. The first piece has an arc, and its straight part may be longer than at the
+    /// start.
     fn piece(&self, j: usize, content: f64, (arc, longer): (Option<&ArcParts>, f64)) -> PieceState {
         match self.links[j] {
             FeedLink::Rope { straight, compliance } => {
@@ -336,9 +345,9 @@ impl Feed {
             out.stiffness[j] += piece.stiffness;
             out.strain += piece.strain;
             if j == 0 {
-                (out.first, out.tension_entry) = (piece.psi, piece.tension);
+                out.tension_entry = piece.tension;
             }
-            out.tension_drum = piece.tension;
+            out.tension_drum = Some(piece.tension);
             if is_last {
                 out.power -= piece.psi * if tension.is_some() { v[j] } else { given.rate };
                 continue;
@@ -365,7 +374,7 @@ impl Feed {
 
     /// Stretch at ψ.
     pub(super) fn stretch_at(&self, psi: f64) -> f64 {
-        stretch_at(self.axial_stiffness, psi)
+        stretch_of(psi, self.axial_stiffness)
     }
 
     /// Piece that a winch without inertia pulls with a tension; its energy is the winch's.
@@ -378,21 +387,16 @@ impl Feed {
     fn add_hold(&self, time: f64, given: &WoundLength, (y, v): (&[f64], &[f64]), out: &mut FeedForces) {
         let last = self.count() - 1;
         let Some(motor) = self.motor else {
-            let pulled = self.pulled(self.hold.tension(time).unwrap_or(self.bias));
-            out.needed[last] += pulled.psi;
-            out.power -= pulled.psi * v[last];
-            if self.links.is_empty() {
-                (out.first, out.tension_entry, out.tension_drum) = (pulled.psi, pulled.tension, pulled.tension);
+            // A station that follows its command has the force that it needs.
+            if let Some(tension) = self.hold.tension(time) {
+                let psi = self.pulled(tension).psi;
+                out.needed[last] += psi;
+                out.power -= psi * v[last];
             }
             return;
         };
         let scale = self.stretch * self.stretch;
         let mut force = self.stretch * self.hold.tension(time).unwrap_or(self.bias);
-        if self.links.is_empty() {
-            // Nothing lies between the exit point and the drum.
-            let tension = force / self.stretch;
-            (out.first, out.tension_entry, out.tension_drum) = (force, tension, tension);
-        }
         if let (Some(servo), WinchHold::Length) = (motor.servo, self.hold) {
             let integral = if motor.integral_gain > 0.0 { y[last + 1] } else { 0.0 };
             force += scale
@@ -414,7 +418,7 @@ impl Feed {
         for j in 1..self.count() {
             let content = match self.links[j - 1] {
                 FeedLink::Shaft(stiffness) => {
-                    let tension = 2.0 * psi / (1.0 + self.stretch_at(psi));
+                    let tension = tension_of(psi, self.stretch_at(psi));
                     -tension / (stiffness * self.stretch)
                 }
                 FeedLink::Rope { straight, compliance } => {
@@ -430,20 +434,15 @@ impl Feed {
     }
 }
 
-/// Stretch at ψ; a search may pass ropes that would be compressed to a third.
-fn stretch_at(ea: f64, psi: f64) -> f64 {
-    (1.0 + 2.0 * psi / ea).max(0.1).sqrt()
-}
-
 /// Content of a piece of rope at ψ, and minus its derivative by ψ [m/N].
 fn content_at(ea: f64, (straight, compliance): (f64, f64), arc: Option<&ArcParts>, psi: f64) -> (f64, f64) {
-    let at_entry = stretch_at(ea, psi);
-    let tension = 2.0 * psi / (1.0 + at_entry);
+    let at_entry = stretch_of(psi, ea);
+    let tension = tension_of(psi, at_entry);
     let content = (straight - tension * compliance) / at_entry;
     let square = at_entry * at_entry;
     let (mut sum, mut slope) = (content, compliance / square + content / (ea * square));
     for (length, lift) in arc.into_iter().flatten() {
-        let here = stretch_at(ea, psi + lift);
+        let here = stretch_of(psi + lift, ea);
         sum += length / here;
         slope += length / (ea * here.powi(3));
     }
@@ -466,21 +465,21 @@ fn rope_piece(ea: f64, of: (f64, f64), arc: Option<&ArcParts>, content: f64) -> 
             break;
         }
     }
-    let stretch = stretch_at(ea, psi);
-    let tension = 2.0 * psi / (1.0 + stretch);
+    let stretch = stretch_of(psi, ea);
+    let tension = tension_of(psi, stretch);
     let mut strain = 0.5 * tension * tension * ((of.0 - tension * of.1) / (stretch * ea) + of.1);
     for (length, lift) in arc.into_iter().flatten() {
-        let stretch = stretch_at(ea, psi + lift);
-        let tension = 2.0 * (psi + lift) / (1.0 + stretch);
+        let stretch = stretch_of(psi + lift, ea);
+        let tension = tension_of(psi + lift, stretch);
         strain += 0.5 * tension * tension / ea * length / stretch;
     }
     PieceState { psi, stiffness: 1.0 / slope, tension, strain }
 }
 
-/// Parts of the rope on a pulley: lengths [m], and ψ at the entry point less that of each part for a load per length.
+/// Parts of the rope on a pulley for a load per unstrained length.
 pub(super) fn arc_parts(contact: &PulleyContact, load_w: &Vec3) -> ArcParts {
     let mut parts = [(0.0, 0.0); 6];
-    for (part, (angle, length)) in parts.iter_mut().zip(crate::drive::arc_nodes(&contact.wheel())) {
+    for (part, (angle, length)) in parts.iter_mut().zip(arc_nodes(&contact.wheel())) {
         *part = (length, -load_w.dot(&contact.offset_w(angle)));
     }
     parts

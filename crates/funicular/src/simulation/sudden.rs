@@ -124,9 +124,8 @@ impl Stepper {
             let places = far.places();
             let (Some(feed), Some(at)) = (&mut far.feed, places.feed) else { continue };
             let last = numbers + at + feed.count() - 1;
-            // A winch whose length was commanded has the tension of the rope at its exit point.
-            let before = if feed.is_locked { forces.exit_w.norm() } else { forces.feed.tension_drum };
-            feed.hold_tension(WinchHold::Tension { from: time, duration, before, after }, whole, self.now.x[last]);
+            let before = forces.feed.tension_drum.unwrap_or_else(|| forces.exit_w.norm());
+            feed.hold_tension(WinchHold::Tension { from: time, duration, before, after }, [whole, self.now.x[last]]);
         }
     }
 

@@ -8,6 +8,7 @@ use super::far_end::{ExitMotion, FarEnd, FarForces, FarState};
 use super::rope::{RopeMesh, WoundLength};
 use super::winding::Winding;
 use crate::math::{Mat3, Rotation, Vec3, Vec6};
+use crate::robot::Support;
 
 /// Number of numbers of the platform in a motion.
 pub(super) const BODY: usize = 6;
@@ -25,13 +26,22 @@ pub(super) enum RopeEnd {
 
 /// Support of anchors that yields.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Post {
+pub(super) struct MovingSupport {
     /// Stiffness [N/m].
     pub(super) stiffness_w: Mat3,
     /// Mass [kg].
     pub(super) mass: f64,
     /// Damping time [s]: damping over stiffness.
     pub(super) damping_time: f64,
+}
+
+impl MovingSupport {
+    /// Support whose damping ratio holds at an angular frequency [rad/s].
+    pub(super) fn of(support: &Support, omega: f64) -> Self {
+        let ratio = support.damping_ratio;
+        let damping_time = if ratio > 0.0 { 2.0 * ratio / omega } else { 0.0 };
+        Self { stiffness_w: support.stiffness_w, mass: support.mass, damping_time }
+    }
 }
 
 /// Platform and ropes.
@@ -42,7 +52,7 @@ pub(super) struct System {
     /// Far ends of ropes that do more than stay where they are.
     pub(super) far_ends: Vec<Option<FarEnd>>,
     /// Supports, whose numbers follow those of the platform.
-    pub(super) posts: Vec<Post>,
+    pub(super) supports: Vec<MovingSupport>,
     pub(super) windings: Vec<Winding>,
     /// First number of each rope in a motion.
     pub(super) offsets: Vec<usize>,
@@ -142,7 +152,7 @@ impl System {
     }
 
     /// Numbers of a support.
-    pub(super) fn of_post(index: usize) -> std::ops::Range<usize> {
+    pub(super) fn of_support(index: usize) -> std::ops::Range<usize> {
         BODY + 3 * index..BODY + 3 * index + 3
     }
 
@@ -164,16 +174,17 @@ impl System {
             && feed.follows_command()
         {
             let last = from + at + feed.count() - 1;
-            (m.x[last], m.v[last], m.a[last]) = (given.value, given.rate, given.acceleration);
+            let of = feed.commanded(given);
+            (m.x[last], m.v[last], m.a[last]) = (of.value, of.rate, of.acceleration);
         }
         let swivel = places.swivel.map_or([0.0; 3], |at| [m.x[from + at], m.v[from + at], m.a[from + at]]);
-        let exit = far.exit(swivel, &Self::post_motion(far, m));
+        let exit = far.exit(swivel, &Self::support_motion(far, m));
         m.put(self.of_rope(i).end - 3, &exit);
     }
 
     /// Motion of the support of a far end.
-    fn post_motion(far: &FarEnd, m: &MotionNumbers) -> ExitMotion {
-        far.support.map_or([Vec3::zeros(); 3], |post| m.point(Self::of_post(post.index).start))
+    fn support_motion(far: &FarEnd, m: &MotionNumbers) -> ExitMotion {
+        far.support.map_or([Vec3::zeros(); 3], |support| m.point(Self::of_support(support.index).start))
     }
 
     /// Commanded lengths of all ropes at a time.
@@ -209,14 +220,17 @@ impl System {
         let (range, z, free) = (self.of_rope(i), self.of_far_end(i), self.free_length(i, given, m));
         let rope = &self.ropes[i];
         let slope_w = rope.slope_at_end(&free, &m.x[range.clone()]);
-        let post = self.far_ends[i].as_ref().and_then(|far| far.support);
+        let far = self.far_ends[i].as_ref();
+        let support = far.and_then(|far| far.support);
+        let stations = far.and_then(|far| Some(far.places().feed? + far.feed.as_ref()?.count()));
         FarState {
             rope,
             time,
             given: *given,
             free,
-            z: [&m.x[z.clone()], &m.v[z.clone()], &m.a[z]],
-            post_w: post.map_or_else(Vec3::zeros, |post| three(&m.x, Self::of_post(post.index).start)),
+            z: [&m.x[z.clone()], &m.v[z.clone()], &m.a[z.clone()]],
+            support_w: support.map_or_else(Vec3::zeros, |support| three(&m.x, Self::of_support(support.index).start)),
+            held: stations.map_or(0.0, |count| needed[z.start + count - 1]),
             node_w: three(needed, range.end - 3),
             velocity_w: three(&m.v, range.end - 3),
             slope_w,
@@ -249,10 +263,10 @@ impl System {
         self.evaluations += 1;
         out.fill(0.0);
         let mut on_body = self.body.needed(time, &self.air.on_body(time), body);
-        for (index, post) in self.posts.iter().enumerate() {
-            let [place, velocity, acceleration] = m.point(Self::of_post(index).start);
-            let force_w = post.stiffness_w * (place + velocity * post.damping_time) + acceleration * post.mass;
-            out[Self::of_post(index)].copy_from_slice(force_w.as_slice());
+        for (index, support) in self.supports.iter().enumerate() {
+            let [place, velocity, acceleration] = m.point(Self::of_support(index).start);
+            let force_w = support.stiffness_w * (place + velocity * support.damping_time) + acceleration * support.mass;
+            out[Self::of_support(index)].copy_from_slice(force_w.as_slice());
         }
         for (i, rope) in self.ropes.iter().enumerate() {
             if self.ends[i] == RopeEnd::Gone {
@@ -281,7 +295,7 @@ impl System {
         if let (Some(feed), Some(at)) = (&far.feed, places.feed) {
             let (range, free) = (self.of_rope(i), self.free_length(i, given, m));
             let wind = self.air.on_rope(i, time);
-            let entry_w = far.entry_w + Self::post_motion(far, m)[0];
+            let entry_w = far.entry_w + Self::support_motion(far, m)[0];
             let of_rope = [&m.x[range.clone()], &m.v[range.clone()], &m.a[range]];
             let scale = feed.stretch * feed.stretch;
             for (j, (needed, mass)) in forces.feed.needed.iter().zip(&feed.masses).enumerate() {
@@ -294,8 +308,8 @@ impl System {
                 out[from + integral] = m.a[from + integral] - (m.v[last] - given.rate);
             }
         }
-        if let Some(post) = far.support {
-            for (out, force) in out[Self::of_post(post.index)].iter_mut().zip(forces.post_w.iter()) {
+        if let Some(support) = far.support {
+            for (out, force) in out[Self::of_support(support.index)].iter_mut().zip(forces.support_w.iter()) {
                 *out += force;
             }
         }

@@ -3,9 +3,9 @@
 
 use crate::errors;
 use anyhow::{Context, Result, bail};
-use funicular_files::Guard;
 use funicular_files::atomic_file::TemporaryFile;
 use funicular_files::endings::Kind;
+use funicular_files::{Begin, Guard};
 use funicular_formats::number_columns;
 use funicular_study::analyses::simulate::{BegunRun, RowKeeper, SimulatedRow};
 use funicular_study::columns::ResultTable;
@@ -36,28 +36,20 @@ struct OpenFiles {
     state: PathBuf,
 }
 
-/// What happens with the rows of an interrupted run.
-#[derive(Clone, Copy, PartialEq, Eq)]
-pub(super) enum EarlierRun {
-    Refuse,
-    Resume,
-    Discard,
-}
-
 impl PartialRows {
     /// Files beside the result, with the run that has begun if it is to be continued.
     pub(super) fn beside(
         path: Option<&Path>,
         of: &SimulateRequest,
         cables: Vec<String>,
-        earlier: EarlierRun,
+        earlier: Begin,
         guard: &mut Guard,
     ) -> Result<(Self, Option<BegunRun>)> {
         let points: Vec<String> = of.point.iter().map(|point| point.name.clone()).collect();
         let request = serde_json::to_string(of)?;
         let mut partial = Self { files: None, cables, points, request, flushed: Instant::now() };
         let Some(path) = path.filter(|path| Kind::of(path) == Some(Kind::Csv)) else {
-            if earlier != EarlierRun::Refuse {
+            if earlier != Begin::Anew {
                 bail!("only a CSV file is written as it grows: give -o FILE.csv, or leave out ⟪resume⟫ and ⟪discard⟫");
             }
             return Ok((partial, None));
@@ -71,8 +63,8 @@ impl PartialRows {
         guard.writes("the state", &state)?;
         let shown = path.display();
         let begun = match earlier {
-            EarlierRun::Resume => partial.begun(&path, &state)?,
-            EarlierRun::Refuse if path.exists() => {
+            Begin::Resume => partial.begun(&path, &state)?,
+            Begin::Anew if path.exists() => {
                 bail!("{shown} has the rows of a run that did not end: give ⟪resume⟫ or ⟪discard⟫")
             }
             _ => None,

@@ -65,7 +65,7 @@ pub(crate) fn refuse(scenario: &Scenario) -> Result<()> {
     Ok(())
 }
 
-/// What happens after the equilibrium.
+/// Course of a scenario from the equilibrium on.
 pub(crate) struct MoorDynCourse {
     /// Robot after the release, at the place before it.
     pub(crate) after: AtRest,
@@ -80,7 +80,7 @@ pub(crate) struct MoorDynCourse {
 }
 
 impl MoorDynCourse {
-    /// Course of a scenario.
+    /// Course of a scenario within a duration [s].
     ///
     /// # Errors
     /// An event that cannot happen, or a release when the robot is no longer at rest.

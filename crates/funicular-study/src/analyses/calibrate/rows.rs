@@ -255,9 +255,9 @@ impl ProposalRow {
 pub struct LeftOut {
     /// Candidates that were given.
     pub candidates: usize,
-    /// Of these, without equilibrium or without tensions within the limits.
+    /// Candidates without equilibrium or without tensions within the limits.
     pub by_tensions: usize,
-    /// Of these, with cables, platform or obstacles too near to each other.
+    /// Candidates with cables, platform or obstacles too near to each other.
     pub by_clearance: usize,
 }
 
