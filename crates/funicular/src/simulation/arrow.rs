@@ -69,9 +69,9 @@ impl Arrow {
         let mut matrix = system.body.matrix(&body, of.mass, of.damping, of.stiffness);
         let mut of_supports = supports_alone(system, of);
         self.supports.by_body.fill(0.0);
-        for i in 0..system.ropes.len() {
+        for (i, given) in lengths.iter().enumerate() {
             if system.ends[i] != RopeEnd::Gone {
-                let kept = self.factor_rope((system, i), (time, &lengths[i]), m, needed, of)?;
+                let kept = self.factor_rope((system, i), (time, given), m, needed, of)?;
                 let force_w = three(needed, system.offsets[i]);
                 self.add_rope((system, i), &body, &kept, force_w, of, (&mut matrix, &mut of_supports));
             }
