@@ -19,6 +19,7 @@ mod feed;
 mod planned;
 mod rope;
 mod run;
+mod side_by_side;
 mod skyline;
 mod start;
 mod state;

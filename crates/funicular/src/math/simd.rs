@@ -77,7 +77,13 @@ impl<S: Simd> Part<S> {
     /// All parts of a lane.
     #[inline(always)]
     pub(crate) fn all(simd: S) -> impl Iterator<Item = Self> {
-        (0..LANES / S::F64_LANES).map(move |at| Self { simd, at })
+        Self::first(simd, LANES)
+    }
+
+    /// Parts that hold the first `count` numbers of a lane.
+    #[inline(always)]
+    pub(crate) fn first(simd: S, count: usize) -> impl Iterator<Item = Self> {
+        (0..count.div_ceil(S::F64_LANES)).map(move |at| Self { simd, at })
     }
 
     #[inline(always)]
@@ -99,6 +105,12 @@ impl<S: Simd> Part<S> {
     #[inline(always)]
     pub(crate) fn mul_add(self, a: S::f64s, b: S::f64s, c: S::f64s) -> S::f64s {
         self.simd.mul_add_f64s(a, b, c)
+    }
+
+    /// `c − a b`, rounded once.
+    #[inline(always)]
+    pub(crate) fn less(self, c: S::f64s, a: S::f64s, b: S::f64s) -> S::f64s {
+        self.mul_add(self.neg(a), b, c)
     }
 
     #[inline(always)]

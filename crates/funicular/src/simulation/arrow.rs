@@ -4,6 +4,7 @@ use super::body::{BodyMotion, halves, joined};
 use super::far_border::FarBorder;
 use super::far_end::FarEnd;
 use super::rope::{Newton, RopeMesh, WoundLength};
+use super::side_by_side::FactorPack;
 use super::skyline::{NotPositive, Profile3, Skyline};
 use super::system::{MotionNumbers, RopeEnd, System, six, three};
 use crate::math::{DMat, DVec, Mat3, Mat6, Vec3, inverse6, skew};
@@ -11,6 +12,8 @@ use crate::math::{DMat, DVec, Mat3, Mat6, Vec3, inverse6, skew};
 /// Factored Newton matrix of the system.
 pub(super) struct Arrow {
     factors: Vec<Skyline>,
+    /// The factors side by side, with the right-hand sides.
+    packs: Vec<FactorPack>,
     /// Borders of the ropes whose far end moves.
     borders: Vec<Option<FarBorder>>,
     /// Translation of each attached end for a turn of the platform, `−R [a]×`.
@@ -19,8 +22,8 @@ pub(super) struct Arrow {
     supports: SupportBlock,
     /// Inverse of the matrix of the platform's coordinates.
     inverse: Mat6,
-    /// Work space: right-hand sides of the ropes in the order of their rows.
-    rows: Vec<Vec<f64>>,
+    /// Work space: right-hand side of a rope in the order of its rows.
+    rows: Vec<f64>,
 }
 
 /// Supports in the matrix.
@@ -40,6 +43,7 @@ impl Arrow {
         let supports = 3 * system.supports.len();
         Self {
             factors: system.ropes.iter().map(shape).collect(),
+            packs: Vec::new(),
             borders: system.ropes.iter().zip(&system.far_ends).map(border).collect(),
             turns: vec![Mat3::zeros(); system.ropes.len()],
             supports: SupportBlock {
@@ -48,7 +52,7 @@ impl Arrow {
                 needed: DVec::zeros(supports),
             },
             inverse: Mat6::identity(),
-            rows: system.ropes.iter().map(|rope| vec![0.0; rope.size() - 3]).collect(),
+            rows: Vec::new(),
         }
     }
 
@@ -76,6 +80,7 @@ impl Arrow {
                 self.add_rope((system, i), &body, &kept, force_w, of, (&mut matrix, &mut of_supports));
             }
         }
+        self.packs = FactorPack::of(&system.ropes, &system.ends, &self.factors);
         if !system.supports.is_empty() {
             self.supports.inverse = of_supports.try_inverse().ok_or(NotPositive)?;
             let lost = self.supports.by_body.transpose() * &self.supports.inverse * &self.supports.by_body;
@@ -158,28 +163,25 @@ impl Arrow {
             let force = three(needed, System::of_support(index).start);
             self.supports.needed.fixed_rows_mut::<3>(3 * index).copy_from(&force);
         }
-        for (i, rope) in system.ropes.iter().enumerate() {
-            let end = system.ends[i];
-            if end == RopeEnd::Gone {
-                continue;
+        for pack in &mut self.packs {
+            for lane in 0..pack.ropes.len() {
+                pack.put(lane, &needed[system.inner_nodes(pack.ropes[lane])]);
             }
-            let (from, free) = (system.offsets[i], rope.last());
-            let rows = &mut self.rows[i];
-            for node in 0..free {
-                let row = 3 * (free - 1 - node);
-                rows[row..row + 3].copy_from_slice(&needed[from + 3 * node..from + 3 * node + 3]);
-            }
-            let mut passed = self.factors[i].forward(rows);
-            if let Some(far) = &mut self.borders[i] {
-                let [on_end, on_support] = far.forward(rows, &needed[system.of_far_end(i)]);
-                passed += on_end;
-                if let Some(support) = system.far_ends[i].as_ref().and_then(|far| far.support) {
-                    let mut view = self.supports.needed.fixed_rows_mut::<3>(3 * support.index);
-                    view -= on_support;
+            pack.forward(&self.factors);
+            for (lane, i) in pack.ropes.iter().copied().enumerate() {
+                let mut passed = pack.received(lane);
+                if let Some(far) = &mut self.borders[i] {
+                    pack.rows_of(lane, &mut self.rows);
+                    let [on_end, on_support] = far.forward(&self.rows, &needed[system.of_far_end(i)]);
+                    passed += on_end;
+                    if let Some(support) = system.far_ends[i].as_ref().and_then(|far| far.support) {
+                        let mut view = self.supports.needed.fixed_rows_mut::<3>(3 * support.index);
+                        view -= on_support;
+                    }
                 }
-            }
-            if end == RopeEnd::Attached {
-                on_body -= joined(&passed, &self.turns[i].tr_mul(&passed));
+                if system.ends[i] == RopeEnd::Attached {
+                    on_body -= joined(&passed, &self.turns[i].tr_mul(&passed));
+                }
             }
         }
         let held = &self.supports.inverse * &self.supports.needed;
@@ -198,37 +200,39 @@ impl Arrow {
     /// Corrections of the ropes for those of the platform, which stand in `needed`, and of the supports.
     fn move_ropes(&mut self, system: &System, of_supports: &DVec, needed: &mut [f64]) {
         let (translation, turn) = halves(&six(needed));
-        for (i, rope) in system.ropes.iter().enumerate() {
-            let end = system.ends[i];
-            let (from, free) = (system.offsets[i], rope.last());
-            let far_range = system.of_far_end(i);
-            if end == RopeEnd::Gone {
-                needed[from..from + rope.size()].fill(0.0);
-                needed[far_range].fill(0.0);
-                continue;
+        for (i, end) in system.ends.iter().enumerate() {
+            if *end == RopeEnd::Gone {
+                needed[system.of_rope(i)].fill(0.0);
+                needed[system.of_far_end(i)].fill(0.0);
             }
-            let is_attached = end == RopeEnd::Attached;
-            let of_end = if is_attached { translation + self.turns[i] * turn } else { Vec3::zeros() };
-            let rows = &mut self.rows[i];
-            if let Some(far) = &mut self.borders[i] {
-                let support = system.far_ends[i].as_ref().and_then(|far| far.support);
-                let of_support =
-                    support.map_or_else(Vec3::zeros, |support| three(of_supports.as_slice(), 3 * support.index));
-                far.backward(rows, &of_end, &of_support);
-                needed[far_range].copy_from_slice(far.z.as_slice());
-            }
-            // `backward` subtracts; the correction has the opposite sign of the right-hand side.
-            self.factors[i].backward(rows, &-of_end);
-            for node in 0..free {
-                let row = 3 * (free - 1 - node);
-                for axis in 0..3 {
-                    needed[from + 3 * node + axis] = -rows[row + axis];
+        }
+        for pack in &mut self.packs {
+            for lane in 0..pack.ropes.len() {
+                let i = pack.ropes[lane];
+                let is_attached = system.ends[i] == RopeEnd::Attached;
+                let of_end = if is_attached { translation + self.turns[i] * turn } else { Vec3::zeros() };
+                if let Some(far) = &mut self.borders[i] {
+                    let support = system.far_ends[i].as_ref().and_then(|far| far.support);
+                    let of_support =
+                        support.map_or_else(Vec3::zeros, |support| three(of_supports.as_slice(), 3 * support.index));
+                    pack.rows_of(lane, &mut self.rows);
+                    far.backward(&mut self.rows, &of_end, &of_support);
+                    pack.set_rows(lane, &self.rows);
+                    needed[system.of_far_end(i)].copy_from_slice(far.z.as_slice());
                 }
+                // `backward` subtracts; the correction has the opposite sign of the right-hand side.
+                pack.set_end(lane, &-of_end);
             }
-            if is_attached {
-                needed[from..from + 3].copy_from_slice(of_end.as_slice());
+            pack.backward(&self.factors);
+            for (lane, i) in pack.ropes.iter().copied().enumerate() {
+                let inner = system.inner_nodes(i);
+                pack.take(lane, &mut needed[inner.clone()]);
+                if system.ends[i] == RopeEnd::Attached {
+                    let of_end = pack.received(lane);
+                    needed[inner.start..inner.start + 3].copy_from_slice((-of_end).as_slice());
+                }
+                needed[inner.end..inner.end + 3].fill(0.0);
             }
-            needed[from + 3 * free..from + 3 * free + 3].fill(0.0);
         }
     }
 }

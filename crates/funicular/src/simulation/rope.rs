@@ -185,24 +185,24 @@ impl RopeMesh {
         Stretch { tangent, ratio, rate, tension }
     }
 
-    /// Forces that the nodes need for the motion: inertia and inner forces less weight, wind and damping, added to
-    /// `out`. At the ends they are the forces that platform and anchor exert on the rope.
+    /// Adds to `out` what the nodes need for the motion besides the inner forces, which a [`RopePack`] has added: inertia
+    /// less weight, wind and damping. With both, `out` has at the ends the forces that platform and anchor exert on the
+    /// rope.
     ///
     /// # References
     /// docs/theory.md, equation (97d).
-    pub(super) fn needed(
+    ///
+    /// [`RopePack`]: super::side_by_side::RopePack
+    pub(super) fn add_outer_forces(
         &self,
         length: &WoundLength,
         winds: &[Wind],
-        x: &[f64],
-        v: &[f64],
-        a: &[f64],
+        [x, v, a]: [&[f64]; 3],
         out: &mut [f64],
     ) {
         for e in 0..self.elements {
             let nodes = self.of_element(e);
             let (x, v, out) = (&x[nodes.clone()], &v[nodes.clone()], &mut out[nodes.clone()]);
-            self.inner_forces(length, x, v, out);
             self.lumped_forces(length, winds, e, [x, v, &a[nodes]], out);
             if length.rate != 0.0 || length.acceleration != 0.0 {
                 self.winding_forces(length, e, x, v, out);
@@ -210,18 +210,17 @@ impl RopeMesh {
         }
     }
 
-    #[inline]
-    fn inner_forces(&self, length: &WoundLength, x: &[f64], v: &[f64], out: &mut [f64]) {
-        for g in 0..self.basis.degree {
-            let Stretch { tangent, tension, .. } = self.stretch(length, g, x, v);
-            if tension == 0.0 {
-                continue;
-            }
-            let force = tangent * (tension * self.basis.gauss_weights[g]);
-            for (out, slope) in out.chunks_exact_mut(3).zip(self.basis.at_gauss(g)) {
-                out[0] += slope * force.x;
-                out[1] += slope * force.y;
-                out[2] += slope * force.z;
+    /// Adds the inner forces of the rope alone to `out`.
+    #[cfg(test)]
+    pub(super) fn add_inner_forces(&self, length: &WoundLength, x: &[f64], v: &[f64], out: &mut [f64]) {
+        for e in 0..self.elements {
+            let nodes = self.of_element(e);
+            for g in 0..self.basis.degree {
+                let Stretch { tangent, tension, .. } = self.stretch(length, g, &x[nodes.clone()], &v[nodes.clone()]);
+                for (q, slope) in self.basis.at_gauss(g).iter().enumerate() {
+                    let force = tangent * (tension * self.basis.gauss_weights[g] * slope);
+                    add(out, e * self.basis.degree + q, &force);
+                }
             }
         }
     }
@@ -430,7 +429,7 @@ impl RopeMesh {
         along(self.basis.at_node(self.basis.degree), &x[nodes]) * (self.elements as f64 / length.value)
     }
 
-    /// Adds the Newton matrix of the rope: the derivative of [`Self::needed`] by the velocities of a stage, without the
+    /// Adds the Newton matrix of the rope: the derivative of the needed forces by the velocities of a stage, without the
     /// terms of the winch and the turn of the damping.
     ///
     /// # References

@@ -43,7 +43,8 @@ impl Profile3 {
 #[derive(Debug, Clone)]
 pub(super) struct Skyline {
     shape: Profile3,
-    values: Vec<f64>,
+    /// Entries of each row from the first to the diagonal; of a factored row the diagonal's inverse.
+    pub(super) values: Vec<f64>,
     /// Number of rows that are factored; the last three, of the node on the platform, may stay as a Schur complement.
     factored: usize,
 }
@@ -77,6 +78,28 @@ impl Skyline {
         }
     }
 
+    /// Number of rows.
+    pub(super) fn rows(&self) -> usize {
+        self.shape.rows()
+    }
+
+    /// True if the last node is left as a Schur complement.
+    pub(super) fn keeps_end(&self) -> bool {
+        self.factored < self.rows()
+    }
+
+    /// Number of nodes that are factored.
+    pub(super) fn factored_nodes(&self) -> usize {
+        self.factored / 3
+    }
+
+    /// First column of the rows of a node, counted from the anchor, and the places of the first entries of its rows.
+    #[inline]
+    pub(super) fn node(&self, node: usize) -> [usize; 4] {
+        let [a, b, c] = [0, 1, 2].map(|i| self.shape.start[3 * node + i]);
+        [self.shape.first[3 * node], a, b, c]
+    }
+
     #[inline]
     fn row(&self, row: usize) -> &[f64] {
         let start = self.shape.start[row];
@@ -85,7 +108,7 @@ impl Skyline {
 
     /// Cholesky factor in place. With `keep_end` the last node is left as the Schur complement, which is returned.
     pub(super) fn factor(&mut self, keep_end: bool) -> Result<Mat3, NotPositive> {
-        let rows = self.shape.rows();
+        let rows = self.rows();
         self.factored = if keep_end { rows - 3 } else { rows };
         for row in 0..rows {
             let first = self.shape.first[row];
@@ -135,7 +158,7 @@ impl Skyline {
             let sum = dot(&own[..row - first], &b[first..row]);
             b[row] = (b[row] - sum) * own[row - first];
         }
-        if self.factored == self.shape.rows() {
+        if !self.keeps_end() {
             return Vec3::zeros();
         }
         Vec3::from_fn(|i, _| {
@@ -146,15 +169,16 @@ impl Skyline {
 
     /// Entries of a column at the kept last node, which become zero; zero if it is not kept.
     pub(super) fn take_kept(&self, column: &mut [f64]) -> Vec3 {
-        if self.factored == self.shape.rows() {
+        if !self.keeps_end() {
             return Vec3::zeros();
         }
         Vec3::from_fn(|i, _| std::mem::take(&mut column[self.factored + i]))
     }
 
     /// `L⁻ᵀ (b − L₀ᵀ end)` in place, `end` being the motion of the kept last node.
+    #[cfg(test)]
     pub(super) fn backward(&self, b: &mut [f64], end: &Vec3) {
-        if self.factored < self.shape.rows() {
+        if self.keeps_end() {
             for i in 0..3 {
                 let (row, first) = (self.factored + i, self.shape.first[self.factored + i]);
                 subtract(&mut b[first..self.factored], end[i], &self.row(row)[..self.factored - first]);
@@ -185,7 +209,7 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
 }
 
 /// `b −= factor · a`.
-#[inline]
+#[cfg(test)]
 fn subtract(b: &mut [f64], factor: f64, a: &[f64]) {
     for (b, a) in b.iter_mut().zip(a) {
         *b -= factor * a;

@@ -7,6 +7,7 @@ use super::esdirk::Stepper;
 use super::event::EventFault;
 use super::far_end::FarEnd;
 use super::rope::RopeMesh;
+use super::side_by_side::RopePack;
 use super::system::{BODY, MotionNumbers, MovingSupport, RopeEnd, System};
 use super::winding::Winding;
 use crate::math::Vec3;
@@ -271,6 +272,7 @@ pub(super) fn at_rest(
     let mut system = System {
         body: MovingBody::of(robot, settings.platform_is_held),
         ends: vec![RopeEnd::Attached; ropes.len()],
+        packs: RopePack::of(&ropes),
         ropes,
         far_ends,
         supports,

@@ -6,6 +6,7 @@
 use super::body::{BodyMotion, MovingBody};
 use super::far_end::{ExitMotion, FarEnd, FarForces, FarState};
 use super::rope::{RopeMesh, WoundLength};
+use super::side_by_side::RopePack;
 use super::winding::Winding;
 use crate::math::{Mat3, Rotation, Vec3, Vec6};
 use crate::robot::Support;
@@ -48,6 +49,8 @@ impl MovingSupport {
 pub(super) struct System {
     pub(super) body: MovingBody,
     pub(super) ropes: Vec<RopeMesh>,
+    /// The ropes side by side.
+    pub(super) packs: Vec<RopePack>,
     pub(super) ends: Vec<RopeEnd>,
     /// Far ends of ropes that do more than stay where they are.
     pub(super) far_ends: Vec<Option<FarEnd>>,
@@ -142,6 +145,12 @@ impl System {
     #[inline]
     pub(super) fn of_rope(&self, i: usize) -> std::ops::Range<usize> {
         self.offsets[i]..self.offsets[i] + self.ropes[i].size()
+    }
+
+    /// Numbers of the nodes of rope `i` but for the last.
+    #[inline]
+    pub(super) fn inner_nodes(&self, i: usize) -> std::ops::Range<usize> {
+        self.offsets[i]..self.offsets[i] + self.ropes[i].size() - 3
     }
 
     /// Numbers of the far end of rope `i`, behind those of its nodes.
@@ -268,15 +277,19 @@ impl System {
             let force_w = support.stiffness_w * (place + velocity * support.damping_time) + acceleration * support.mass;
             out[Self::of_support(index)].copy_from_slice(force_w.as_slice());
         }
+        let free: Vec<WoundLength> = (0..lengths.len()).map(|i| self.free_length(i, &lengths[i], m)).collect();
+        for pack in &mut self.packs {
+            pack.add_inner_forces(&self.ropes, &self.offsets, &free, m, out);
+        }
         for (i, rope) in self.ropes.iter().enumerate() {
+            let range = self.of_rope(i);
+            let of_rope = &mut out[range.clone()];
             if self.ends[i] == RopeEnd::Gone {
+                of_rope.fill(0.0);
                 continue;
             }
-            let range = self.of_rope(i);
             let wind = self.air.on_rope(i, time);
-            let of_rope = &mut out[range.clone()];
-            let free = self.free_length(i, &lengths[i], m);
-            rope.needed(&free, &wind, &m.x[range.clone()], &m.v[range.clone()], &m.a[range], of_rope);
+            rope.add_outer_forces(&free[i], &wind, [&m.x[range.clone()], &m.v[range.clone()], &m.a[range]], of_rope);
             if self.ends[i] == RopeEnd::Attached {
                 on_body += MovingBody::wrench(body, &self.body.lever_p(i), &three(of_rope, 0));
             }
