@@ -14,7 +14,7 @@ mod solid;
 mod span;
 
 use crate::math::Vec3;
-use crate::robot::{Body, RequiredClearance, Robot, vector};
+use crate::robot::{Body, Pose, RequiredClearance, Robot, vector};
 use crate::statics::Equilibrium;
 use parry3d_f64::shape::{ConvexPolyhedron, Segment, SharedShape, TriMesh};
 use solid::PlacedBody;
@@ -188,25 +188,45 @@ impl<'a> Surroundings<'a> {
 
     /// Pair with the least margin at an equilibrium, of one kind or of all; `None` without such a pair.
     pub fn least(&self, rest: &Equilibrium, kind: Option<ClearanceKind>) -> Option<Clearance> {
-        let at = self.at(rest);
-        let mut least: Option<Clearance> = None;
-        for pair in at.pairs_of(kind) {
-            // Pairs that are surely farther apart need no exact distance.
-            let enough = least.map_or(f64::INFINITY, |least| least.margin());
-            let found = at.clearance(pair, enough);
-            if let Some(found) = found.filter(|found| found.margin() < enough) {
-                least = Some(found);
-            }
-        }
-        least
+        self.at(rest).least(kind)
+    }
+
+    /// Pair with the least margin while cables are straight between points, from the platform to the anchor: those of a
+    /// simulation. A cable without points has no pair.
+    ///
+    /// # Example
+    /// ```
+    /// use funicular::clearance::Surroundings;
+    /// use funicular::robot::Robot;
+    /// use funicular::simulation::{Simulation, SimulationSettings};
+    /// use funicular::statics::{self, StaticModel};
+    ///
+    /// let robot = Robot::from_toml(funicular_robots::YUAN2014_4MM)?;
+    /// let rest = statics::solve(&robot, StaticModel::Catenary, None)?.equilibrium;
+    /// let mut simulation = Simulation::new(&robot, &rest, &[], 0.1, &SimulationSettings::default())?;
+    /// let surroundings = Surroundings::of(&robot);
+    /// let moving = surroundings.least_through(&rest.pose, &simulation.curves_w(0.0)).unwrap();
+    /// let resting = surroundings.least(&rest, None).unwrap();
+    /// assert_eq!(moving.pair, resting.pair);
+    /// assert!((moving.distance - resting.distance).abs() < 1e-4); // m
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn least_through(&self, pose: &Pose, curves_w: &[Vec<Vec3>]) -> Option<Clearance> {
+        let spans = curves_w.iter().zip(&self.robot.cables);
+        let spans = spans.map(|(points_w, cable)| FreeSpan::through(points_w, cable.radius(), self.from_end)).collect();
+        self.placed(pose, spans).least(None)
     }
 
     fn at<'s>(&'s self, rest: &'s Equilibrium) -> Placed<'s> {
         let spans = rest.cables.iter().zip(&self.robot.cables);
-        let spans = spans.map(|(state, cable)| FreeSpan::of(state, cable.radius(), self.from_end)).collect();
+        let spans = spans.map(|(state, cable)| FreeSpan::of(state, cable.radius(), self.from_end));
+        self.placed(&rest.pose, spans.collect())
+    }
+
+    fn placed<'s>(&'s self, pose: &Pose, spans: Vec<FreeSpan<'s>>) -> Placed<'s> {
         let platform = self.platform.iter().map(|body| match body {
-            PlatformBody::Given(body) => PlacedBody::on_platform(body, &rest.pose),
-            PlatformBody::Hull(shape) => PlacedBody::of_shape(shape.clone(), &rest.pose),
+            PlatformBody::Given(body) => PlacedBody::on_platform(body, pose),
+            PlatformBody::Hull(shape) => PlacedBody::of_shape(shape.clone(), pose),
         });
         Placed { of: self, spans, platform: platform.collect() }
     }
@@ -257,7 +277,7 @@ fn solid_hull(points: &[parry3d_f64::math::Vector]) -> Option<ConvexPolyhedron> 
     if thickness <= FLAT * size { None } else { ConvexPolyhedron::from_convex_hull(points) }
 }
 
-/// Surroundings at one equilibrium.
+/// Surroundings at one pose.
 struct Placed<'a> {
     of: &'a Surroundings<'a>,
     spans: Vec<FreeSpan<'a>>,
@@ -283,6 +303,20 @@ impl Placed<'_> {
         let between = |body| (0..obstacles).map(move |obstacle| ClearancePair::PlatformAndObstacle { body, obstacle });
         pairs.extend((0..bodies).flat_map(between));
         pairs
+    }
+
+    /// Pair with the least margin, of one kind or of all.
+    fn least(&self, kind: Option<ClearanceKind>) -> Option<Clearance> {
+        let mut least: Option<Clearance> = None;
+        for pair in self.pairs_of(kind) {
+            // Pairs that are surely farther apart need no exact distance.
+            let enough = least.map_or(f64::INFINITY, |least| least.margin());
+            let found = self.clearance(pair, enough);
+            if let Some(found) = found.filter(|found| found.margin() < enough) {
+                least = Some(found);
+            }
+        }
+        least
     }
 
     /// Distance of a pair; `None` if there is none, or if its margin is surely above `enough`.

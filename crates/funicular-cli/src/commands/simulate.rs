@@ -13,7 +13,7 @@ use funicular_files::Begin;
 use funicular_files::Guard;
 use funicular_pages::figures;
 use funicular_study::Cancelled;
-use funicular_study::analyses::simulate::{self, ColumnError, Peak, Simulated, SimulatedRow};
+use funicular_study::analyses::simulate::{self, ColumnError, Peak, RowNames, Simulated, SimulatedRow};
 use funicular_study::request::{Request, Scenario, SimulateRequest};
 use funicular_study::wording::{Words, worded};
 use partial::PartialRows;
@@ -59,9 +59,9 @@ pub(super) fn run(of: &SimulateRequest, args: &SimulateArgs, guard: &mut Guard) 
     let printed = OutputArgs { format: output.format, output_file };
     let animation = OtherFile::animation(args.animation.as_deref());
     let files = ResultFiles::open(&printed, animation, args.page.as_deref(), guard)?;
-    let cables: Vec<String> = robot.cables.iter().map(|cable| cable.name.clone()).collect();
+    let names = RowNames::of(&robot, &of.point);
     let earlier = Begin::of(args.resume, args.discard);
-    let (mut partial, begun) = PartialRows::beside(printed.output_file.as_deref(), of, cables, earlier, guard)?;
+    let (mut partial, begun) = PartialRows::beside(printed.output_file.as_deref(), of, names, earlier, guard)?;
 
     let mut watch = TerminalProgress::new();
     let found = simulate::run_with(robot, of, &mut watch, &mut partial, begun)?;
@@ -83,7 +83,7 @@ pub(super) fn run(of: &SimulateRequest, args: &SimulateArgs, guard: &mut Guard) 
 
 impl Printed for Simulated {
     fn text(&self) -> String {
-        let columns = SimulatedRow::columns(&self.cables, &self.points);
+        let columns = SimulatedRow::columns(&self.names());
         let step = self.rows.len().div_ceil(SHOWN).max(1);
         let shown = self.rows.iter().step_by(step);
         let table = Table::of(&columns, shown.clone());
@@ -106,6 +106,9 @@ impl Printed for Simulated {
         for slack in &self.slack {
             let (first, share) = (significant(slack.first_s, 4), significant(100.0 * slack.share, 3));
             let _ = writeln!(text, "cable \"{}\" is slack from {first} s on, for {share} % of the time", slack.cable);
+        }
+        if let Some(nearest) = &self.nearest {
+            let _ = writeln!(text, "{}", nearest.in_words());
         }
         let _ = write!(text, "\n{table}\n{} of {} shown.\n", shown.len(), counted(self.rows.len(), "row"));
         let _ = write!(text, "\nLargest tensions\n{}", Table::of(&Peak::columns(), &self.peaks));

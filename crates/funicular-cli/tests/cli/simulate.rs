@@ -1,6 +1,6 @@
 //! `simulate`: page, figure, animation, chosen points, and a run that is killed.
 
-use super::{csv, json, numbers, project, robot, run, stderr, succeed};
+use super::{csv, json, numbers, project, robot, run, stderr, stdout, succeed};
 use std::fs;
 use std::path::Path;
 use std::process::{Command, Stdio};
@@ -151,4 +151,40 @@ fn a_killed_run_is_continued() {
     succeed(&[&line[..], &["-o", &whole]].concat());
     assert!(fs::read(&killed).unwrap() == fs::read(&whole).unwrap(), "every digit is the same");
     assert!(!Path::new(&state).exists() && !Path::new(&at("killed.csv.partial")).exists());
+}
+
+/// Distances of the moving cables are in the rows, their least one is said, and a run that is continued has them too.
+#[test]
+fn a_release_beside_a_pillar_has_distances() {
+    let directory = tempfile::tempdir().unwrap();
+    let at = |name: &str| directory.path().join(name).to_str().unwrap().to_owned();
+    let pillar =
+        "\n[obstacles.pillar]\nsize_m = [0.2, 0.2, 0.8]\nposition_m = [0, 0, 1.0]\n[clearance]\nobstacles_m = 0.01\n";
+    let text = fs::read_to_string(robot("yuan2014-4mm.toml")).unwrap() + pillar;
+    fs::write(at("hall.toml"), text).unwrap();
+    let scenario = project("docs/simulation/release.toml");
+    let hall = at("hall.toml");
+    let line = ["simulate", &hall, "--mass-kg", "12.5", "--scenario", &scenario, "--for", "0.3", "--elements", "2"];
+
+    let found = json(&line);
+    let rows = found["rows"].as_array().unwrap();
+    let margins: Vec<f64> = rows.iter().map(|row| row["clearance_margin_m"].as_f64().unwrap()).collect();
+    let at_rest = json(&["clearance", &hall, "--mass-kg", "12.5"]);
+    let least = at_rest["pairs"].as_array().unwrap().iter().map(|pair| pair["margin_m"].as_f64().unwrap());
+    let least = least.fold(f64::INFINITY, f64::min);
+    // Lines between the nodes of the ropes are near the ropes by a part of their sag.
+    assert!((margins[0] - least).abs() < 1e-4, "{} {least}", margins[0]);
+    // The platform rises towards the pillar above it when the payload is gone.
+    let nearest = &found["nearest"];
+    assert_eq!(nearest["margin_m"].as_f64(), margins.iter().copied().reduce(f64::min));
+    assert!(nearest["pair"].as_str().unwrap().contains("pillar"), "{nearest}");
+    assert!(margins[0] - nearest["margin_m"].as_f64().unwrap() > 5e-4, "{margins:?}");
+    let errors = found["errors"].as_array().unwrap();
+    let error = errors.iter().find(|of| of["column"] == "clearance_margin_m").unwrap();
+    assert!(error["largest"].as_f64().unwrap() < 1e-4);
+
+    let (header, cells) = csv(&line);
+    let place = header.iter().position(|name| name == "clearance_margin_m").unwrap();
+    assert_eq!(cells[7][place].parse::<f64>().unwrap().to_bits(), margins[7].to_bits());
+    assert!(stdout(&run(&line)).contains("The least distance is "));
 }

@@ -7,7 +7,9 @@ use crate::figures::simulated::displacement_unit;
 use anyhow::Context as _;
 use askama::Template;
 use funicular::modes::Kind;
-use funicular_study::analyses::simulate::{ColumnError, MotionSpectrum, Peak, Simulated, SimulatedRow, SlackSpan};
+use funicular_study::analyses::simulate::{
+    ColumnError, MotionSpectrum, NearestRow, Peak, Simulated, SimulatedRow, SlackSpan,
+};
 use funicular_study::text::short;
 use serde_json::{Value, json};
 
@@ -92,7 +94,8 @@ fn happened(found: &Simulated) -> Vec<String> {
         let (first, share) = (significant(slack.first_s, 4), significant(100.0 * slack.share, 3));
         format!("Cable {} is slack from {first} s on, for {share} % of the time.", slack.cable)
     });
-    marks.chain(slack).collect()
+    let nearest = found.nearest.as_ref().map(NearestRow::in_words);
+    marks.chain(slack).chain(nearest).collect()
 }
 
 fn times(found: &Simulated) -> Vec<f64> {

@@ -11,7 +11,7 @@ pub use error::{ColumnError, Peak};
 pub use events::{ScenarioEvents, scenario_from_toml};
 pub use keeping::{BegunRun, NothingKept, RowKeeper};
 pub use picture::{EventMark, SimulatedFrame, SimulatedPicture, SlackSpan};
-pub use rows::SimulatedRow;
+pub use rows::{RowNames, SimulatedRow};
 pub use spectrum::MotionSpectrum;
 
 use super::found;
@@ -21,10 +21,12 @@ use crate::columns::{ResultTable, Tabled};
 use crate::error::{Cancelled, NoSolution};
 use crate::request::{PointValue, SimulateRequest};
 use crate::table::Column;
+use crate::text::significant;
 use crate::values::finite;
 use crate::watch::Watch;
 use anyhow::{Result, anyhow, bail};
 use error::errors;
+use funicular::clearance::Surroundings;
 use funicular::robot::{PlatformMotion, Robot};
 use funicular::simulation::{ElementMesh, Simulation, SimulationError, SimulationSettings, StepCounts};
 use keeping::STATE_ROWS;
@@ -56,6 +58,9 @@ pub struct Simulated {
     pub slack: Vec<SlackRow>,
     /// Cables that failed.
     pub cuts: Vec<CutRow>,
+    /// Time at which the parts of the robot are nearest; absent if its file says nothing about distances.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub nearest: Option<NearestRow>,
     /// What the books of the energy are off by, at most [J].
     pub energy_defect_j: f64,
     /// True if slack ropes make the history depend on the mesh, so that its peaks are statistics.
@@ -96,6 +101,27 @@ pub struct SlackRow {
     pub share: f64,
 }
 
+/// Least margin of all rows.
+#[derive(Serialize, Clone)]
+pub struct NearestRow {
+    pub t_s: f64,
+    /// Distance beyond the required one.
+    pub margin_m: f64,
+    /// Things that are nearest, in words; absent for a row of a run that was continued.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub pair: Option<String>,
+}
+
+impl NearestRow {
+    /// Sentence on it.
+    pub fn in_words(&self) -> String {
+        let (margin, time) = (significant(1e3 * self.margin_m.abs(), 3), significant(self.t_s, 4));
+        let pair = self.pair.as_ref().map_or_else(String::new, |pair| format!(", between {pair}"));
+        let word = if self.margin_m < 0.0 { "less" } else { "more" };
+        format!("The least distance is {margin} mm {word} than required, at {time} s{pair}.")
+    }
+}
+
 /// Cable that failed.
 #[derive(Serialize)]
 pub struct CutRow {
@@ -128,7 +154,6 @@ pub fn run_with(
     let events = ScenarioEvents::of(&request.scenario, &vibrating)?;
     let settings = settings(request)?;
     let times = times(request)?;
-
     check_points(&request.point, &vibrating.robot)?;
     let course = Course { at_rest: &vibrating, events: &events, times: &times, points: &request.point };
 
@@ -154,6 +179,7 @@ struct History {
     picture: SimulatedPicture,
     slack: Vec<SlackRow>,
     cuts: Vec<CutRow>,
+    nearest: Option<NearestRow>,
     counts: StepCounts,
 }
 
@@ -232,6 +258,8 @@ impl Course<'_> {
             rows.extend(begun.rows);
         }
         let mut picture = SimulatedPicture::new(robot, equilibrium, &events.list);
+        let around = robot.judges_clearance().then(|| Surroundings::of(robot));
+        let mut nearest = nearest_of(&rows);
         for (k, time) in times.iter().enumerate().skip(rows.len()) {
             if watch.is_cancelled() {
                 if rows.is_empty() {
@@ -241,7 +269,16 @@ impl Course<'_> {
             }
             let sample = simulation.at(*time).map_err(|error| events.told(error))?;
             picture.keep(&mut simulation, &sample, k, times.len());
-            let row = SimulatedRow::of(&sample, points);
+            let clearance = around
+                .as_ref()
+                .and_then(|around| Some((around, around.least_through(&sample.pose, &simulation.curves_w(*time))?)));
+            if let Some((around, clearance)) = clearance
+                && nearest.as_ref().is_none_or(|nearest| clearance.margin() < nearest.margin_m)
+            {
+                let pair = Some(around.pair_text(clearance.pair));
+                nearest = Some(NearestRow { t_s: *time, margin_m: clearance.margin(), pair });
+            }
+            let row = SimulatedRow::of(&sample, points, clearance.map(|(_, clearance)| clearance.margin()));
             keeper.row(&row)?;
             rows.push(row);
             if rows.len() % STATE_ROWS == 0 {
@@ -250,8 +287,15 @@ impl Course<'_> {
             watch.progress(k + 1, times.len(), "rows");
         }
         picture.end(&simulation);
-        Ok(History::new(robot, &simulation, rows, picture))
+        Ok(History { nearest, ..History::new(robot, &simulation, rows, picture) })
     }
+}
+
+/// Row with the least margin.
+fn nearest_of(rows: &[SimulatedRow]) -> Option<NearestRow> {
+    let margins = rows.iter().filter_map(|row| Some((row.t_s, row.clearance_margin_m?)));
+    let (t_s, margin_m) = margins.min_by(|a, b| a.1.total_cmp(&b.1))?;
+    Some(NearestRow { t_s, margin_m, pair: None })
 }
 
 impl History {
@@ -265,6 +309,7 @@ impl History {
             slack: slack.collect(),
             cuts: simulation.cuts().iter().map(|(i, t_s)| CutRow { cable: name(*i), t_s: *t_s }).collect(),
             counts: simulation.counts(),
+            nearest: None,
             rows,
             picture,
         }
@@ -272,7 +317,7 @@ impl History {
 }
 
 fn found(at_rest: &AtRest, request: &SimulateRequest, first: History, finer: Option<&History>) -> Simulated {
-    let cables: Vec<String> = at_rest.robot.cables.iter().map(|cable| cable.name.clone()).collect();
+    let RowNames { cables, points, .. } = RowNames::of(&at_rest.robot, &request.point);
     let is_statistical = !first.slack.is_empty();
     let (errors, peaks) = errors(&cables, &first.rows, finer.map(|finer| &finer.rows[..]));
     let reached = first.rows.last().map_or(0.0, |row| row.t_s);
@@ -283,6 +328,16 @@ fn found(at_rest: &AtRest, request: &SimulateRequest, first: History, finer: Opt
     }
     if at_rest.robot.cables.iter().any(|cable| cable.anchor.pulley.as_ref().is_some_and(|of| of.friction.is_some())) {
         warnings.push("the friction of pulleys is left out".to_owned());
+    }
+    if let Some(NearestRow { t_s, margin_m, pair }) = &first.nearest
+        && *margin_m < 0.0
+    {
+        let pair = pair.as_deref().unwrap_or("two parts of the robot");
+        warnings.push(format!(
+            "{pair} are nearer than required by {} mm at {} s; the simulation goes on as if they did not touch",
+            significant(-1e3 * margin_m, 3),
+            significant(*t_s, 4)
+        ));
     }
     if is_statistical {
         warnings.push(
@@ -304,11 +359,12 @@ fn found(at_rest: &AtRest, request: &SimulateRequest, first: History, finer: Opt
         energy_defect_j: first.rows.iter().map(|row| row.energy_defect_j.abs()).fold(0.0, f64::max),
         slack: first.slack,
         cuts: first.cuts,
+        nearest: first.nearest,
         is_statistical,
         errors,
         peaks,
         cables,
-        points: request.point.iter().map(|point| point.name.clone()).collect(),
+        points,
         rows: first.rows,
         picture: first.picture,
         warnings,
@@ -316,6 +372,12 @@ fn found(at_rest: &AtRest, request: &SimulateRequest, first: History, finer: Opt
 }
 
 impl Simulated {
+    /// What the columns of the rows depend on.
+    pub fn names(&self) -> RowNames {
+        let (cables, points) = (self.cables.clone(), self.points.clone());
+        RowNames { cables, points, has_distances: self.nearest.is_some() }
+    }
+
     /// Times at which cables are slack, by the rows.
     pub fn slack_spans(&self) -> Vec<SlackSpan> {
         picture::slack_spans(&self.rows, |i| {
@@ -326,11 +388,12 @@ impl Simulated {
 
 impl Tabled for Simulated {
     fn tables() -> Vec<(&'static str, Vec<Column>)> {
-        vec![("", SimulatedRow::columns(&["NAME".to_owned()], &["POINT".to_owned()]).described())]
+        let names = RowNames { cables: vec!["NAME".to_owned()], points: vec!["POINT".to_owned()], has_distances: true };
+        vec![("", SimulatedRow::columns(&names).described())]
     }
 
     fn table(&self) -> ResultTable<'_> {
-        ResultTable::new(SimulatedRow::columns(&self.cables, &self.points), &self.rows)
+        ResultTable::new(SimulatedRow::columns(&self.names()), &self.rows)
     }
 }
 

@@ -1,5 +1,6 @@
 //! Arcs of a cable, with bounds of how far they leave their chords and of their derivatives.
 
+use super::segments;
 use crate::catenary::space::HangingCable;
 use crate::math::Vec3;
 
@@ -37,6 +38,17 @@ impl Arc {
         let slope = (points_w[1] - points_w[0]).norm() / (s[1] - s[0]);
         let bounds = ArcBounds { slope: [slope; 2], second: [0.0; 2], turn: [1.0, 0.0] };
         Self { s, points_w, sagitta: 0.0, outward_w: None, middle: 0.5 * (s[0] + s[1]), bounds: Some(bounds) }
+    }
+
+    /// Part of a line that is straight between points, of which these lie within it. The farthest point of the chord is
+    /// one of them.
+    pub(super) fn through(s: [f64; 2], points_w: [Vec3; 2], places: &[f64], inner_w: &[Vec3]) -> Self {
+        if places.is_empty() {
+            return Self::straight(s, points_w);
+        }
+        let off = |point_w: &Vec3| segments::nearest(&[*point_w; 2], &points_w).distance;
+        let sagitta = inner_w.iter().map(off).fold(0.0, f64::max);
+        Self { s, points_w, sagitta, outward_w: None, middle: places[places.len() / 2], bounds: None }
     }
 
     /// Part of a sagging cable between two places.

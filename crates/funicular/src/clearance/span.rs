@@ -12,11 +12,10 @@ use std::collections::BinaryHeap;
 
 /// Free span, from the platform (0) to the anchor.
 pub(super) struct FreeSpan<'a> {
-    /// Curve; none for a straight cable.
-    hanging: Option<&'a HangingCable>,
+    shape: SpanShape<'a>,
     /// Ends: at the platform and at the anchor [m].
     pub(super) ends_w: [Vec3; 2],
-    /// Unstrained length, or the chord of a straight cable [m].
+    /// Unstrained length, the chord of a straight cable, or the length of a line through points [m].
     pub(super) length: f64,
     /// Length at an end that may be left out, in the same measure [m].
     from_end: f64,
@@ -24,6 +23,17 @@ pub(super) struct FreeSpan<'a> {
     pub(super) radius: f64,
     /// Parts without the ends that are left out, by [`Self::part`]; pairs share them.
     parts: [OnceCell<Option<Arc>>; 4],
+}
+
+/// Curve of a span.
+enum SpanShape<'a> {
+    Straight,
+    Hanging(&'a HangingCable),
+    /// Straight between points, whose places on the span [m] are given.
+    Through {
+        points_w: &'a [Vec3],
+        places: Vec<f64>,
+    },
 }
 
 /// End of a span.
@@ -55,7 +65,22 @@ impl<'a> FreeSpan<'a> {
         let chord = state.chord();
         let length = hanging.map_or(chord, |hanging| hanging.catenary.rope().unstrained_length);
         let ends_w = [state.attachment_w, state.anchor_w];
-        Self { hanging, ends_w, length, from_end, radius, parts: Default::default() }
+        let shape = hanging.map_or(SpanShape::Straight, SpanShape::Hanging);
+        Self { shape, ends_w, length, from_end, radius, parts: Default::default() }
+    }
+
+    /// Span that is straight between points, from the platform to the anchor; without points it has no length, and nothing
+    /// of it is compared.
+    pub(super) fn through(points_w: &'a [Vec3], radius: f64, from_end: f64) -> Self {
+        let mut length = 0.0;
+        let pieces = points_w.windows(2).map(|pair| {
+            length += (pair[1] - pair[0]).norm();
+            length
+        });
+        let places = std::iter::once(0.0).chain(pieces).collect();
+        let ends_w = [points_w.first(), points_w.last()].map(|end| end.copied().unwrap_or_else(Vec3::zeros));
+        let shape = SpanShape::Through { points_w, places };
+        Self { shape, ends_w, length, from_end, radius, parts: Default::default() }
     }
 
     /// Vector from the platform to the anchor [m].
@@ -65,18 +90,29 @@ impl<'a> FreeSpan<'a> {
 
     /// Point at a place [m].
     pub(super) fn point(&self, s: f64) -> Vec3 {
-        match self.hanging {
-            Some(hanging) => hanging.point_w(s),
-            None => self.ends_w[0] + self.chord_w() * (s / self.length),
+        match &self.shape {
+            SpanShape::Hanging(hanging) => hanging.point_w(s),
+            SpanShape::Straight => self.ends_w[0] + self.chord_w() * (s / self.length),
+            SpanShape::Through { points_w, places } => {
+                let [from, to] = piece(places, s);
+                let length = places[to] - places[from];
+                let part = if length > 0.0 { (s - places[from]) / length } else { 0.0 };
+                points_w[from] + (points_w[to] - points_w[from]) * part
+            }
         }
     }
 
     /// Point at a place with its derivatives; not finite where a loop turns without tension.
     pub(super) fn point_with_derivatives(&self, s: f64) -> PointOnSpan {
         let point_w = self.point(s);
-        let Some(hanging) = self.hanging else {
-            let slope_w = self.chord_w() / self.length;
-            return PointOnSpan { point_w, slope_w, curvature_w: Vec3::zeros() };
+        let straight = |slope_w: Vec3| PointOnSpan { point_w, slope_w, curvature_w: Vec3::zeros() };
+        let hanging = match &self.shape {
+            SpanShape::Straight => return straight(self.chord_w() / self.length),
+            SpanShape::Through { points_w, places } => {
+                let [from, to] = piece(places, s);
+                return straight((points_w[to] - points_w[from]) / (places[to] - places[from]));
+            }
+            SpanShape::Hanging(hanging) => hanging,
         };
         let catenary = &hanging.catenary;
         let rope = catenary.rope();
@@ -98,9 +134,14 @@ impl<'a> FreeSpan<'a> {
     }
 
     fn arc_between(&self, s: [f64; 2], points_w: [Vec3; 2]) -> Arc {
-        match self.hanging {
-            Some(hanging) => Arc::of_hanging(hanging, s, points_w),
-            None => Arc::straight(s, points_w),
+        match &self.shape {
+            SpanShape::Hanging(hanging) => Arc::of_hanging(hanging, s, points_w),
+            SpanShape::Straight => Arc::straight(s, points_w),
+            SpanShape::Through { points_w: all_w, places } => {
+                let inner =
+                    places.partition_point(|place| *place <= s[0])..places.partition_point(|place| *place < s[1]);
+                Arc::through(s, points_w, &places[inner.clone()], &all_w[inner])
+            }
         }
     }
 
@@ -164,4 +205,10 @@ impl<'a> FreeSpan<'a> {
         }
         Some((best.0 - self.radius, best.1))
     }
+}
+
+/// Numbers of the points between which a place lies.
+fn piece(places: &[f64], s: f64) -> [usize; 2] {
+    let to = places.partition_point(|place| *place < s).clamp(1, places.len() - 1);
+    [to - 1, to]
 }

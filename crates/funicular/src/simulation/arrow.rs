@@ -80,7 +80,7 @@ impl Arrow {
                 self.add_rope((system, i), &body, &kept, force_w, of, (&mut matrix, &mut of_supports));
             }
         }
-        self.packs = FactorPack::of(&system.ropes, &system.ends, &self.factors);
+        self.packs = FactorPack::of(&system.ropes, |i| system.ends[i] == RopeEnd::Gone, &self.factors);
         if !system.supports.is_empty() {
             self.supports.inverse = of_supports.try_inverse().ok_or(NotPositive)?;
             let lost = self.supports.by_body.transpose() * &self.supports.inverse * &self.supports.by_body;

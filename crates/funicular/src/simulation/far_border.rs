@@ -1,7 +1,7 @@
 //! Far end of a rope in Newton's matrix: its numbers as columns beside those of the rope's nodes.
 
 use super::body::joined;
-use super::far_end::{FarEnd, FarForces};
+use super::far_end::{FarEnd, FarForces, delayed_weights};
 use super::rope::{Border, Newton, RopeMesh, WoundLength};
 use super::skyline::{NotPositive, Skyline};
 use super::system::{MotionNumbers, System, three};
@@ -104,6 +104,15 @@ impl FarBorder {
         }
         if let Some(at) = places.integral {
             own[(at, at)] += of.mass.max(1.0);
+        }
+        if let (Some(feed), Some(at), Some(delayed)) = (&far.feed, places.feed, places.delayed)
+            && let Some((delay, gains)) = feed.delayed_servo()
+        {
+            let last = at + feed.count() - 1;
+            let [after, before] = delayed_weights(delay, [of.stiffness, of.damping, of.mass]);
+            own[(delayed, delayed)] += after;
+            own[(delayed, last)] -= before;
+            own[(last, delayed)] += gains[0] * of.stiffness + gains[1] * of.damping;
         }
         if let Some((at, sideways_w)) = self.swivel {
             own[(at, at)] += sideways_w.dot(&(end * sideways_w))
@@ -225,7 +234,7 @@ impl FarBorder {
             && feed.follows_command()
         {
             hold(at + feed.count() - 1);
-            places.integral.into_iter().for_each(&mut hold);
+            places.integral.into_iter().chain(places.delayed).for_each(&mut hold);
         }
     }
 

@@ -47,12 +47,13 @@ pub(super) struct FarEnd {
     pub(super) off_tangent: f64,
 }
 
-/// Places among the coordinates of a far end: swivel (as the arc rγ), stations, integral of a servo's error.
+/// Places among the coordinates of a far end: swivel (as the arc rγ), stations, integral of a servo's error, delayed error.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct FarPlaces {
     pub(super) swivel: Option<usize>,
     pub(super) feed: Option<usize>,
     pub(super) integral: Option<usize>,
+    pub(super) delayed: Option<usize>,
     pub(super) count: usize,
 }
 
@@ -98,7 +99,8 @@ impl FarEnd {
         let swivel = self.contact.is_some().then(|| take(1));
         let feed = self.feed.as_ref().map(|feed| take(feed.count()));
         let integral = self.feed.as_ref().filter(|feed| feed.has_integral()).map(|_| take(1));
-        FarPlaces { swivel, feed, integral, count }
+        let delayed = self.feed.as_ref().and_then(Feed::delayed_servo).map(|_| take(1));
+        FarPlaces { swivel, feed, integral, delayed, count }
     }
 
     /// True if the swivel can move.
@@ -130,6 +132,16 @@ impl FarEnd {
         let contact = self.contact_at(swivel).filter(|_| self.swivels())?;
         Some(contact.sideways_w * (contact.distance_from_axis() / contact.radius))
     }
+}
+
+/// The two sides of the equation of a delayed number, `T²d″/12 + Td′/2 + d = T²e″/12 − Te′/2 + e`, for a number with its
+/// rate and acceleration.
+///
+/// # References
+/// docs/theory.md, equation (97m1).
+pub(super) fn delayed_weights(delay: f64, [value, rate, acceleration]: [f64; 3]) -> [f64; 2] {
+    let (even, odd) = (value + delay * delay / 12.0 * acceleration, 0.5 * delay * rate);
+    [even + odd, even - odd]
 }
 
 /// Forces at a far end.

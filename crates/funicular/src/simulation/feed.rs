@@ -266,6 +266,14 @@ impl Feed {
         self.motor.is_some_and(|motor| motor.integral_gain > 0.0)
     }
 
+    /// Delay of the servo that holds the last station [s], and its gains in the coordinates of the stations; `None` without
+    /// a delay. While the winch holds a tension the gains are zero.
+    pub(super) fn delayed_servo(&self) -> Option<(f64, [f64; 2])> {
+        let servo = self.motor?.servo.filter(|servo| servo.delay > 0.0)?;
+        let scale = if self.hold == WinchHold::Length { self.stretch * self.stretch } else { 0.0 };
+        Some((servo.delay, [servo.position_gain, servo.speed_gain].map(|gain| scale * gain)))
+    }
+
     /// True while the last station goes where the command goes.
     pub(super) fn follows_command(&self) -> bool {
         self.is_locked && !self.is_open()
@@ -312,7 +320,8 @@ impl Feed {
         }
     }
 
-    /// Forces for the lengths `y` of the stations and their rates, the integral of the servo's error behind them.
+    /// Forces for the lengths `y` of the stations and their rates, behind them the integral of the servo's error and its
+    /// delayed error.
     /// `given` is the commanded length; `first` is the arc of the first piece, and by how much its straight part is longer
     /// than at the start [m].
     ///
@@ -398,13 +407,17 @@ impl Feed {
         let scale = self.stretch * self.stretch;
         let mut force = self.stretch * self.hold.tension(time).unwrap_or(self.bias);
         if let (Some(servo), WinchHold::Length) = (motor.servo, self.hold) {
-            let integral = if motor.integral_gain > 0.0 { y[last + 1] } else { 0.0 };
-            force += scale
-                * (servo.position_gain * (y[last] - given.value)
-                    + servo.speed_gain * (v[last] - given.rate)
-                    + motor.integral_gain * integral);
-            out.stiffness[last] += scale * servo.position_gain;
-            out.damping[last] += scale * servo.speed_gain;
+            let has_integral = motor.integral_gain > 0.0;
+            let integral = if has_integral { y[last + 1] } else { 0.0 };
+            let [error, rate] = if servo.delay > 0.0 {
+                let delayed = last + 1 + usize::from(has_integral);
+                [y[delayed], v[delayed]]
+            } else {
+                out.stiffness[last] += scale * servo.position_gain;
+                out.damping[last] += scale * servo.speed_gain;
+                [y[last] - given.value, v[last] - given.rate]
+            };
+            force += scale * (servo.position_gain * error + servo.speed_gain * rate + motor.integral_gain * integral);
         }
         out.needed[last] += force + scale * motor.damping * v[last];
         out.damping[last] += scale * motor.damping;

@@ -1,6 +1,6 @@
 //! A simulation from its start to its end: events in their order, samples at the times that the caller asks for.
 
-use super::books::{EnergyBooks, StepPowers};
+use super::books::{EnergyBooks, Powers, StepPowers};
 use super::dense::DenseOutput;
 use super::esdirk::{StepCounts, Stepper};
 use super::event::{CutAt, EventFault, Faulty, SimulationEvent};
@@ -89,6 +89,8 @@ pub struct Simulation {
     /// Times at which steps end, rising.
     breaks: Vec<f64>,
     books: EnergyBooks,
+    /// Powers at the present time.
+    powers: Powers,
     last: Option<(DenseOutput, StepPowers, EnergyBooks)>,
     slack: Vec<SlackCable>,
     work: MotionNumbers,
@@ -123,6 +125,7 @@ impl Simulation {
             cuts: Vec::new(),
             breaks: Vec::new(),
             books: EnergyBooks::default(),
+            powers: Powers::default(),
             last: None,
             slack: vec![SlackCable::default(); count],
             work: MotionNumbers::zeros(size),
@@ -189,11 +192,17 @@ impl Simulation {
     fn begin(&mut self) -> Result<(), SimulationError> {
         self.stepper.restart().map_err(|of| self.too_fast(of.time))?;
         self.last = None;
+        self.take_energy();
+        Ok(())
+    }
+
+    /// Energies and powers at the present time.
+    fn take_energy(&mut self) {
         let stepper = &self.stepper;
         let lengths = stepper.system.lengths(stepper.time);
-        let (energy, _) = stepper.system.energy(stepper.time, &lengths, &stepper.now, &stepper.needed);
-        self.books = EnergyBooks { ..with_energy(&self.books, &energy) };
-        Ok(())
+        let (energy, powers) = stepper.system.energy(stepper.time, &lengths, &stepper.now, &stepper.needed);
+        self.books = with_energy(&self.books, &energy);
+        self.powers = powers;
     }
 
     fn too_fast(&self, time: f64) -> SimulationError {
@@ -263,43 +272,38 @@ impl Simulation {
         let now = self.stepper.time;
         let next = self.breaks.partition_point(|at| *at <= now);
         let until = self.breaks.get(next).copied().unwrap_or(now + 1.0);
-        let start = self.stepper.system.lengths(now);
-        let first = self.stepper.system.energy(now, &start, &self.stepper.now, &self.stepper.needed).1;
         let dense = self.stepper.advance(until).map_err(|of| self.too_fast(of.time))?;
         if let Some((event, cable, time)) = self.blown(&dense) {
             // Back to the time at which the cable fails.
             self.rewind(&dense, time);
-            let end = self.powers_between(&dense, first, time);
-            self.book(dense, end);
+            self.book(dense, time);
             self.cut(event, cable)?;
             self.fuses.retain(|fuse| fuse.0 != event);
             return self.begin();
         }
-        let end = self.powers_between(&dense, first, dense.until);
-        self.book(dense, end);
+        let until = dense.until;
+        self.book(dense, until);
         Ok(())
     }
 
-    /// Powers of a step up to a time at which the stepper is.
-    fn powers_between(&mut self, dense: &DenseOutput, first: super::books::Powers, until: f64) -> StepPowers {
-        let middle = 0.5 * (dense.from + until);
-        let stepper = &mut self.stepper;
-        let rotation = std::mem::replace(&mut stepper.system.rotation, dense.rotation);
-        let lengths = stepper.system.within(dense, middle, &mut self.work, &mut self.needed);
-        let halfway = stepper.system.energy(middle, &lengths, &self.work, &self.needed).1;
-        stepper.system.rotation = rotation;
-        let lengths = stepper.system.lengths(stepper.time);
-        let last = stepper.system.energy(stepper.time, &lengths, &stepper.now, &stepper.needed).1;
-        StepPowers { at: [first, halfway, last], duration: until - dense.from }
+    /// Powers within a step.
+    fn powers_at(&mut self, dense: &DenseOutput, time: f64) -> Powers {
+        let system = &mut self.stepper.system;
+        let rotation = std::mem::replace(&mut system.rotation, dense.rotation);
+        let lengths = system.within(dense, time, &mut self.work, &mut self.needed);
+        let powers = system.energy(time, &lengths, &self.work, &self.needed).1;
+        system.rotation = rotation;
+        powers
     }
 
-    /// Enters a step into the books.
-    fn book(&mut self, dense: DenseOutput, powers: StepPowers) {
+    /// Enters a step into the books, up to a time at which the stepper is.
+    fn book(&mut self, dense: DenseOutput, until: f64) {
         let before = self.books;
-        let stepper = &self.stepper;
-        let lengths = stepper.system.lengths(stepper.time);
-        let (energy, _) = stepper.system.energy(stepper.time, &lengths, &stepper.now, &stepper.needed);
-        self.books = with_work(&with_energy(&before, &energy), powers.work(1.0));
+        let (first, halfway) = (self.powers, self.powers_at(&dense, 0.5 * (dense.from + until)));
+        self.take_energy();
+        let powers = StepPowers { at: [first, halfway, self.powers], duration: until - dense.from };
+        self.books = with_work(&self.books, powers.work(1.0));
+        let lengths = self.stepper.system.lengths(self.stepper.time);
         self.note_slack(dense.from, &lengths);
         self.last = Some((dense, powers, before));
     }

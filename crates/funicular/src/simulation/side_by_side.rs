@@ -4,7 +4,6 @@
 
 use super::rope::{RopeMesh, WoundLength};
 use super::skyline::Skyline;
-use super::system::{MotionNumbers, RopeEnd};
 use crate::math::Vec3;
 use crate::math::simd::{LANES, Lanes, Line, Part};
 use pulp::{Arch, Simd, WithSimd};
@@ -59,14 +58,14 @@ impl RopePack {
         packs.into_iter().map(pack).collect()
     }
 
-    /// Adds the inner forces to `out`, whose numbers are those of a motion. The ropes' numbers begin at `offsets`, their
-    /// free lengths are `lengths`.
+    /// Adds the inner forces to `out`. Positions, velocities and forces are those of a motion, in which the numbers of the
+    /// ropes begin at `offsets`; `lengths` are their free lengths.
     pub(super) fn add_inner_forces(
         &mut self,
         ropes: &[RopeMesh],
         offsets: &[usize],
         lengths: &[WoundLength],
-        m: &MotionNumbers,
+        [x, v]: [&[f64]; 2],
         out: &mut [f64],
     ) {
         let rope = &ropes[self.ropes[0]];
@@ -75,9 +74,9 @@ impl RopePack {
             let length = &lengths[*i];
             self.law.per_length[lane] = rope.elements as f64 / length.value;
             self.law.relative_rate[lane] = length.rate / length.value;
-            gather(&m.x[offsets[*i]..], lane, &mut self.x);
+            gather(&x[offsets[*i]..], lane, &mut self.x);
             if is_damped {
-                gather(&m.v[offsets[*i]..], lane, &mut self.v);
+                gather(&v[offsets[*i]..], lane, &mut self.v);
             }
         }
 
@@ -196,7 +195,7 @@ impl<S: Simd> Part<S> {
     }
 }
 
-/// Factors of up to eight ropes of one mesh whose ends are on the platform or are free, and their right-hand sides.
+/// Factors of up to eight ropes of one mesh, all with a last node that is kept or all without, and their right-hand sides.
 pub(super) struct FactorPack {
     /// Ropes in the lanes.
     pub(super) ropes: Vec<usize>,
@@ -209,10 +208,10 @@ pub(super) struct FactorPack {
 }
 
 impl FactorPack {
-    /// Factored matrices in packs; those of ropes that are gone are in none.
-    pub(super) fn of(ropes: &[RopeMesh], ends: &[RopeEnd], factors: &[Skyline]) -> Vec<Self> {
-        let key = |(rope, end): (&RopeMesh, &RopeEnd)| {
-            (*end != RopeEnd::Gone).then_some((rope.elements, rope.basis.degree, *end))
+    /// Factored matrices in packs, without those of ropes that are gone.
+    pub(super) fn of(ropes: &[RopeMesh], is_gone: impl Fn(usize) -> bool, factors: &[Skyline]) -> Vec<Self> {
+        let key = |(i, rope): (usize, &RopeMesh)| {
+            (!is_gone(i)).then_some((rope.elements, rope.basis.degree, factors[i].keeps_end()))
         };
         let pack = |of: Vec<usize>| {
             let (entries, rows) = (factors[of[0]].values.len(), factors[of[0]].rows());
@@ -227,7 +226,7 @@ impl FactorPack {
             }
             Self { ropes: of, values, rows: right, end: [Line::ZERO; 3] }
         };
-        packs(ropes.iter().zip(ends).map(key)).into_iter().map(pack).collect()
+        packs(ropes.iter().enumerate().map(key)).into_iter().map(pack).collect()
     }
 
     /// Sets the right-hand side of a lane from numbers of nodes, the platform's first.
@@ -401,9 +400,10 @@ mod tests {
     use std::rc::Rc;
 
     /// Ropes of two meshes, more of one than there are lanes; some are slack in parts, every second one is damped.
-    fn ropes() -> (Vec<RopeMesh>, Vec<WoundLength>, MotionNumbers, Vec<usize>) {
+    fn ropes() -> (Vec<RopeMesh>, Vec<WoundLength>, [Vec<f64>; 2], Vec<usize>) {
         let mut random = fastrand::Rng::with_seed(7);
-        let (mut ropes, mut lengths, mut m, mut offsets) = (vec![], vec![], MotionNumbers::default(), vec![]);
+        let (mut ropes, mut lengths, mut offsets) = (vec![], vec![], vec![]);
+        let (mut x, mut v) = (vec![], vec![]);
         let meshes = [(3, 8), (2, 5)].map(|(elements, degree)| (elements, Rc::new(ElementBasis::new(degree))));
         for i in 0..13 {
             let (elements, basis) = meshes[usize::from(i % 6 == 5)].clone();
@@ -418,18 +418,17 @@ mod tests {
                 gravity_w: Vec3::zeros(),
                 drag_width: 0.0,
             };
-            offsets.push(m.x.len());
+            offsets.push(x.len());
             let nodes = rope.last() as f64;
             for k in 0..rope.size() {
                 let along = [0.6, 0.5, 0.7][k % 3] * (k / 3) as f64 / nodes;
-                m.x.push(along + 0.002 * random.f64());
-                m.v.push(random.f64() - 0.5);
-                m.a.push(0.0);
+                x.push(along + 0.002 * random.f64());
+                v.push(random.f64() - 0.5);
             }
             lengths.push(WoundLength { value: 1.0 + 0.1 * random.f64(), rate: random.f64() - 0.5, acceleration: 0.0 });
             ropes.push(rope);
         }
-        (ropes, lengths, m, offsets)
+        (ropes, lengths, [x, v], offsets)
     }
 
     fn is_near(found: &[f64], expected: &[f64]) -> bool {
@@ -439,16 +438,16 @@ mod tests {
 
     #[test]
     fn inner_forces_are_those_of_single_ropes() {
-        let (ropes, lengths, m, offsets) = ropes();
-        let (mut found, mut expected) = (vec![0.0; m.x.len()], vec![0.0; m.x.len()]);
+        let (ropes, lengths, [x, v], offsets) = ropes();
+        let (mut found, mut expected) = (vec![0.0; x.len()], vec![0.0; x.len()]);
         let mut packs = RopePack::of(&ropes);
         assert_eq!(packs.iter().map(|pack| pack.ropes.len()).collect::<Vec<_>>(), [8, 2, 3]);
         for pack in &mut packs {
-            pack.add_inner_forces(&ropes, &offsets, &lengths, &m, &mut found);
+            pack.add_inner_forces(&ropes, &offsets, &lengths, [&x, &v], &mut found);
         }
         for (i, rope) in ropes.iter().enumerate() {
             let range = offsets[i]..offsets[i] + rope.size();
-            rope.add_inner_forces(&lengths[i], &m.x[range.clone()], &m.v[range.clone()], &mut expected[range]);
+            rope.add_inner_forces(&lengths[i], &x[range.clone()], &v[range.clone()], &mut expected[range]);
         }
         assert!(is_near(&found, &expected));
         assert!(expected.iter().filter(|force| **force != 0.0).count() > found.len() / 2);
@@ -456,25 +455,24 @@ mod tests {
 
     #[test]
     fn substitutions_are_those_of_single_ropes() {
-        let (ropes, lengths, m, offsets) = ropes();
-        let mut ends = vec![RopeEnd::Attached; ropes.len()];
-        (ends[1], ends[4], ends[7]) = (RopeEnd::Free, RopeEnd::Gone, RopeEnd::Free);
+        let (ropes, lengths, [x, v], offsets) = ropes();
+        let (is_free, gone) = (|i: usize| i == 1 || i == 7, 4);
         let of = Newton { mass: 1e3, damping: 1.0, stiffness: 1e-3 };
         let factored = |(i, rope): (usize, &RopeMesh)| {
             let (range, wind) = (offsets[i]..offsets[i] + rope.size(), Wind::default());
             let mut matrix = Skyline::zeros(Profile3::new(rope.elements, rope.basis.degree));
-            rope.assemble(&lengths[i], &[wind], &m.x[range.clone()], &m.v[range], of, &mut matrix);
-            matrix.factor(ends[i] == RopeEnd::Attached).unwrap();
+            rope.assemble(&lengths[i], &[wind], &x[range.clone()], &v[range], of, &mut matrix);
+            matrix.factor(!is_free(i)).unwrap();
             matrix
         };
         let factors: Vec<Skyline> = ropes.iter().enumerate().map(factored).collect();
 
-        let mut packs = FactorPack::of(&ropes, &ends, &factors);
+        let mut packs = FactorPack::of(&ropes, |i| i == gone, &factors);
         assert_eq!(packs.iter().map(|pack| pack.ropes.len()).sum::<usize>(), 12);
         for pack in &mut packs {
             for lane in 0..pack.ropes.len() {
                 let i = pack.ropes[lane];
-                pack.put(lane, &m.v[offsets[i]..offsets[i] + ropes[i].size() - 3]);
+                pack.put(lane, &v[offsets[i]..offsets[i] + ropes[i].size() - 3]);
             }
             pack.forward(&factors);
             let end = Vec3::new(0.1, -0.2, 0.3);
@@ -486,14 +484,14 @@ mod tests {
             pack.backward(&factors);
 
             for (lane, i) in pack.ropes.iter().copied().enumerate() {
-                let nodes = &m.v[offsets[i]..offsets[i] + ropes[i].size() - 3];
+                let nodes = &v[offsets[i]..offsets[i] + ropes[i].size() - 3];
                 let mut expected: Vec<f64> = nodes.rchunks_exact(3).flatten().copied().collect();
                 let on_end = factors[i].forward(&mut expected);
                 factors[i].backward(&mut expected, &end);
                 let mut found = Vec::new();
                 pack.rows_of(lane, &mut found);
                 assert!(is_near(&found, &expected), "rope {i}");
-                assert_eq!(factors[i].keeps_end(), ends[i] == RopeEnd::Attached);
+                assert_eq!(factors[i].keeps_end(), !is_free(i));
                 if factors[i].keeps_end() {
                     assert!(is_near(received[lane].as_slice(), on_end.as_slice()), "end of rope {i}");
                 }

@@ -147,12 +147,8 @@ fn check_parts(robot: &Robot) -> Result<(), SimulationError> {
     for cable in &robot.cables {
         let unsupported = |what, remedy| Err(SimulationError::Unsupported { cable: cable.name.clone(), what, remedy });
         let rope = &cable.material;
-        if let Some(Winch { control: Control::Position(servo), drum_mass, motor_mass, stiffness, .. }) =
-            &cable.anchor.winch
+        if let Some(Winch { control: Control::Position(_), drum_mass, motor_mass, stiffness, .. }) = &cable.anchor.winch
         {
-            if servo.delay > 0.0 {
-                return unsupported("a servo with a delay", "leave out `delay_s`");
-            }
             // The motor is what the servo moves; on a stiff shaft the drum is a part of it.
             let moved = if stiffness.is_finite() { *motor_mass } else { drum_mass + motor_mass };
             if moved == 0.0 {

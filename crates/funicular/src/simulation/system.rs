@@ -4,7 +4,7 @@
 //! rope its nodes and the numbers of its far end. The ends of a rope are filled from what they are on.
 
 use super::body::{BodyMotion, MovingBody};
-use super::far_end::{ExitMotion, FarEnd, FarForces, FarState};
+use super::far_end::{ExitMotion, FarEnd, FarForces, FarState, delayed_weights};
 use super::rope::{RopeMesh, WoundLength};
 use super::side_by_side::RopePack;
 use super::winding::Winding;
@@ -185,6 +185,9 @@ impl System {
             let last = from + at + feed.count() - 1;
             let of = feed.commanded(given);
             (m.x[last], m.v[last], m.a[last]) = (of.value, of.rate, of.acceleration);
+            if let Some(delayed) = places.delayed {
+                (m.x[from + delayed], m.v[from + delayed], m.a[from + delayed]) = (of.value - given.value, 0.0, 0.0);
+            }
         }
         let swivel = places.swivel.map_or([0.0; 3], |at| [m.x[from + at], m.v[from + at], m.a[from + at]]);
         let exit = far.exit(swivel, &Self::support_motion(far, m));
@@ -279,7 +282,7 @@ impl System {
         }
         let free: Vec<WoundLength> = (0..lengths.len()).map(|i| self.free_length(i, &lengths[i], m)).collect();
         for pack in &mut self.packs {
-            pack.add_inner_forces(&self.ropes, &self.offsets, &free, m, out);
+            pack.add_inner_forces(&self.ropes, &self.offsets, &free, [&m.x, &m.v], out);
         }
         for (i, rope) in self.ropes.iter().enumerate() {
             let range = self.of_rope(i);
@@ -319,6 +322,11 @@ impl System {
                 // Its acceleration is the rate of the error.
                 let last = from + at + feed.count() - 1;
                 out[from + integral] = m.a[from + integral] - (m.v[last] - given.rate);
+            }
+            if let (Some(delayed), Some((delay, _))) = (places.delayed, feed.delayed_servo()) {
+                let (last, k) = (from + at + feed.count() - 1, from + delayed);
+                let error = [m.x[last] - given.value, m.v[last] - given.rate, m.a[last] - given.acceleration];
+                out[k] = delayed_weights(delay, [m.x[k], m.v[k], m.a[k]])[0] - delayed_weights(delay, error)[1];
             }
         }
         if let Some(support) = far.support {

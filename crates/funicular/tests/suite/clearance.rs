@@ -72,6 +72,40 @@ fn no_sampled_points_of_two_cables_are_nearer_than_their_distance() {
     }
 }
 
+/// Lines through many points of the cables are as far apart as the cables, and the few nodes of a simulation nearly so.
+#[test]
+fn lines_through_points_of_the_cables_have_their_least_margin() {
+    let mut robot = cogiro();
+    robot.obstacles.push(column(
+        "column",
+        Pose::new([3.0, 1.0, 1.0], [0.0; 3]),
+        Solid::Box { half: Vec3::new(0.2, 0.3, 1.0) },
+    ));
+    let mut draw = Draw(17);
+    for minimum in [4.0, 100.0] {
+        for pose in poses(&mut draw, 4) {
+            let (robot, rest) = at_rest(&robot, pose, minimum);
+            let around = Surroundings::of(&robot);
+            let exact = around.least(&rest, None).unwrap();
+            for count in [24, 1500] {
+                let points: Vec<Vec<Vec3>> = rest.cables.iter().map(|cable| sampled(cable, count)).collect();
+                let found = around.least_through(&rest.pose, &points).unwrap();
+                // A line leaves a curve by an eighth of the square of its step times the curvature w/H.
+                let coarse = |cable: &CableState| {
+                    let catenary = &cable.hanging.as_ref().unwrap().catenary;
+                    let step = catenary.rope().unstrained_length / count as f64;
+                    step * step / 8.0 * catenary.rope().weight_per_length / catenary.horizontal_force()
+                };
+                let bound = 2.0 * rest.cables.iter().map(coarse).fold(0.0, f64::max) + BODY_TOLERANCE;
+                assert!((found.margin() - exact.margin()).abs() <= bound, "{count}: {found:?} {exact:?}, {bound}");
+            }
+        }
+    }
+    let none = vec![Vec::new(); robot.cables.len()];
+    let alone = Surroundings::of(&robot).least_through(&Pose::new([0.0, 0.0, 1.5], [0.0; 3]), &none).unwrap();
+    assert!(matches!(alone.pair, ClearancePair::PlatformAndObstacle { .. }));
+}
+
 #[test]
 fn two_ropes_in_one_vertical_plane_cross_where_a_sag_passes_a_chord() {
     // A slack rope between two points at 3 m and a tight one below its ends, in the same plane: the slack one sags

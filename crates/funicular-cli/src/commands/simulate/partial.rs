@@ -7,7 +7,7 @@ use funicular_files::atomic_file::TemporaryFile;
 use funicular_files::endings::Kind;
 use funicular_files::{Begin, Guard};
 use funicular_formats::number_columns;
-use funicular_study::analyses::simulate::{BegunRun, RowKeeper, SimulatedRow};
+use funicular_study::analyses::simulate::{BegunRun, RowKeeper, RowNames, SimulatedRow};
 use funicular_study::columns::ResultTable;
 use funicular_study::request::SimulateRequest;
 use std::fs::{self, File, OpenOptions};
@@ -23,8 +23,7 @@ const MARK: &str = concat!("funicular simulate ", env!("CARGO_PKG_VERSION"), "\n
 /// Files of a run that has not ended; none for a result that is no CSV file.
 pub(super) struct PartialRows {
     files: Option<OpenFiles>,
-    cables: Vec<String>,
-    points: Vec<String>,
+    names: RowNames,
     /// Request whose rows these are, as it stands in the state.
     request: String,
     flushed: Instant,
@@ -41,13 +40,12 @@ impl PartialRows {
     pub(super) fn beside(
         path: Option<&Path>,
         of: &SimulateRequest,
-        cables: Vec<String>,
+        names: RowNames,
         earlier: Begin,
         guard: &mut Guard,
     ) -> Result<(Self, Option<BegunRun>)> {
-        let points: Vec<String> = of.point.iter().map(|point| point.name.clone()).collect();
         let request = serde_json::to_string(of)?;
-        let mut partial = Self { files: None, cables, points, request, flushed: Instant::now() };
+        let mut partial = Self { files: None, names, request, flushed: Instant::now() };
         let Some(path) = path.filter(|path| Kind::of(path) == Some(Kind::Csv)) else {
             if earlier != Begin::Anew {
                 bail!("only a CSV file is written as it grows: give -o FILE.csv, or leave out ⟪resume⟫ and ⟪discard⟫");
@@ -81,7 +79,7 @@ impl PartialRows {
         } else {
             let _ = fs::remove_file(&state);
             let mut file = File::create(&path).with_context(cannot)?;
-            let header = SimulatedRow::columns(&partial.cables, &partial.points);
+            let header = SimulatedRow::columns(&partial.names);
             file.write_all(&crate::output::as_csv(ResultTable::new(header, [] as [&SimulatedRow; 0]))?)
                 .with_context(cannot)?;
             file
@@ -107,11 +105,11 @@ impl PartialRows {
         let text = fs::read(path).with_context(|| format!("cannot read {}", path.display()))?;
         let whole = &text[..begun_bytes(&text, count)];
         let table = number_columns::read(&path.display().to_string(), whole)?.columns;
-        let names = SimulatedRow::columns(&self.cables, &self.points).described();
+        let names = SimulatedRow::columns(&self.names).described();
         let row = |k: usize| {
             let of_row: Option<Vec<f64>> =
                 names.iter().map(|column| table.get(column.name.as_str())?.get(k).copied()).collect();
-            SimulatedRow::of_numbers(&of_row?, self.cables.len(), self.points.len())
+            SimulatedRow::of_numbers(&of_row?, &self.names)
         };
         let rows: Option<Vec<SimulatedRow>> = (0..count).map(row).collect();
         let Some(rows) = rows else { bail!("{} has lost rows: give ⟪discard⟫", path.display()) };
@@ -138,7 +136,7 @@ fn begun_bytes(text: &[u8], rows: usize) -> usize {
 impl RowKeeper for PartialRows {
     fn row(&mut self, row: &SimulatedRow) -> Result<()> {
         let Some(OpenFiles { rows, path, .. }) = &mut self.files else { return Ok(()) };
-        let csv = crate::output::as_csv(ResultTable::new(SimulatedRow::columns(&self.cables, &self.points), [row]))?;
+        let csv = crate::output::as_csv(ResultTable::new(SimulatedRow::columns(&self.names), [row]))?;
         let from = csv.iter().position(|byte| *byte == b'\n').map_or(0, |end| end + 1);
         rows.write_all(&csv[from..]).with_context(|| format!("cannot write {}", path.display()))
     }

@@ -10,11 +10,11 @@ use serde::Serialize;
 /// Difference of one column from a finer run.
 #[derive(Serialize)]
 pub struct ColumnError {
-    /// `position_m`, `velocity_m_s`, or `tension_platform_NAME_n` and `tension_anchor_NAME_n`.
+    /// `position_m`, `velocity_m_s`, `clearance_margin_m`, or `tension_platform_NAME_n` and `tension_anchor_NAME_n`.
     pub column: String,
     pub largest: f64,
     pub root_mean_square: f64,
-    /// Root mean square over that of the column; absent for positions, whose origin is arbitrary.
+    /// Root mean square over that of the column; absent for positions and distances.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub relative: Option<f64>,
 }
@@ -64,6 +64,10 @@ pub(super) fn errors(
         vector("velocity_m_s", |row| row.velocity_m_s),
         vector("angular_velocity_rad_s", |row| row.angular_velocity_rad_s),
     ];
+    let margins = rows.iter().zip(finer).filter_map(|(a, b)| Some((a.clearance_margin_m?, b.clearance_margin_m?)));
+    if margins.clone().next().is_some() {
+        errors.push(error("clearance_margin_m".to_owned(), margins.map(|(a, b)| (a - b).abs()), None));
+    }
     let ends: [(&str, TensionsOfRow); 2] =
         [("platform", |row| &row.tensions_platform_n), ("anchor", |row| &row.tensions_anchor_n)];
     for (end, of) in ends {

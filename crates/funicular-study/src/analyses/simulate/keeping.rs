@@ -1,6 +1,6 @@
 //! Rows and states that are kept while a simulation runs, and a run that goes on from them.
 
-use super::rows::SimulatedRow;
+use super::rows::{RowNames, SimulatedRow};
 use crate::analyses::shared::PoseRow;
 use anyhow::Result;
 use funicular::math::{Vec3, rotation};
@@ -45,8 +45,9 @@ pub struct BegunRun {
 }
 
 impl SimulatedRow {
-    /// Row from the numbers of its columns, for so many cables and points; `None` with another count of numbers.
-    pub fn of_numbers(numbers: &[f64], cables: usize, points: usize) -> Option<Self> {
+    /// Row from the numbers of its columns; `None` with another count of numbers.
+    pub fn of_numbers(numbers: &[f64], names: &RowNames) -> Option<Self> {
+        let (cables, points) = (names.cables.len(), names.points.len());
         let mut rest = numbers;
         let mut take = |count: usize| {
             let (taken, more) = rest.split_at_checked(count)?;
@@ -74,6 +75,7 @@ impl SimulatedRow {
             length_rates_m_s: take(cables)?,
             points_m: triples(take(3 * points)?),
             point_velocities_m_s: triples(take(3 * points)?),
+            clearance_margin_m: if names.has_distances { Some(one(take(1))?) } else { None },
             kinetic_energy_j: one(take(1))?,
             strain_energy_j: one(take(1))?,
             potential_energy_j: one(take(1))?,
@@ -95,17 +97,18 @@ mod tests {
     /// The order of the columns is that in which they are read.
     #[test]
     fn a_row_is_read_from_the_numbers_of_its_columns() {
-        let count = 1 + 6 + 12 + 4 * 2 + 6 + 8;
+        let names = RowNames { cables: vec!["1".into(), "2".into()], points: vec!["hook".into()], has_distances: true };
+        let count = 1 + 6 + 12 + 4 * 2 + 6 + 1 + 8;
         let numbers: Vec<f64> = (1..=count).map(f64::from).collect();
-        let row = SimulatedRow::of_numbers(&numbers, 2, 1).unwrap();
-        let columns = SimulatedRow::columns(&["1".into(), "2".into()], &["hook".into()]);
-        let again: Vec<f64> = columns
+        let row = SimulatedRow::of_numbers(&numbers, &names).unwrap();
+        let again: Vec<f64> = SimulatedRow::columns(&names)
             .cells(&row)
             .into_iter()
             .map(|cell| if let Cell::Number(number) = cell { number } else { panic!("a number") })
             .collect();
         assert_eq!(again, numbers);
-        assert!(SimulatedRow::of_numbers(&numbers[1..], 2, 1).is_none());
-        assert!(SimulatedRow::of_numbers(&numbers, 1, 1).is_none());
+        assert!(SimulatedRow::of_numbers(&numbers[1..], &names).is_none());
+        let others = RowNames { has_distances: false, ..names };
+        assert!(SimulatedRow::of_numbers(&numbers, &others).is_none());
     }
 }

@@ -5,6 +5,7 @@ use crate::analyses::shared::PoseRow;
 use crate::columns::{Columns, Field, column, parts};
 use crate::request::PointValue;
 use funicular::math::{Vec3, Vec6};
+use funicular::robot::Robot;
 use funicular::simulation::{CableSample, RobotSample};
 use serde::Serialize;
 
@@ -29,6 +30,9 @@ pub struct SimulatedRow {
     /// Velocities of the chosen points, world axes.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub point_velocities_m_s: Vec<[f64; 3]>,
+    /// Distance of the nearest pair beyond the required one; absent if the robot file says nothing about distances.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub clearance_margin_m: Option<f64>,
     pub kinetic_energy_j: f64,
     pub strain_energy_j: f64,
     pub potential_energy_j: f64,
@@ -41,9 +45,31 @@ pub struct SimulatedRow {
     pub energy_defect_j: f64,
 }
 
+/// What the columns of the rows depend on.
+#[derive(Debug, Clone)]
+pub struct RowNames {
+    /// Names of the cables.
+    pub cables: Vec<String>,
+    /// Names of the chosen points.
+    pub points: Vec<String>,
+    /// True if the rows have distances.
+    pub has_distances: bool,
+}
+
+impl RowNames {
+    /// Names of the rows of a robot with these points.
+    pub fn of(robot: &Robot, points: &[PointValue]) -> Self {
+        Self {
+            cables: robot.cables.iter().map(|cable| cable.name.clone()).collect(),
+            points: points.iter().map(|point| point.name.clone()).collect(),
+            has_distances: robot.judges_clearance(),
+        }
+    }
+}
+
 impl SimulatedRow {
-    /// Row of a sample, with these points of the platform.
-    pub(super) fn of(sample: &RobotSample, points: &[PointValue]) -> Self {
+    /// Row of a sample, with these points of the platform and this distance.
+    pub(super) fn of(sample: &RobotSample, points: &[PointValue], clearance_margin_m: Option<f64>) -> Self {
         let halves = |of: &Vec6| [[of[0], of[1], of[2]], [of[3], of[4], of[5]]];
         let [velocity_m_s, angular_velocity_rad_s] = halves(&sample.velocity_w);
         let [acceleration_m_s2, angular_acceleration_rad_s2] = halves(&sample.acceleration_w);
@@ -64,6 +90,7 @@ impl SimulatedRow {
             length_rates_m_s: each(|cable| cable.length.rate),
             points_m: levers().map(|lever| (sample.pose.position_w + lever).into()).collect(),
             point_velocities_m_s: levers().map(|lever| (velocity + omega.cross(&lever)).into()).collect(),
+            clearance_margin_m,
             kinetic_energy_j: energy.kinetic,
             strain_energy_j: energy.strain,
             potential_energy_j: energy.potential,
@@ -76,8 +103,9 @@ impl SimulatedRow {
     }
 
     /// Columns of the rows for cables and points of the platform of these names.
-    pub fn columns(cables: &[String], points: &[String]) -> Columns<Self> {
-        let names = || cables.to_vec();
+    pub fn columns(names: &RowNames) -> Columns<Self> {
+        let RowNames { cables, points, has_distances } = names;
+        let names = || cables.clone();
         let of_points: Vec<String> =
             points.iter().flat_map(|point| AXES.map(|axis| format!("{point}_{axis}"))).collect();
         let [position, angles] =
@@ -123,7 +151,13 @@ impl SimulatedRow {
                 row.point_velocities_m_s.concat()
             }),
         ];
-        Columns::new(motion.into_iter().chain(Self::energies()))
+        let margin =
+            column("clearance_margin_m", "m", "distance of the nearest pair beyond the required one", |row: &Self| {
+                row.clearance_margin_m
+            })
+            .decimals("clearance margin", "m", 3)
+            .only_if(*has_distances);
+        Columns::new(motion.into_iter().chain([margin]).chain(Self::energies()))
     }
 
     /// Columns of the energies and works.

@@ -64,6 +64,7 @@ impl Simulation {
             optional(last, each);
         }
         self.books.each_number(each);
+        self.powers.each_number(each);
         self.last_step(each);
     }
 
@@ -84,11 +85,16 @@ impl Simulation {
         each(&mut dense.until);
         rotation(&mut dense.rotation, each);
         dense.motions().into_iter().for_each(|motion| motion.each_number(each));
-        for Powers { winches, loads, dissipation } in &mut powers.at {
-            [winches, loads, dissipation].into_iter().for_each(&mut *each);
-        }
+        powers.at.iter_mut().for_each(|powers| powers.each_number(each));
         each(&mut powers.duration);
         books.each_number(each);
+    }
+}
+
+impl Powers {
+    fn each_number(&mut self, each: EachNumber) {
+        let Self { winches, loads, dissipation } = self;
+        [winches, loads, dissipation].into_iter().for_each(each);
     }
 }
 

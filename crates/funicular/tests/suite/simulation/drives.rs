@@ -10,7 +10,7 @@ use funicular::simulation::{Simulation, SimulationEvent, SimulationSettings};
 use funicular::statics::{self, Equilibrium, StaticModel};
 
 /// Tables of drives, each with what its cables name.
-const DRIVES: [(&str, &str, &str); 11] = [
+const DRIVES: [(&str, &str, &str); 12] = [
     (
         "pulley",
         "pulley = \"wheel\"",
@@ -35,6 +35,12 @@ const DRIVES: [(&str, &str, &str); 11] = [
         "winch = \"drum\"",
         "[winches.drum]\ndrum_side_length_m = 1.0\ndrum_radius_m = 0.05\ndrum_inertia_kg_m2 = 0.005\n\
          motor_inertia_kg_m2 = 0.01\nstiffness_n_per_m = 8e4\ncontrol = \"position\"\nbandwidth_hz = 8\n",
+    ),
+    (
+        "delayed servo",
+        "winch = \"drum\"",
+        "[winches.drum]\ndrum_side_length_m = 1.0\ndrum_radius_m = 0.05\ndrum_inertia_kg_m2 = 0.01\n\
+         control = \"position\"\nbandwidth_hz = 8\nintegral_action = \"no\"\ndelay_s = 0.003\n",
     ),
     (
         "torque",
@@ -120,7 +126,10 @@ fn drives_at_rest_are_those_of_statics() {
             assert!((cable.tension_anchor - state.tension_anchor).abs() < 1e-6 * scale, "{name}");
             // A servo without integral action has paid out what it yields, and a motor with constant torque pulls a drum that is
             // behind its shaft.
-            let yielded = state.drive.as_ref().filter(|_| name == "servo" || name == "torque on a shaft");
+            let yielded = state
+                .drive
+                .as_ref()
+                .filter(|_| ["servo", "delayed servo", "torque on a shaft"].contains(&name.as_str()));
             let paid_out = yielded.map_or(0.0, |drive| {
                 drive.winch_yield / (1.0 + drive.tension_drum / robot.cables[0].material.axial_stiffness)
             });
@@ -133,11 +142,22 @@ fn drives_at_rest_are_those_of_statics() {
     }
 }
 
+/// Robots that are rung: one of each kind of drive.
+const RINGING: [&str; 7] = [
+    "pulley",
+    "inclined pulley with a drum side",
+    "servo",
+    "delayed servo",
+    "torque on a shaft",
+    "guide wheels",
+    "supports, DrumsOnSupports",
+];
+
 /// A small push rings down at the natural frequencies of the program.
 #[test]
 fn a_small_push_rings_at_the_modes_of_drives() {
     for (name, mut robot, rest) in subjects() {
-        if !["pulley", "inclined pulley with a drum side"].contains(&name.as_str()) {
+        if !RINGING.contains(&name.as_str()) {
             continue;
         }
         for cable in &mut robot.cables {
@@ -147,6 +167,7 @@ fn a_small_push_rings_at_the_modes_of_drives() {
         let first_hz = modes::below(&dynamics, 8.0).modes[0].frequency_hz;
         let of = Ring { cycles: 60.0, tolerance: 1e-12, off: 2e-6, part: 0.03, least: 4, books: 1e-4 };
         let (force_w, moment_w) = (Vec3::new(4e-2, 3e-2, 6e-2), Vec3::new(6e-3, 8e-3, 8e-3));
+        eprintln!("{name}");
         rings_at_its_modes(&(robot, rest), first_hz, force_w, moment_w, &of);
     }
 }
