@@ -3,6 +3,7 @@
 use crate::arrays::{ResultsObject, TextKeyed};
 use crate::errors;
 use crate::interrupt::{check_signals, interruptible, interruptible_in_steps};
+use crate::sweep::ProgressArgument;
 use funicular_files::atomic_file::{TemporaryFile, is_regular_or_new};
 use funicular_files::{SweepFile, merge};
 use funicular_formats::export;
@@ -23,10 +24,13 @@ use std::io::{self, Write};
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
-/// Watch that ends long work at Ctrl-C.
+/// Watch that ends long work at Ctrl-C, and tells a function how far it is.
 pub(crate) struct CtrlC {
     checked: Instant,
     raised: Option<PyErr>,
+    told: Option<ProgressArgument>,
+    /// True if it is this function that raised.
+    failed: bool,
 }
 
 impl CtrlC {
@@ -34,7 +38,20 @@ impl CtrlC {
     const INTERVAL: Duration = Duration::from_millis(50);
 
     pub(crate) fn new() -> Self {
-        Self { checked: Instant::now(), raised: None }
+        Self::telling(None)
+    }
+
+    pub(crate) fn telling(told: Option<ProgressArgument>) -> Self {
+        Self { checked: Instant::now(), raised: None, told, failed: false }
+    }
+
+    /// Results of work that may have been stopped with a part of them, or the exception that ended it.
+    pub(crate) fn result<T>(self, found: anyhow::Result<T>) -> PyResult<T> {
+        match (found, self.raised) {
+            (Err(error), raised) => Err(raised.unwrap_or_else(|| errors::study(&error))),
+            (Ok(_), Some(raised)) if self.failed => Err(raised),
+            (Ok(found), _) => Ok(found),
+        }
     }
 
     /// Exception that ended the work, or else the error of the work.
@@ -44,10 +61,15 @@ impl CtrlC {
 }
 
 impl Watch for CtrlC {
-    fn progress(&mut self, _done: usize, _total: usize, _what: &'static str) {
-        if self.checked.elapsed() >= Self::INTERVAL && self.raised.is_none() {
-            self.checked = Instant::now();
-            self.raised = check_signals().err();
+    fn progress(&mut self, done: usize, total: usize, _what: &'static str) {
+        if self.raised.is_some() || (self.checked.elapsed() < Self::INTERVAL && done < total) {
+            return;
+        }
+        self.checked = Instant::now();
+        self.raised = check_signals().err();
+        if let (Some(ProgressArgument(function)), None) = (&self.told, &self.raised) {
+            self.raised = Python::attach(|py| function.call1(py, (done, total)).err());
+            self.failed = self.raised.is_some();
         }
     }
 

@@ -1465,7 +1465,7 @@ class Robot(Analyses):
         -------
         The keys of the program's JSON: `points` with one entry for each mass.
         """
-    def simulate(self, /, scenario: Any = None, duration_s: SupportsFloat | SupportsIndex | None = None, *, sample_time_s: SupportsFloat | SupportsIndex | None = None, point: Mapping[str, ArrayLike] | None = None, tolerance_m: SupportsFloat | SupportsIndex | None = None, elements: SupportsIndex | None = None, degree: SupportsIndex | None = None, once: bool = False, damping_frequency_hz: SupportsFloat | SupportsIndex | None = None, stretch_damping_time_s: SupportsFloat | SupportsIndex | None = None, hold_platform: bool = False, gust_seed: SupportsIndex | None = None, lengths_m: ArrayLike | None = None, pose: Pose | ArrayLike | None = None, hold_lengths_of_pose: bool = False, mass_kg: SupportsFloat | SupportsIndex | None = None, static_model: StaticModel = "catenary", force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, wind_m_s: ArrayLike | None = None, cable_load_n_per_m: ArrayLike | None = None, tension_rule: TensionRule | None = None, target_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, page: str | PathLike[str] | None = None, figure: str | PathLike[str] | None = None, animation: str | PathLike[str] | None = None) -> Results:
+    def simulate(self, /, scenario: Any = None, duration_s: SupportsFloat | SupportsIndex | None = None, *, sample_time_s: SupportsFloat | SupportsIndex | None = None, point: Mapping[str, ArrayLike] | None = None, tolerance_m: SupportsFloat | SupportsIndex | None = None, elements: SupportsIndex | None = None, degree: SupportsIndex | None = None, once: bool = False, damping_frequency_hz: SupportsFloat | SupportsIndex | None = None, stretch_damping_time_s: SupportsFloat | SupportsIndex | None = None, hold_platform: bool = False, gust_seed: SupportsIndex | None = None, lengths_m: ArrayLike | None = None, pose: Pose | ArrayLike | None = None, hold_lengths_of_pose: bool = False, mass_kg: SupportsFloat | SupportsIndex | None = None, static_model: StaticModel = "catenary", force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, wind_m_s: ArrayLike | None = None, cable_load_n_per_m: ArrayLike | None = None, tension_rule: TensionRule | None = None, target_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, page: str | PathLike[str] | None = None, figure: str | PathLike[str] | None = None, animation: str | PathLike[str] | None = None, progress: Callable[[int, int], object] | None = None) -> Results:
         """
         Simulates large motion in time of platform and sagging ropes.
 
@@ -1473,7 +1473,9 @@ class Robot(Analyses):
         ----------
         scenario
             What happens: a mapping from `release`, `pick`, `lengths`, `tension`, `stop`, `push` and `cut` to lists of events,
-            each a mapping with the keys of docs/simulation.md.
+            each a mapping with the keys of docs/simulation.md. The `table` of an event of `lengths` may be a function of the
+            time [s] from its beginning on, which returns a mapping from the columns of such a table to numbers; the event then
+            needs its `duration_s`.
         duration_s
             Simulated time [s]; 10 if not given.
         sample_time_s
@@ -1540,6 +1542,9 @@ class Robot(Analyses):
             File of a figure of pose and tensions over time, .svg or .pdf.
         animation
             SVG file of an animated drawing of the moving robot, which any browser shows in true time.
+        progress
+            Function that is called with the number of rows that are done, and of all rows; first for the run, then for the
+            finer one that shows the error.
 
         Returns
         -------

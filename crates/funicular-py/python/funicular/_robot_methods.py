@@ -186,7 +186,12 @@ def _sampled(path: Callable[[float], ArrayLike], given: Given) -> dict[str, Arra
 
 @declared(Robot, "simulate", positional=("scenario", "duration_s"))
 def simulate(
-    of: Any, given: Given, page: File | None = None, figure: File | None = None, animation: File | None = None
+    of: Any,
+    given: Given,
+    page: File | None = None,
+    figure: File | None = None,
+    animation: File | None = None,
+    progress: Callable[[int, int], object] | None = None,
 ) -> Results:
     """Simulates large motion in time of platform and sagging ropes.
 
@@ -194,7 +199,9 @@ def simulate(
     ----------
     scenario
         What happens: a mapping from `release`, `pick`, `lengths`, `tension`, `stop`, `push` and `cut` to lists of events,
-        each a mapping with the keys of docs/simulation.md.
+        each a mapping with the keys of docs/simulation.md. The `table` of an event of `lengths` may be a function of the
+        time [s] from its beginning on, which returns a mapping from the columns of such a table to numbers; the event then
+        needs its `duration_s`.
     point
         Points of the platform whose motion is a part of the result: a mapping from names to places x, y, z in the platform
         frame [m].
@@ -204,6 +211,9 @@ def simulate(
         File of a figure of pose and tensions over time, .svg or .pdf.
     animation
         SVG file of an animated drawing of the moving robot, which any browser shows in true time.
+    progress
+        Function that is called with the number of rows that are done, and of all rows; first for the run, then for the
+        finer one that shows the error.
 
     Returns
     -------
@@ -221,7 +231,40 @@ def simulate(
     ----------
     docs/theory.md, equations (97a) to (97k).
     """
-    return _results.results(of._simulate(given, page, figure, animation))
+    if "scenario" in given:
+        given["scenario"] = _tabled(given["scenario"])
+    return _results.results(of._simulate(given, page, figure, animation, progress))
+
+
+# Time between the rows of a function [s], and least number of its parts. Between the rows lies a cubic spline: it is right
+# to (2πf·0.01 s)⁴/384, which is 4e-4 of the amplitude at 10 Hz.
+_TABLE_STEP_S = 0.01
+_MIN_PARTS = 100
+
+
+def _tabled(scenario: Any) -> Any:
+    """The scenario with tables in the place of functions of the time."""
+    if not isinstance(scenario, Mapping) or not isinstance(scenario.get("lengths"), (list, tuple)):
+        return scenario
+
+    def event(number: int, of: Any) -> Any:
+        if not isinstance(of, Mapping) or not callable(of.get("table")):
+            return of
+        rest = {key: value for key, value in of.items() if key not in ("table", "duration_s")}
+        duration = of.get("duration_s")
+        if not isinstance(duration, (int, float)) or not duration > 0:
+            raise InputError(f"event {number} of `lengths`: a table that is a function needs `duration_s`, above zero")
+        times = linspace(0.0, duration, max(int(ceil(duration / _TABLE_STEP_S)), _MIN_PARTS) + 1)
+        rows = [of["table"](float(time)) for time in times]
+        if not all(isinstance(row, Mapping) and row.keys() == rows[0].keys() for row in rows):
+            raise InputError(
+                f"event {number} of `lengths`: the function has to return a mapping with the same columns at all times, "
+                "such as x_m, y_m and z_m"
+            )
+        columns = {name: asarray([row[name] for row in rows], dtype=float) for name in rows[0]}
+        return {**rest, "table": {"t_s": times, **columns}}
+
+    return {**scenario, "lengths": [event(k, of) for k, of in enumerate(scenario["lengths"], 1)]}
 
 
 @declared(Robot, "clearance", positional=("pose", "static_model"), others=_AS_REST)

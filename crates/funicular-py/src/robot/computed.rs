@@ -177,6 +177,7 @@ impl PyRobot {
         page: Option<PathBuf>,
         figure: Option<PathBuf>,
         animation: Option<PathBuf>,
+        progress: Option<ProgressArgument>,
     ) -> PyResult<TextKeyed<'py>> {
         let Request::Simulate(request) = self.request_of("simulate", given)? else {
             unreachable!("the request is of simulate")
@@ -186,8 +187,9 @@ impl PyRobot {
             return Err(errors::input(format!("`animation` {}: the file ends in .svg", path.display())));
         }
         let found = py.detach(|| {
-            let mut watch = CtrlC::new();
-            simulate::run((*self.robot).clone(), &request, &mut watch).map_err(|error| watch.or(&error))
+            let mut watch = CtrlC::telling(progress);
+            let found = simulate::run((*self.robot).clone(), &request, &mut watch);
+            watch.result(found)
         })?;
         if let Some(path) = page {
             let call = format!("robot.simulate(…, page={:?})", path.display().to_string());

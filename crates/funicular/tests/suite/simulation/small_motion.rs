@@ -226,8 +226,13 @@ fn without_an_event_robots_stay_at_their_equilibrium() {
 /// A winch whose length swings a little moves platform and tensions as `frf` says.
 #[test]
 fn a_small_swing_of_a_length_gives_the_frequency_response() {
+    swings_as_its_response(suspended().0);
+}
+
+/// Swings a length of a robot at rest, and compares its motion and a tension with the frequency response.
+pub(super) fn swings_as_its_response(robot: Robot) {
     // Damping so strong that after six seconds only the forced motion is left.
-    let mut robot = viscous(suspended().0, 0.5);
+    let mut robot = viscous(robot, 0.5);
     robot.platform.translational_damping_p = Vec3::repeat(60.0);
     robot.platform.rotational_damping_p = Vec3::repeat(1.0);
     let rest = at_rest(&robot);
