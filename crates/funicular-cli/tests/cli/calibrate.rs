@@ -186,11 +186,11 @@ fn the_page_and_the_figure_draw_anchors_ellipses_and_proposals() {
         succeed(&words.iter().map(String::as_str).collect::<Vec<_>>());
     }
     let page = fs::read_to_string(&html).unwrap();
-    for part in ["figure-anchors-1", "to measure next", "weakest combination", "id=\"linear-rows\"", "belts.csv"] {
+    for part in ["figure-anchors-1", "to measure next", "weakest combination", "id=\"refit-data\"", "belts.csv"] {
         assert!(page.contains(part), "{part}");
     }
     // One net row of each of six rows, and five free values.
-    let linear = page.split("id=\"linear-rows\">").nth(1).unwrap().split("</script>").next().unwrap();
+    let linear = page.split("id=\"refit-data\">").nth(1).unwrap().split("</script>").next().unwrap();
     let linear: Value = serde_json::from_str(linear).unwrap();
     assert_eq!(linear["linear"]["rows"].as_array().unwrap().len(), 6);
     assert_eq!(linear["linear"]["information"].as_array().unwrap().len(), 5);

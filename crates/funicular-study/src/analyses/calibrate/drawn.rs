@@ -1,10 +1,12 @@
 //! What figures and pages draw of a calibration: anchors with their covariance, and the rows as linear equations, with
 //! which a page fits again without some of them.
 
+use super::Calibrated;
 use super::report::CalibrationReport;
 use funicular::calibration::CalibrationUnknown;
 use funicular::math::DMat;
 use serde::Serialize;
+use serde_json::{Value, json};
 
 /// Anchor after a calibration.
 #[derive(Serialize)]
@@ -49,6 +51,24 @@ pub struct LinearRows {
 pub struct NetRows {
     pub by_free: Vec<Vec<f64>>,
     pub residuals: Vec<f64>,
+}
+
+impl Calibrated {
+    /// Data with which the script of a page fits again without some rows: the linear equations, the numbers of their rows, and
+    /// the values and anchors that they move. `linear` is null where a combination is lost.
+    pub fn refit_data(&self) -> Value {
+        let values = self
+            .values
+            .iter()
+            .map(|row| json!({ "path": row.path, "unit": row.unit, "value": row.value, "held": row.held }));
+        let anchors = self.anchors.iter().map(|row| json!({ "position": row.position_m, "places": row.places }));
+        json!({
+            "linear": self.linear,
+            "rows": self.rows.iter().map(|row| row.row).collect::<Vec<_>>(),
+            "values": values.collect::<Vec<_>>(),
+            "anchors": anchors.collect::<Vec<_>>(),
+        })
+    }
 }
 
 fn lists(matrix: &DMat) -> Vec<Vec<f64>> {
