@@ -3,7 +3,7 @@
 use super::Shell;
 use super::figure::{PageFigure, axis, cable_line_style, colour, line, plain, points, with};
 use super::table::PageTable;
-use crate::figures::calibration::{AxisView, ellipse, magnification, views};
+use crate::figures::calibration::{AxisView, ellipse, views};
 use anyhow::Context as _;
 use askama::Template;
 use funicular_study::analyses::calibrate::{Calibrated, CalibratedValue, DistanceRow, ProposalRow, ReadingRow};
@@ -73,7 +73,7 @@ fn figure(found: &Calibrated, view: &AxisView, number: usize) -> PageFigure {
     let [a, b] = view.axes;
     let of =
         |points: &mut dyn Iterator<Item = [f64; 3]>| -> (Vec<f64>, Vec<f64>) { points.map(|p| (p[a], p[b])).unzip() };
-    let scale = magnification(found);
+    let scale = found.magnification();
     let (x, y) = of(&mut found.anchors.iter().map(|row| row.start_m));
     let mut data = vec![points("robot file", &x, &y, colour::GREY, "circle-open")];
     let (x, y) = of(&mut found.anchors.iter().map(|row| row.position_m));
