@@ -1,6 +1,6 @@
 //! Calibration through a request: profiles, priors, proposals, and whether intervals hold the truth.
 
-use funicular::math::{DMat, DVec};
+use funicular::math::DMat;
 use funicular_study::analyses::calibrate::Calibrated;
 use funicular_study::{Request, Results, Silent, run};
 use serde_json::{Map, Value, json};
@@ -212,7 +212,7 @@ fn the_linear_equations_of_a_page_give_the_fit_without_a_row() {
     let (by_free, residuals) = (rows(&linear["rows"][3]["by_free"]), list(&linear["rows"][3]["residuals"]));
     let n = information.len();
     let normal = DMat::from_fn(n, n, |a, b| information[a][b] - by_free.iter().map(|w| w[a] * w[b]).sum::<f64>());
-    let right = DVec::from_fn(n, |a, _| by_free.iter().zip(&residuals).map(|(w, r)| w[a] * r).sum());
+    let right = DMat::from_fn(n, 1, |a, _| by_free.iter().zip(&residuals).map(|(w, r)| w[a] * r).sum());
     let step = normal.lu().solve(&right).unwrap();
     for (k, row) in exact.values.iter().enumerate() {
         let moved: f64 = free[k].iter().zip(step.iter()).map(|(of, by)| of * by).sum();

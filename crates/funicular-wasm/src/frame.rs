@@ -209,8 +209,8 @@ impl Session {
     }
 
     /// Ends of the rays of a level that no lower level has, from a pose to the border of the workspace: x, y, z [m], distance
-    /// [m], and 1 at the border or 0 where the box of the search ends. The text has the conditions in words, and whether they
-    /// are kept at the pose and the pose is in the box: otherwise there are no rays.
+    /// [m], and 1 at the border or 0 where the box of the search ends. The text has the conditions in words, whether they are
+    /// kept at the pose and the pose is in the box, otherwise there are no rays, and the triangles between all rays so far.
     ///
     /// # Errors
     /// A state that is no pose, or a robot whose workspace cannot be searched.
@@ -230,6 +230,7 @@ impl Session {
             "conditions": reach.conditions().iter().map(ToString::to_string).collect::<Vec<_>>(),
             "is_inside": ends.as_ref().is_some_and(|ends| !ends.is_empty()),
             "is_in_box": ends.is_some(),
+            "triangles": reach.triangles(level).as_flattened(),
         });
         Ok(Answer { numbers: numbers.collect(), text: text.to_string() })
     }

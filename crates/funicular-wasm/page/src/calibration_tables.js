@@ -4,15 +4,13 @@ import { element, short } from "./format.js";
 
 const cell = (text, attributes = {}) => element("td", attributes, text);
 
-/** Table in a box that scrolls. `heads`: texts of the columns. */
+/** Table in a box that scrolls. `heads`: texts of the columns, or objects with one that is `left` or `narrow`. */
 function table(heads, rows, { tall = false, id } = {}) {
-  const head = element(
-    "tr",
-    {},
-    ...heads.map((text) => element("th", { class: text.left && "left" }, text.left ?? text)),
-  );
+  const nameOf = (head) => head.left ?? head.narrow ?? head;
+  const classOf = (head) => (head.left !== undefined ? "left" : head.narrow && "narrow");
+  const head = element("tr", {}, ...heads.map((of) => element("th", { class: classOf(of) }, nameOf(of))));
   const body = element("table", { id }, element("thead", {}, head), element("tbody", {}, ...rows));
-  const name = { tabindex: "0", role: "region", "aria-label": heads.map((text) => text.left ?? text).join(", ") };
+  const name = { tabindex: "0", role: "region", "aria-label": heads.map(nameOf).filter(Boolean).join(", ") };
   return element("div", { class: tall ? "table tall" : "table", ...name }, body);
 }
 
@@ -38,7 +36,7 @@ export function rowsTable({ numbers, rows, cables, isLeftOut, change }) {
       cell(isOutlier ? `${drop} outlier` : drop),
     );
   };
-  const heads = [{ left: "row" }, ...cables.map((name) => `${name} [mm]`), "χ² without it falls by"];
+  const heads = [{ left: "row" }, ...cables.map((name) => `${name} [mm]`), { narrow: "χ² falls by without it" }];
   return table(heads, numbers.map(row), { tall: true, id: "calibrate-rows" });
 }
 

@@ -8,13 +8,13 @@ import { put } from "./messages.js";
 import { raysOf, words } from "./reach_words.js";
 import { on, page } from "./store.js";
 
-const MAX_LEVEL = 3; // 258 rays in space, 64 in a plane
+const RESTED_LEVEL = 3; // 258 rays in space, 64 in a plane: with 66 the net is coarse
 const DRAGGED_LEVEL = 1; // 18 rays in space, 16 in a plane
 const SLOW_MS = 60; // a level that takes longer is left out while the platform is dragged
 
 let engine = null;
 let robot = ""; // request of the robot that the worker has, as a text
-let wanted = null; // pose whose rays are not followed yet: position and quaternion
+let wanted = null; // `pose` whose rays are not followed yet, position and quaternion, and their last `level`
 let running = false;
 let highest = DRAGGED_LEVEL; // level while the platform is dragged
 
@@ -34,9 +34,9 @@ async function follow() {
   running = true;
   try {
     while (wanted && isOn()) {
-      const pose = wanted;
+      const next = wanted;
       wanted = null;
-      await raysFrom(pose);
+      await raysFrom(next);
     }
   } catch (error) {
     if (!(error instanceof Cancelled)) {
@@ -45,9 +45,12 @@ async function follow() {
     }
   }
   running = false;
+  if (wanted && isOn()) {
+    follow(); // of another robot, which came while the worker of the one before ended
+  }
 }
 
-async function raysFrom(pose) {
+async function raysFrom({ pose, level: last }) {
   engine ??= new Engine();
   const request = requestOf();
   const text = JSON.stringify(request);
@@ -58,19 +61,19 @@ async function raysFrom(pose) {
   }
   const from = pose.slice(0, 3);
   let rays = [];
-  const last = () => (page.view.dragging ? highest : MAX_LEVEL);
-  for (let level = 0; level <= last() && wanted === null && isOn(); level += 1) {
+  for (let level = 0; level <= last && isOn(); level += 1) {
     const { numbers, about, milliseconds } = await engine.call("reach", { pose, level });
-    if (milliseconds > SLOW_MS && level <= DRAGGED_LEVEL) {
-      highest = Math.max(0, level - 1);
+    if (milliseconds > SLOW_MS && level > 0 && level <= DRAGGED_LEVEL) {
+      highest = level - 1;
     }
-    // While the platform moves on, the rays of its last pose are drawn as soon as they are complete.
     rays = [...rays, ...raysOf(numbers)];
-    if (level >= Math.min(highest, last()) || wanted === null) {
-      show({ from, rays, level, milliseconds, conditions: about.conditions, isInBox: about.is_in_box });
-    }
-    if (rays.length === 0) {
-      return;
+    const { conditions, is_in_box: isInBox, triangles } = about;
+    // Each pose of a drag gets the rays of its level, so that the net does not flicker; then the next pose counts.
+    if (level >= Math.min(highest, last) || rays.length === 0) {
+      show({ from, rays, milliseconds, conditions, isInBox, triangles });
+      if (wanted !== null || rays.length === 0) {
+        return;
+      }
     }
   }
 }
@@ -80,24 +83,24 @@ function show(found) {
   if (!isOn() || !page.frame) {
     return;
   }
-  view.reach.set(found.rays.length ? { ...found, size: view.size } : null);
+  view.reach.set(found.rays.length ? found : null);
   view.draw();
   put($("reach-note"), words(found));
   Object.assign($("reach-note").dataset, { rays: found.rays.length, milliseconds: found.milliseconds.toFixed(1) });
 }
 
-function want() {
+function want(level) {
   const { frame } = page;
   if (frame && isOn()) {
-    wanted = [...frame.position, ...frame.quaternion];
+    wanted = { pose: [...frame.position, ...frame.quaternion], level };
     follow();
   }
 }
 
 /** Listens to the platform and to the box that switches the rays on. */
 export function listen() {
-  on("frame", want);
-  on("drag-end", want);
+  on("frame", () => want(highest));
+  on("rested", () => want(RESTED_LEVEL));
   on("forget", () => {
     engine?.end();
     [engine, robot, wanted, highest] = [null, "", null, DRAGGED_LEVEL];
@@ -109,6 +112,6 @@ export function listen() {
   });
   $("reach").addEventListener("change", () => {
     clear();
-    want();
+    want(RESTED_LEVEL);
   });
 }

@@ -1,20 +1,33 @@
-// Rays of the reach in the view: a point where each meets the border, and its last part as a line towards the platform.
+// Reach of the platform in the view: a net between the ends of the rays, a point where each meets the border, and a line to
+// the nearest border.
 
-import { BufferAttribute, BufferGeometry, Group, LineBasicMaterial, LineSegments, Points, PointsMaterial } from "three";
+import {
+  BufferAttribute,
+  BufferGeometry,
+  DoubleSide,
+  Group,
+  LineBasicMaterial,
+  LineSegments,
+  Mesh,
+  MeshBasicMaterial,
+  Points,
+  PointsMaterial,
+} from "three";
 
-const TAIL = 0.3; // of a ray: part that is drawn, so that the platform and its cables stay clear
-const MAX_TAILS = 70; // with more rays the points alone show the border
+const OPACITY = 0.07; // of the surface: cables and floor are seen through it
+const NET_OPACITY = 0.25;
 
 export class ReachScene {
   constructor(scene) {
     this.group = new Group();
-    this.borders = new Points(
-      new BufferGeometry(),
-      new PointsMaterial({ size: 5, sizeAttenuation: false, transparent: true, opacity: 0.85 }),
-    );
-    this.tails = new LineSegments(new BufferGeometry(), new LineBasicMaterial({ transparent: true, opacity: 0.4 }));
+    const surface = { transparent: true, opacity: OPACITY, side: DoubleSide, depthWrite: false };
+    this.surface = new Mesh(new BufferGeometry(), new MeshBasicMaterial(surface));
+    const net = { transparent: true, opacity: NET_OPACITY, depthWrite: false };
+    this.net = new LineSegments(new BufferGeometry(), new LineBasicMaterial(net));
+    this.borders = new Points(new BufferGeometry(), new PointsMaterial({ size: 3, sizeAttenuation: false }));
     this.nearest = new LineSegments(new BufferGeometry(), new LineBasicMaterial());
-    [this.borders, this.tails, this.nearest].forEach((part) => {
+    this.parts = [this.surface, this.net, this.borders, this.nearest];
+    this.parts.forEach((part) => {
       part.frustumCulled = false;
       this.group.add(part);
     });
@@ -22,31 +35,53 @@ export class ReachScene {
     scene.add(this.group);
   }
 
-  /** Shows rays from a place: `from`, `rays` (list of `end`, `distance`, `isBorder`); null hides them. */
+  /**
+   * Shows rays from a place; null hides them.
+   * @param {?object} of `from`, `rays` (list of `end`, `distance`, `isBorder`), `triangles` (three numbers of rays each,
+   *   the number after the last ray is the place)
+   */
   set(of) {
     const borders = of?.rays.filter(({ isBorder }) => isBorder) ?? [];
     this.group.visible = borders.length > 0;
     if (borders.length === 0) {
       return;
     }
-    const tail = ({ end }) => [...end, ...end.map((at, k) => at + TAIL * (of.from[k] - at))];
     const nearest = borders.reduce((a, b) => (b.distance < a.distance ? b : a));
-    fill(
+    const corners = [...of.rays.map(({ end }) => end), of.from].flat();
+    this.#fill(this.surface, corners, of.triangles);
+    this.#fill(this.net, corners, edgesOf(of.triangles, of.rays.length));
+    this.#fill(
       this.borders,
       borders.flatMap(({ end }) => end),
     );
-    fill(this.tails, borders.length <= MAX_TAILS ? borders.flatMap(tail) : []);
-    fill(this.nearest, [...of.from, ...nearest.end]);
+    this.#fill(this.nearest, [...of.from, ...nearest.end]);
+  }
+
+  #fill(part, numbers, index = null) {
+    part.geometry.dispose();
+    part.geometry = new BufferGeometry();
+    part.geometry.setAttribute("position", new BufferAttribute(Float32Array.from(numbers), 3));
+    part.geometry.setIndex(index);
   }
 
   /** Adapts the colours. `color(name)`: a colour of the page. */
   recolor(color) {
-    this.borders.material.color.set(color("--warn"));
-    this.tails.material.color.set(color("--warn"));
-    this.nearest.material.color.set(color("--warn"));
+    this.parts.forEach(({ material }) => material.color.set(color("--warn")));
   }
 }
 
-function fill({ geometry }, numbers) {
-  geometry.setAttribute("position", new BufferAttribute(Float32Array.from(numbers), 3));
+/** Edges between the ends of rays, each once: both triangles beside an edge have it, in opposite directions. */
+function edgesOf(triangles, rays) {
+  const edges = [];
+  for (let i = 0; i < triangles.length; i += 3) {
+    const corners = triangles.slice(i, i + 3);
+    corners.forEach((from, k) => {
+      const to = corners[(k + 1) % 3];
+      // A planar fan has the edge between two ends once, and those to its middle are left out.
+      if (from < rays && to < rays && (from < to || corners.includes(rays))) {
+        edges.push(from, to);
+      }
+    });
+  }
+  return edges;
 }

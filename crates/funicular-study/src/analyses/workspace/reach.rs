@@ -85,6 +85,22 @@ impl WorkspaceReach {
         Some(directions.iter().zip(&ends).map(point).collect())
     }
 
+    /// Triangles between the ends of all rays up to a level, in the order of the levels: the hull of the reach. In a plane they
+    /// go out from the pose, whose number is that of the rays.
+    pub fn triangles(&self, level: usize) -> Vec<[usize; 3]> {
+        let level = level.min(MAX_LEVEL);
+        if self.plane.is_none() {
+            return Sphere::with_directions(IN_SPACE[level]).map_or_else(Vec::new, |all| all.triangles().to_vec());
+        }
+        let count = IN_PLANE << level;
+        let mut ring: Vec<usize> = (0..IN_PLANE).collect();
+        while ring.len() < count {
+            let before = ring.len();
+            ring = ring.into_iter().enumerate().flat_map(|(k, ray)| [ray, before + k]).collect();
+        }
+        (0..count).map(|k| [count, ring[k], ring[(k + 1) % count]]).collect()
+    }
+
     /// Directions of a level that no lower level has.
     fn of_level(&self, level: usize) -> &[Vec3] {
         let count = |level: usize| if self.plane.is_some() { IN_PLANE << level } else { IN_SPACE[level] };
@@ -136,9 +152,13 @@ mod tests {
             assert!(at(2.0 * reach.tolerance).is_none_or(|value| value < 0.0), "{end:?}");
         }
         assert!(ends.iter().any(|end| end.is_border) && ends.iter().any(|end| !end.is_border));
+        // The triangles of a level name the rays up to it: neighbours, so that they cover the sphere.
+        assert_eq!(reach.triangles(1).len(), 2 * ends.len() - 4);
+        let apart = |[a, b, _]: &[usize; 3]| reach.directions[*a].angle(&reach.directions[*b]);
+        assert!(reach.triangles(MAX_LEVEL).iter().all(|corners| apart(corners) < 0.25));
 
         // Where the platform cannot be there are no rays, and beyond the box nothing is known.
-        assert_eq!(reach.from(&Pose::new([7.4, 5.5, 5.9], [0.0; 3]), 0), Some(Vec::new()));
+        assert_eq!(reach.from(&Pose::new([7.0, 5.0, 5.2], [0.0; 3]), 0), Some(Vec::new()));
         assert_eq!(reach.from(&Pose::new([50.0, 0.0, 1.0], [0.0; 3]), 0), None);
     }
 
@@ -155,6 +175,12 @@ mod tests {
                 directions.push((end.position_w - pose.position_w) / end.distance);
             }
         }
+        // The fan goes once around the pose, by equal angles.
+        for [center, a, b] in reach.triangles(MAX_LEVEL) {
+            let turn = directions[a].cross(&directions[b])[plane.axis].asin();
+            assert!(center == 64 && (turn - TAU / 64.0).abs() < 1e-9, "{turn}");
+        }
+
         // All directions differ, and they are evenly spaced.
         assert_eq!(directions.len(), IN_PLANE << MAX_LEVEL);
         let apart = (TAU / 64.0).cos();
