@@ -1,5 +1,5 @@
-// Reach of the platform in the view: a net between the ends of the rays, a point where each meets the border, and a line to
-// the nearest border.
+// Reach of the platform in the view: a net between the ends of the rays, a point where each meets the border, and a line
+// to the nearest border.
 
 import {
   BufferAttribute,
@@ -37,8 +37,8 @@ export class ReachScene {
 
   /**
    * Shows rays from a place; null hides them.
-   * @param {?object} of `from`, `rays` (list of `end`, `distance`, `isBorder`), `triangles` (three numbers of rays each,
-   *   the number after the last ray is the place)
+   * @param {?object} of `from`, `rays` (list of `end`, `distance`, `isBorder`), `triangles` (three numbers of rays
+   *   each, the number after the last ray is the place)
    */
   set(of) {
     const borders = of?.rays.filter(({ isBorder }) => isBorder) ?? [];

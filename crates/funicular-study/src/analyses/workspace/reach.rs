@@ -132,7 +132,8 @@ mod tests {
     use crate::request::RobotText;
 
     fn reach(text: &str) -> (WorkspaceReach, WorkspaceStudy) {
-        let request = WorkspaceRequest { robot: RobotText { text: text.to_owned(), ..Default::default() }, ..Default::default() };
+        let request =
+            WorkspaceRequest { robot: RobotText { text: text.to_owned(), ..Default::default() }, ..Default::default() };
         let robot = || Robot::from_toml(text).unwrap();
         (WorkspaceReach::new(robot(), &request).unwrap(), WorkspaceStudy::new(robot(), &request).unwrap())
     }
