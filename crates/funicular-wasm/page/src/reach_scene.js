@@ -1,5 +1,5 @@
-// Reach of the platform in the view: a net between the ends of the rays, a point where each meets the border, and a line
-// to the nearest border.
+// Reach of the platform in the view: a net between the ends of the rays, a point where each meets the border, and a
+// line to the nearest border.
 
 import {
   BufferAttribute,
