@@ -24,6 +24,7 @@ function clear(text = "") {
   page.view?.reach.set(null);
   page.view?.draw();
   put($("reach-note"), text);
+  delete $("reach-note").dataset.rays;
 }
 
 /** Follows the rays of the latest pose, coarse first; a pose that comes meanwhile ends those of the one before. */
@@ -63,8 +64,8 @@ async function raysFrom({ pose, level: last }) {
   let rays = [];
   for (let level = 0; level <= last && isOn(); level += 1) {
     const { numbers, about, milliseconds } = await engine.call("reach", { pose, level });
-    if (milliseconds > SLOW_MS && level > 0 && level <= DRAGGED_LEVEL) {
-      highest = level - 1;
+    if (level <= DRAGGED_LEVEL) {
+      highest = fitting(level, milliseconds);
     }
     rays = [...rays, ...raysOf(numbers)];
     const { conditions, is_in_box: isInBox, triangles } = about;
@@ -76,6 +77,14 @@ async function raysFrom({ pose, level: last }) {
       }
     }
   }
+}
+
+/** Level of a drag after a level has taken so long; each has about twice the rays of the one before. */
+function fitting(level, milliseconds) {
+  if (milliseconds > SLOW_MS && level > 0) {
+    return level - 1;
+  }
+  return level === highest && milliseconds < SLOW_MS / 4 ? Math.min(DRAGGED_LEVEL, highest + 1) : highest;
 }
 
 function show(found) {
