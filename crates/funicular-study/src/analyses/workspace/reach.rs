@@ -11,8 +11,8 @@ use funicular::math::Vec3;
 use funicular::robot::{Pose, Robot};
 use std::f64::consts::TAU;
 
-/// Highest level of rays: 258 in space, 64 in a plane. With 66 their ends leave 20° between them, and a page would show no
-/// corner; 1026 take seconds.
+/// Highest level of rays: 258 in space, 64 in a plane. The next lower one leaves up to 34° between neighbours, too much for the
+/// corners of a workspace; with 1026 rays a large robot takes seconds.
 const MAX_LEVEL: usize = 3;
 
 /// Number of rays of level 0 in a plane; each further level doubles it.
@@ -156,7 +156,8 @@ mod tests {
         // The triangles of a level name the rays up to it: neighbours, so that they cover the sphere.
         assert_eq!(reach.triangles(1).len(), 2 * ends.len() - 4);
         let apart = |[a, b, _]: &[usize; 3]| reach.directions[*a].angle(&reach.directions[*b]);
-        assert!(reach.triangles(MAX_LEVEL).iter().all(|corners| apart(corners) < 0.25));
+        // Corners of an octahedron are 90° apart; the levels bring neighbours to at most 60°, 33.6° and 17.4°.
+        assert!(reach.triangles(MAX_LEVEL).iter().all(|corners| apart(corners).to_degrees() < 17.4));
 
         // Where the platform cannot be there are no rays, and beyond the box nothing is known.
         assert_eq!(reach.from(&Pose::new([7.0, 5.0, 5.2], [0.0; 3]), 0), Some(Vec::new()));
