@@ -10,6 +10,7 @@ import { on, page } from "./store.js";
 
 const RESTED_LEVEL = 3; // 258 rays in space, 64 in a plane: with 66 the net is coarse
 const DRAGGED_LEVEL = 1; // 18 rays in space, 16 in a plane
+const LONG_MS = 1000; // a level that takes longer is the last: the next one takes about four times as long
 const SLOW_MS = 60; // a level that takes longer is left out while the platform is dragged
 
 let engine = null;
@@ -62,6 +63,7 @@ async function raysFrom({ pose, level: last }) {
   }
   const from = pose.slice(0, 3);
   let rays = [];
+  delete $("reach-note").dataset.done;
   for (let level = 0; level <= last && isOn(); level += 1) {
     const { numbers, about, milliseconds } = await engine.call("reach", { pose, level });
     if (level <= DRAGGED_LEVEL) {
@@ -72,11 +74,12 @@ async function raysFrom({ pose, level: last }) {
     // Each pose of a drag gets the rays of its level, so that the net does not flicker; then the next pose counts.
     if (level >= Math.min(highest, last) || rays.length === 0) {
       show({ from, rays, milliseconds, conditions, isInBox, triangles });
-      if (wanted !== null || rays.length === 0) {
-        return;
+      if (wanted !== null || rays.length === 0 || milliseconds > LONG_MS) {
+        break;
       }
     }
   }
+  $("reach-note").dataset.done = last === RESTED_LEVEL ? "rested" : "dragged";
 }
 
 /** Level of a drag after a level has taken so long; each has about twice the rays of the one before. */

@@ -296,11 +296,17 @@ test("30 rows of a rigid platform with eight cables do not stop the page", async
   await page.screenshot({ path: join(pictures, "calibration-space.png") });
 });
 
+/** Waits for the rays of a platform at rest: 258, or fewer on a machine that is slow. */
+const rested = () =>
+  page.waitForFunction(() => {
+    const { done, rays: count } = document.getElementById("reach-note").dataset;
+    return done === "rested" && Number(count) >= 66;
+  });
 const rays = (of = page) => of.evaluate(() => ({ ...document.getElementById("reach-note").dataset }));
 
 test("the reach ends where the program says that the tensions end", async () => {
   await page.selectOption("#library", "cogiro");
-  await page.waitForFunction(() => document.getElementById("reach-note").dataset.rays === "258");
+  await rested();
   const note = await text("#reach-note");
   const [, metres, sign, axis] = /^([\d.]+) m to the nearest border, towards ([+−])([xyz])/.exec(note);
   assert.ok(Number(metres) > 0.1 && sign && axis, note);
@@ -356,7 +362,7 @@ test("while the platform is dragged few rays follow it, and they can be switched
   assert.ok(await page.evaluate(() => window.funicular.view.reach.group.visible && window.funicular.view.dragging));
   await page.screenshot({ path: join(pictures, "reach-dragged.png") });
   await page.mouse.up();
-  await page.waitForFunction(() => document.getElementById("reach-note").dataset.rays === "258");
+  await rested();
   t.diagnostic(`${dragged.rays} rays while dragged: the last level took ${dragged.milliseconds} ms`);
   await page.screenshot({ path: join(pictures, "reach.png") });
 
@@ -364,7 +370,7 @@ test("while the platform is dragged few rays follow it, and they can be switched
   assert.equal(await text("#reach-note"), "");
   assert.equal(await page.evaluate(() => window.funicular.view.reach.group.visible), false);
   await page.check("#reach");
-  await page.waitForFunction(() => document.getElementById("reach-note").dataset.rays === "258");
+  await rested();
 });
 
 test("a robot whose reach is not searched says why, and a planar one has rays in its plane", async () => {

@@ -72,7 +72,7 @@ pub(super) fn rows(columns: &GappedColumns, robot: &Robot, measured: bool) -> Re
 /// Rows without those that a request leaves out, and before them their numbers in the table, from 1.
 pub(super) fn kept(rows: Vec<MeasuredRow>, left_out: &[f64]) -> Result<(Vec<usize>, Vec<MeasuredRow>)> {
     let count = rows.len();
-    let is_row = |number: f64| (1..=count).any(|row| row as f64 == number);
+    let is_row = |number: f64| number.fract() == 0.0 && (1.0..=count as f64).contains(&number);
     if let Some(wrong) = left_out.iter().find(|number| !is_row(**number)) {
         bail!("⟪leave_out⟫ {wrong}: there is no such row: give numbers from 1 to {count}");
     }
