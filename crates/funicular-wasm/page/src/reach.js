@@ -17,6 +17,7 @@ let engine = null;
 let robot = ""; // request of the robot that the worker has, as a text
 let wanted = null; // `pose` whose rays are not followed yet, position and quaternion, and their last `level`
 let running = false;
+let atLevel = 0; // that the worker follows
 let highest = DRAGGED_LEVEL; // level while the platform is dragged
 
 const isOn = () => $("reach").checked;
@@ -48,7 +49,7 @@ async function follow() {
   }
   running = false;
   if (wanted && isOn()) {
-    follow(); // of another robot, which came while the worker of the one before ended
+    follow(); // what came while the worker ended
   }
 }
 
@@ -65,6 +66,7 @@ async function raysFrom({ pose, level: last }) {
   let rays = [];
   delete $("reach-note").dataset.done;
   for (let level = 0; level <= last && isOn(); level += 1) {
+    atLevel = level;
     const { numbers, about, milliseconds } = await engine.call("reach", { pose, level });
     if (level <= DRAGGED_LEVEL) {
       highest = fitting(level, milliseconds);
@@ -109,13 +111,24 @@ function want(level) {
   }
 }
 
+function end() {
+  engine?.end();
+  [engine, robot] = [null, ""];
+}
+
 /** Listens to the platform and to the box that switches the rays on. */
 export function listen() {
   on("frame", () => want(highest));
   on("rested", () => want(RESTED_LEVEL));
+  // The many rays of a platform at rest do not keep the few of one that moves on waiting.
+  on("outdated", () => {
+    if (running && atLevel > DRAGGED_LEVEL) {
+      end();
+    }
+  });
   on("forget", () => {
-    engine?.end();
-    [engine, robot, wanted, highest] = [null, "", null, DRAGGED_LEVEL];
+    end();
+    [wanted, highest] = [null, DRAGGED_LEVEL];
     clear();
   });
   on("empty", () => {
