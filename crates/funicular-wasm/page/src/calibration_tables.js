@@ -51,7 +51,7 @@ export function valuesTable(values) {
       cell(short(value, 6)),
       cell(short(deviation, 3)),
       cell(unit, { class: "left" }),
-      cell(note, { class: "left name" }),
+      cell(note, { class: "left" }),
     );
   const heads = [{ left: "value" }, "file", "calibrated", "±", { left: "unit" }, { left: "" }];
   return table(heads, values.map(row), { tall: true, id: "calibrate-values" });
@@ -67,8 +67,8 @@ export function proposalsTable(proposals) {
       cell(of.position_m.map((value) => short(value, 4)).join(", ")),
       cell(short(1000 * of.total_m, 4)),
       cell(short(1000 * of.largest_m, 3)),
-      cell(of.largest_of, { class: "left name" }),
+      cell(of.largest_of, { class: "left" }),
     );
-  const heads = ["next", "position [m]", "all then ± [mm]", "largest ± [mm]", { left: "of" }];
+  const heads = ["next", "position [m]", { narrow: "all then ± [mm]" }, { narrow: "largest ± [mm]" }, { left: "of" }];
   return table(heads, proposals.map(row), { id: "calibrate-proposals" });
 }
