@@ -135,9 +135,9 @@ impl RaySet {
     }
 }
 
-/// End of a ray that goes out from a centre inside the set.
+/// First border of the set along a ray from a centre inside it, or the end of the ray.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct RayEnd {
+pub struct FirstBorder {
     /// Distance from the centre [m].
     pub distance: f64,
     /// True if the set ends there; otherwise the ray leaves the box.
@@ -150,7 +150,7 @@ pub struct RayEnd {
 ///
 /// # References
 /// docs/theory.md, section 10b.
-pub fn first_borders(directions: &[Vec3], search: &RaysInBox, evaluate: &mut Evaluate<'_>) -> Option<Vec<RayEnd>> {
+pub fn first_borders(directions: &[Vec3], search: &RaysInBox, evaluate: &mut Evaluate<'_>) -> Option<Vec<FirstBorder>> {
     let RaysInBox { center, step, tolerance, .. } = *search;
     let lengths: Vec<f64> = directions.iter().map(|ray| length_in(search, ray)).collect::<Option<_>>()?;
     let at_center = evaluate(&[center])?[0];
@@ -182,9 +182,10 @@ pub fn first_borders(directions: &[Vec3], search: &RaysInBox, evaluate: &mut Eva
     if !EdgeRoot::find_all(&mut roots, tolerance, evaluate).1 {
         return None;
     }
-    let mut ends: Vec<RayEnd> = lengths.iter().map(|length| RayEnd { distance: *length, is_border: false }).collect();
+    let mut ends: Vec<FirstBorder> =
+        lengths.iter().map(|length| FirstBorder { distance: *length, is_border: false }).collect();
     for (root, ray) in roots.iter().zip(of_rays) {
-        ends[ray] = RayEnd { distance: (root.point() - center).norm(), is_border: true };
+        ends[ray] = FirstBorder { distance: (root.point() - center).norm(), is_border: true };
     }
     Some(ends)
 }

@@ -1,7 +1,7 @@
 //! Level sets against solids whose volumes, areas and sections have closed forms.
 
 use funicular::level_set::{
-    BoundaryMesh, LevelSet, MAX_NODES, PointGrid, RayEnd, RaySet, RaysInBox, SearchEnd, Sphere, first_borders,
+    BoundaryMesh, FirstBorder, LevelSet, MAX_NODES, PointGrid, RaySet, RaysInBox, SearchEnd, Sphere, first_borders,
 };
 use funicular::math::Vec3;
 use proptest::prelude::*;
@@ -256,7 +256,7 @@ fn the_first_border_of_a_ray_is_the_end_of_its_first_interval() {
 
     // A set that goes on behind the box, a centre outside the set, and one outside the box.
     let (ends, _) = borders(&|_| Some(1.0));
-    let box_ends = set.rays().iter().map(|ray| RayEnd { distance: ray.end, is_border: false });
+    let box_ends = set.rays().iter().map(|ray| FirstBorder { distance: ray.end, is_border: false });
     assert_eq!(ends, box_ends.collect::<Vec<_>>());
     assert_eq!(borders(&|_| None), (Vec::new(), 1));
     let outside = RaysInBox { center: Vec3::repeat(2.0), ..search };

@@ -77,7 +77,7 @@ impl WorkspaceReach {
         };
         let search = RaysInBox { center, bounds: self.bounds, step: self.step, tolerance: self.tolerance };
         let ends = first_borders(directions, &search, &mut evaluate)?;
-        let point = |(ray, end): (&Vec3, &funicular::level_set::RayEnd)| ReachedPoint {
+        let point = |(ray, end): (&Vec3, &funicular::level_set::FirstBorder)| ReachedPoint {
             position_w: center + ray * end.distance,
             distance: end.distance,
             is_border: end.is_border,
