@@ -214,7 +214,7 @@ impl Session {
     ///
     /// # Errors
     /// A state that is no pose, or a robot whose workspace cannot be searched.
-    pub fn reach(&mut self, state: FrameState, level: usize) -> Result<Answer> {
+    pub fn reach(&mut self, state: &FrameState, level: usize) -> Result<Answer> {
         let FrameState::Pose(pose) = state else { bail!("rays go out from a pose: give 7 numbers") };
         let pose = pose.to_robot()?;
         if self.reach.is_none() {

@@ -163,7 +163,7 @@ pub extern "C" fn funicular_mode(index: usize, points: usize) -> u32 {
 #[unsafe(no_mangle)]
 pub extern "C" fn funicular_reach(level: usize) -> u32 {
     let numbers = NUMBERS.take();
-    with_session(|session| session.reach(FrameState::of_numbers(1, &numbers)?, level))
+    with_session(|session| session.reach(&FrameState::of_numbers(1, &numbers)?, level))
 }
 
 /// Reads the table in CSV that was written, its name in messages in the first line and the table from the second line on.

@@ -14,7 +14,7 @@ fn session(text: &str, more: &Value) -> Session {
 const POSE: [f64; 7] = [1.0, 0.5, 1.5, 1.0, 0.0, 0.0, 0.0];
 
 fn reached(of: &mut Session, pose: &[f64], level: usize) -> (Vec<f64>, Value) {
-    let found = of.reach(FrameState::of_numbers(1, pose).unwrap(), level).unwrap();
+    let found = of.reach(&FrameState::of_numbers(1, pose).unwrap(), level).unwrap();
     (found.numbers, serde_json::from_str(&found.text).unwrap())
 }
 
@@ -24,7 +24,8 @@ fn rays_have_the_loads_and_limits_of_the_frames() {
     let (numbers, about) = reached(&mut plain, &POSE, 0);
     assert_eq!((numbers.len(), &about["is_inside"], &about["is_in_box"]), (30, &json!(true), &json!(true)));
     let up = numbers[5 * 4..5 * 4 + 5].to_vec();
-    assert!(up[4] == 1.0 && up[0] == 1.0 && (up[2] - POSE[2] - up[3]).abs() < 1e-12, "{up:?}");
+    assert_eq!(up[..2], POSE[..2]);
+    assert!(up[4] > 0.5 && (up[2] - POSE[2] - up[3]).abs() < 1e-12, "{up:?}");
 
     // Higher up the cables pull harder: a lower limit of the tensions ends the way earlier.
     let mut limited = session(funicular_robots::COGIRO, &json!({ "max_tension_n": 1500.0 }));
@@ -38,10 +39,10 @@ fn rays_have_the_loads_and_limits_of_the_frames() {
 #[test]
 fn a_robot_whose_workspace_is_not_searched_says_why() {
     let mut few = session(funicular_robots::GRAB_3_CABLES, &json!({}));
-    let refused = few.reach(FrameState::of_numbers(1, &POSE).unwrap(), 0).unwrap_err().to_string();
+    let refused = few.reach(&FrameState::of_numbers(1, &POSE).unwrap(), 0).unwrap_err().to_string();
     assert!(refused.contains("with fewer cables than degrees of freedom"), "{refused}");
     let lengths = FrameState::of_numbers(2, &[1.0]).unwrap();
-    assert!(few.reach(lengths, 0).unwrap_err().to_string().contains("rays go out from a pose"));
+    assert!(few.reach(&lengths, 0).unwrap_err().to_string().contains("rays go out from a pose"));
 }
 
 #[test]
