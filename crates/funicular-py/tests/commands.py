@@ -73,7 +73,7 @@ def value(command: str, option: str, text: str) -> Any:
         return text.split(",")
     if option in ("--of", "--by", "--tolerances", "--deviations") and command != "schema":
         return text.split(",")
-    if option in ("--weights", "--avoid-hz", "--tension-range-n", "--profile-s", "--shape-modes-hz"):
+    if option in ("--weights", "--leave-out", "--avoid-hz", "--tension-range-n", "--profile-s", "--shape-modes-hz"):
         return [float(part) for part in text.replace(":", ",").split(",")]
     if option in ("--input", "--output", "--name", "--rope") or re.search("[a-z]{2}", text):
         return text

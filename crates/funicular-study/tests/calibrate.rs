@@ -1,5 +1,6 @@
 //! Calibration through a request: profiles, priors, proposals, and whether intervals hold the truth.
 
+use funicular::math::DMat;
 use funicular_study::analyses::calibrate::Calibrated;
 use funicular_study::{Request, Results, Silent, run};
 use serde_json::{Map, Value, json};
@@ -163,4 +164,60 @@ fn candidates_without_tensions_within_the_limits_are_left_out() {
     assert_eq!((left_out.candidates, left_out.by_tensions, left_out.by_clearance), (6, 3, 0));
     assert!((limited.proposals[0].position_m[1] - 1.5).abs() < 1e-12);
     assert!(limited.proposals[0].total_m > free.proposals[0].total_m);
+}
+
+#[test]
+fn a_row_that_is_left_out_is_no_datum_and_the_others_keep_their_numbers() {
+    let all = readings(1e-3, &mut Draws(5));
+    let without = |gone: &[usize]| {
+        let columns = all.as_object().unwrap().iter().map(|(name, values)| {
+            let kept = values.as_array().unwrap().iter().enumerate().filter(|(j, _)| !gone.contains(j));
+            (name.clone(), kept.map(|(_, value)| value.clone()).collect::<Vec<_>>().into())
+        });
+        Value::Object(columns.collect())
+    };
+    let found = calibrated(&all, &json!({ "leave_out": [2, 5] }));
+    let shorter = calibrated(&without(&[1, 4]), &json!({}));
+    let values = |of: &Calibrated| of.values.iter().map(|row| (row.value, row.deviation)).collect::<Vec<_>>();
+    assert_eq!(values(&found), values(&shorter));
+    assert_eq!(found.rows.iter().map(|row| row.row).collect::<Vec<_>>(), [1, 3, 4, 6, 7]);
+    assert_eq!(found.refit_data()["rows"], json!([1, 3, 4, 6, 7]));
+
+    let refused = |more: Value| {
+        let mut request = json!({ "command": "calibrate", "robot": { "text": file() }, "readings": all });
+        request.as_object_mut().unwrap().extend(more.as_object().unwrap().clone());
+        run(&Request::from_json(&request.to_string()).unwrap(), &mut Silent).err().unwrap().to_string()
+    };
+    for wrong in [json!([8]), json!([0.5]), json!([-1])] {
+        let told = refused(json!({ "leave_out": wrong }));
+        assert!(told.contains("there is no such row: give numbers from 1 to 7"), "{told}");
+    }
+    assert!(refused(json!({ "leave_out": [1, 2, 3, 4, 5, 6, 7] })).contains("leaves no row of 7"));
+}
+
+#[test]
+fn the_linear_equations_of_a_page_give_the_fit_without_a_row() {
+    // Without noise in the other rows, a reading that is wrong by little moves the values linearly.
+    let mut wrong = readings(0.0, &mut Draws(1));
+    let reading = &mut wrong["length_2_m"][3];
+    *reading = json!(reading.as_f64().unwrap() + 1e-5);
+    let data = calibrated(&wrong, &json!({})).refit_data();
+    let exact = calibrated(&wrong, &json!({ "leave_out": [4] }));
+
+    // The page's own arithmetic: (N - WᵀW) step = Wᵀr of the row that goes.
+    let list = |value: &Value| value.as_array().unwrap().iter().map(|x| x.as_f64().unwrap()).collect::<Vec<_>>();
+    let rows = |value: &Value| value.as_array().unwrap().iter().map(list).collect::<Vec<_>>();
+    let linear = &data["linear"];
+    let (information, free) = (rows(&linear["information"]), rows(&linear["free"]));
+    let (by_free, residuals) = (rows(&linear["rows"][3]["by_free"]), list(&linear["rows"][3]["residuals"]));
+    let n = information.len();
+    let normal = DMat::from_fn(n, n, |a, b| information[a][b] - by_free.iter().map(|w| w[a] * w[b]).sum::<f64>());
+    let right = DMat::from_fn(n, 1, |a, _| by_free.iter().zip(&residuals).map(|(w, r)| w[a] * r).sum());
+    let step = normal.lu().solve(&right).unwrap();
+    for (k, row) in exact.values.iter().enumerate() {
+        let moved: f64 = free[k].iter().zip(step.iter()).map(|(of, by)| of * by).sum();
+        let refitted = data["values"][k]["value"].as_f64().unwrap() + if row.held { 0.0 } else { moved };
+        // The change is some 1e-5 m; what is left is of second order.
+        assert!((refitted - row.value).abs() < 1e-8, "{}: {refitted} {}", row.path, row.value);
+    }
 }

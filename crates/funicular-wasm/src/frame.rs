@@ -20,9 +20,10 @@ use funicular::modes::{self, LowestError, Mode, Modes, PlatformModeError};
 use funicular::response;
 use funicular::robot::{self, Body, PlatformMotion, Robot, State};
 use funicular::statics;
-use funicular_study::analyses::{check, frf};
+use funicular_study::analyses::workspace::WorkspaceReach;
+use funicular_study::analyses::{calibrate, check, frf};
 use funicular_study::at_rest::{self, AtRest};
-use funicular_study::request::{self, FrfRequest, MAX_HZ, Pose, StiffnessRequest};
+use funicular_study::request::{self, FrfRequest, MAX_HZ, Pose, StiffnessRequest, WorkspaceRequest};
 use funicular_study::sweep::no_platform_mode;
 use funicular_study::wording::Words;
 use funicular_study::{NoSolution, Request, Silent};
@@ -115,6 +116,8 @@ pub struct Session {
     robot: Robot,
     /// None before the first frame and after a refused one.
     last: Option<Frame>,
+    /// Rays to the border of the workspace, from the first call on.
+    reach: Option<WorkspaceReach>,
     /// Natural frequencies of the last list [Hz], also after a refused frame: they say where the next list may end.
     known_hz: Vec<f64>,
 }
@@ -146,7 +149,7 @@ impl Session {
         let file = request.robot.read()?;
         let robot = at_rest::with_limits(&at_rest::with_state(file.robot.clone(), &request.state)?, &request.tensions)?;
         let answer = Answer { numbers: Vec::new(), text: description(&robot, &file.text).to_string() };
-        Ok((Self { request, robot: file.robot, last: None, known_hz: Vec::new() }, answer))
+        Ok((Self { request, robot: file.robot, last: None, reach: None, known_hz: Vec::new() }, answer))
     }
 
     /// Solves the robot at a state, whose error is passed on.
@@ -203,6 +206,42 @@ impl Session {
         let numbers = list.modes[..=index].iter().flat_map(mode_numbers).collect();
         let text = json!({ "index": index, "below_hz": list.below_hz, "certified": list.certified });
         Ok(Answer { numbers, text: text.to_string() })
+    }
+
+    /// Ends of the rays of a level that no lower level has, from a pose to the border of the workspace: x, y, z [m], distance
+    /// [m], and 1 at the border or 0 where the box of the search ends. The text has the conditions in words, whether they are
+    /// kept at the pose and the pose is in the box, otherwise there are no rays, and the triangles between all rays so far.
+    ///
+    /// # Errors
+    /// A state that is no pose, or a robot whose workspace cannot be searched.
+    pub fn reach(&mut self, state: &FrameState, level: usize) -> Result<Answer> {
+        let FrameState::Pose(pose) = state else { bail!("rays go out from a pose: give 7 numbers") };
+        let pose = pose.to_robot()?;
+        if self.reach.is_none() {
+            self.reach = Some(WorkspaceReach::new(self.robot.clone(), &self.workspace_request())?);
+        }
+        let Some(reach) = &self.reach else { bail!("there are no rays") };
+        let ends = reach.from(&pose, level);
+        let numbers = ends.iter().flatten().flat_map(|end| {
+            let [x, y, z]: [f64; 3] = end.position_w.into();
+            [x, y, z, end.distance, if end.is_border { 1.0 } else { 0.0 }]
+        });
+        let text = json!({
+            "conditions": reach.conditions().iter().map(ToString::to_string).collect::<Vec<_>>(),
+            "is_inside": ends.as_ref().is_some_and(|ends| !ends.is_empty()),
+            "is_in_box": ends.is_some(),
+            "triangles": reach.triangles(level).as_flattened(),
+        });
+        Ok(Answer { numbers: numbers.collect(), text: text.to_string() })
+    }
+
+    /// Request of the workspace whose loads, limits and models are those of the frames.
+    fn workspace_request(&self) -> WorkspaceRequest {
+        let StiffnessRequest { robot, state, tensions, model, .. } = &self.request;
+        let state = request::State { pose: None, lengths_m: None, hold_lengths_of_pose: false, ..state.clone() };
+        let (tensions, model) = (tensions.clone(), *model);
+        let point = request::PointOptions { state, tensions, model, ..Default::default() };
+        WorkspaceRequest { robot: robot.clone(), point, ..Default::default() }
     }
 
     /// Equilibrium at a state.
@@ -354,6 +393,7 @@ fn description(robot: &Robot, text: &str) -> Value {
         "motion": motion,
         "degrees_of_freedom": robot.platform.motion.count(),
         "platform_share": modes::PLATFORM_SHARE,
+        "calibration_unknowns": calibrate::UNKNOWNS,
         "obstacles": bodies(&robot.obstacles),
         "platform_bodies": bodies(&robot.platform.bodies),
         "check": check::run(robot.clone()),

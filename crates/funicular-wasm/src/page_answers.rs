@@ -2,11 +2,12 @@
 
 use anyhow::{Result, anyhow};
 use funicular::math::rotation;
-use funicular_formats::{import, new_robot};
+use funicular_formats::{import, new_robot, number_columns};
 use funicular_study::Silent;
+use funicular_study::analyses::calibrate;
 use funicular_study::analyses::simulate::{self, SimulatedFrame};
 use funicular_study::json::of_results;
-use funicular_study::request::{Request, SimulateRequest};
+use funicular_study::request::{CalibrateRequest, Request, SimulateRequest};
 use funicular_study::schema;
 use funicular_study::sweep::{Plan, PreparedSweep};
 use funicular_study::table::{Chunk, Values};
@@ -22,9 +23,27 @@ pub(crate) fn content(request: &Request) -> Option<Result<Vec<u8>>> {
         Request::Schema(of) => serde_json::from_str(&schema::of_request(of, Vec::new())).map_err(Into::into),
         Request::Map(_) => rows(request),
         Request::Simulate(of) => simulated(of),
+        Request::Calibrate(of) => calibrated(of),
         _ => return None,
     };
     Some(found.map(|value| value.to_string().into_bytes()))
+}
+
+/// Results of a calibration with `refit`, the linear equations with which a page fits again without some rows.
+fn calibrated(of: &CalibrateRequest) -> Result<Value> {
+    let found = calibrate::run(of, &mut Silent)?;
+    let mut answer: Value = serde_json::from_slice(&of_results(&found, Words::Json)?)?;
+    answer["refit"] = found.refit_data();
+    Ok(answer)
+}
+
+/// Columns of a CSV text with gaps, as `calibrate` has them in ⟪readings⟫, in JSON: one list per column, null for an empty
+/// cell. `name` is that of the file in messages.
+///
+/// # Errors
+/// A fault of the table; the message names line and column.
+pub(crate) fn table(name: &str, text: &str) -> Result<Value> {
+    Ok(json!(number_columns::read_with_gaps(name, text.as_bytes())?.columns))
 }
 
 /// Results of a simulation with its picture: times, poses as position and quaternion w, x, y, z, and the points of every

@@ -83,6 +83,10 @@ function native(request) {
   return spawnSync(program, ["request", file, "--format", "json"], { encoding: "utf8", maxBuffer: 1 << 28 });
 }
 
+/** Asserts that work is refused with a status and a message. */
+const refused = (work, status, message) =>
+  assert.throws(work, (error) => error instanceof RequestError && error.status === status && message.test(error.message));
+
 /** Time of the fastest of several runs [ms], as text. */
 function fastest(work) {
   const times = Array.from({ length: 5 }, () => {
@@ -186,7 +190,6 @@ test("errors are those of the program, with the same status", () => {
 test("what is refused leaves nothing of the state or robot before", async () => {
   const own = await load(bytes);
   const followers = [() => own.mode(0, 9), () => own.platform(), () => own.response({ input: "fz", output: "az", ...range })];
-  const refused = (work, status, message) => assert.throws(work, (error) => error instanceof RequestError && error.status === status && message.test(error.message));
   const ready = () => {
     own.robot({ robot: { text: robots.cogiro } });
     assert.equal(own.frame(1, at.pose, 5, 9).numbers[2], 5);
@@ -230,6 +233,40 @@ test("a simulation gives the program's rows, and a picture whose cables end at t
     curve.slice(-3).forEach((x, axis) => assert.ok(Math.abs(x - check.cables[i].anchor_m[axis]) < 1e-9, `cable ${i}`));
   }));
   picture.poses.forEach((pose, k) => assert.deepEqual(pose.slice(0, 3), found.rows[k].position_m));
+});
+
+test("a calibration of a table gives the program's, and the linear equations of its rows", () => {
+  const own = (path) => readFileSync(new URL(`../../../docs/calibration/${path}`, import.meta.url), "utf8");
+  const readings = funicular.table(own("belts.csv"), "belts.csv");
+  assert.equal(readings.length_bl_mm[0], 2960.58);
+  const request = { command: "calibrate", robot: { text: own("machine.toml") }, readings, leave_out: [2] };
+  const { refit, ...found } = funicular.answer(request);
+  const expected = JSON.parse(native(request).stdout);
+  // Two anchors are known worst by ±60 mm, and rounding moves them by as much more than a length as they are known worse.
+  assert.deepEqual(found.rows.map(({ row }) => row), [1, 3, 4, 5, 6]);
+  found.values.forEach(({ path, value }, k) => {
+    assert.equal(path, expected.values[k].path);
+    assert.ok(Math.abs(value - expected.values[k].value) < 1e-6, `${path}: ${value} ${expected.values[k].value}`);
+  });
+  assert.deepEqual([refit.rows, refit.linear.rows.length, refit.values.length], [[1, 3, 4, 5, 6], 5, 8]);
+  refused(() => funicular.table("a,b\n1,x\n", "my table.csv"), 2, /^my table\.csv, line 2, column `b`/);
+  refused(() => funicular.answer({ ...request, leave_out: [7] }), 2, /`leave_out` 7: there is no such row: give numbers from 1 to 6/);
+});
+
+test("the reach of a platform ends where its equilibria end", () => {
+  funicular.robot({ robot: { text: robots.cogiro } });
+  const at = [0.5, 0, 1.5, 1, 0, 0, 0];
+  const level = (k) => funicular.reach(at, k);
+  assert.deepEqual([0, 1, 2].map((k) => level(k).numbers.length / 5), [6, 12, 48]);
+  const { numbers, about } = level(0);
+  assert.deepEqual([about.is_inside, about.is_in_box], [true, true]);
+  const rays = Array.from({ length: 6 }, (_, i) => numbers.subarray(5 * i, 5 * i + 5)).filter((ray) => ray[4] === 1);
+  assert.ok(rays.length > 0);
+  const poses = (factor) => rays.map((ray) => [...[0, 1, 2].map((k) => at[k] + factor * (ray[k] - at[k])), 0, 0, 0]);
+  const feasible = (of) => JSON.parse(funicular.answerText(JSON.stringify({ command: "map", robot: { text: robots.cogiro }, quantities: ["tension-max"], poses: of }))).columns.feasible;
+  assert.deepEqual(feasible(poses(0.98)), rays.map(() => true));
+  assert.deepEqual(feasible(poses(1.02)), rays.map(() => false));
+  refused(() => funicular.reach([0, 0, NaN, 1, 0, 0, 0], 0), 2, /finite numbers/);
 });
 
 test("the module needs nothing from outside", () => {

@@ -108,6 +108,26 @@ export class Funicular {
     return this.#numbers(JSON.stringify(whole), [], (of) => of.funicular_response());
   }
 
+  /**
+   * Follows rays from a pose to where the conditions of `workspace` end.
+   * @param {ArrayLike<number>} pose position [m] and quaternion w, x, y, z
+   * @param {number} level 0 to 3: each has the rays between those of the levels below
+   * @returns {{numbers: Float64Array, about: object}} x, y, z, distance [m], and 1 at the border per ray; `about`: the
+   *   conditions in words, and whether they are kept at the pose and the pose is in the box of the search
+   */
+  reach(pose, level) {
+    return this.#numbers("", pose, (of) => of.funicular_reach(level));
+  }
+
+  /**
+   * Reads a table in CSV into columns, as a request of `calibrate` has them in `readings`.
+   * @param {string} text the table
+   * @param {string} [name] its name in messages
+   */
+  table(text, name = "table") {
+    return this.#numbers(`${name.replaceAll("\n", " ")}\n${text}`, [], (of) => of.funicular_table()).about;
+  }
+
   /** Calls a function of frames and returns a copy of its numbers and its text as an object. */
   #numbers(text, state, call) {
     const status = this.#call(text, state, call);

@@ -20,7 +20,7 @@ mod tetrahedra;
 
 pub use boundary::{BoundaryMesh, SetPart};
 pub use grid::{BOX_FACES, MAX_NODES, PointGrid};
-pub use rays::{RayIntervals, RaySet, RaysInBox};
+pub use rays::{FirstBorder, RayIntervals, RaySet, RaysInBox, first_borders};
 pub use section::{SetSection, signed_area};
 pub use set::{LevelSet, SearchEnd};
 pub use sphere::Sphere;

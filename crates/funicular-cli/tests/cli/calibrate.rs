@@ -173,6 +173,20 @@ fn readings_that_do_not_fit_say_so_before_any_value_and_name_the_row() {
     assert!(found["fit"].as_str().unwrap().starts_with("The readings do not fit (χ² "));
     assert_eq!(found["determined"], "No value is known as long as the readings do not fit: see the warnings");
     assert!(found["values"].as_array().unwrap().iter().all(|row| row["interval_95"].is_null()));
+
+    // Without that row the others fit, and keep their numbers.
+    let words = ["calibrate", &robot, "--readings", &path, "--length-std-m", "0.0005", "--leave-out"];
+    let found = json(&[&words[..], &["3"]].concat());
+    assert_eq!(found["is_determined"], true);
+    let numbers: Vec<_> = found["rows"].as_array().unwrap().iter().map(|row| row["row"].as_u64().unwrap()).collect();
+    assert_eq!(numbers, [1, 2, 4, 5, 6]);
+    let other = run(&[&words[..], &["7"]].concat());
+    assert_eq!(other.status.code(), Some(2));
+    assert!(
+        stderr(&other).contains("--leave-out 7: there is no such row: give numbers from 1 to 6"),
+        "{}",
+        stderr(&other)
+    );
 }
 
 #[test]
@@ -186,11 +200,11 @@ fn the_page_and_the_figure_draw_anchors_ellipses_and_proposals() {
         succeed(&words.iter().map(String::as_str).collect::<Vec<_>>());
     }
     let page = fs::read_to_string(&html).unwrap();
-    for part in ["figure-anchors-1", "to measure next", "weakest combination", "id=\"linear-rows\"", "belts.csv"] {
+    for part in ["figure-anchors-1", "to measure next", "weakest combination", "id=\"refit-data\"", "belts.csv"] {
         assert!(page.contains(part), "{part}");
     }
     // One net row of each of six rows, and five free values.
-    let linear = page.split("id=\"linear-rows\">").nth(1).unwrap().split("</script>").next().unwrap();
+    let linear = page.split("id=\"refit-data\">").nth(1).unwrap().split("</script>").next().unwrap();
     let linear: Value = serde_json::from_str(linear).unwrap();
     assert_eq!(linear["linear"]["rows"].as_array().unwrap().len(), 6);
     assert_eq!(linear["linear"]["information"].as_array().unwrap().len(), 5);

@@ -12,9 +12,6 @@ use std::f64::consts::TAU;
 /// Number of points of an ellipse.
 const POINTS: u32 = 72;
 
-/// Largest half axis of an ellipse of two deviations, as a part of the width of the room; smaller ones are drawn larger.
-const LARGEST: f64 = 0.08;
-
 /// View along a world axis.
 pub(crate) struct AxisView {
     /// World axes to the right and upwards.
@@ -28,25 +25,6 @@ pub(crate) fn views(found: &Calibrated) -> Vec<AxisView> {
         [a, b] => vec![AxisView { axes: [a, b], name: "in the plane of the platform" }],
         _ => vec![AxisView { axes: [0, 1], name: "along z" }, AxisView { axes: [0, 2], name: "along y" }],
     }
-}
-
-/// Factor with which ellipses are drawn: 1, 2, 5 times a power of ten, not below 1.
-pub(crate) fn magnification(found: &Calibrated) -> f64 {
-    let span = |axis: usize| {
-        let ends = found.anchors.iter().map(|row| row.position_m[axis]);
-        let (low, high) = ends.fold((f64::MAX, f64::MIN), |(low, high), x| (low.min(x), high.max(x)));
-        high - low
-    };
-    let width = found.axes.iter().map(|axis| span(*axis)).fold(0.0, f64::max);
-    let variances = found.anchors.iter().filter_map(|row| row.covariance_m2);
-    let largest = variances.flat_map(|of| [of[0][0], of[1][1], of[2][2]]).fold(0.0, f64::max);
-    let wanted = LARGEST * width / (2.0 * largest.sqrt());
-    if !wanted.is_finite() || wanted <= 1.0 {
-        return 1.0;
-    }
-    let power = 10.0_f64.powf(wanted.log10().floor());
-    let step = [5.0, 2.0, 1.0].into_iter().find(|step| step * power <= wanted).unwrap_or(1.0);
-    step * power
 }
 
 /// Ellipse of two deviations of an anchor in a view, larger by a factor; empty without deviations.
@@ -66,7 +44,7 @@ pub(crate) fn ellipse(anchor: &AnchorRow, [a, b]: [usize; 2], scale: f64) -> Vec
 
 /// Chart of a calibration: one panel per view, all with the same scale.
 pub(super) fn chart(found: &Calibrated) -> Chart {
-    let scale = magnification(found);
+    let scale = found.magnification();
     let panels: Vec<Panel> = views(found).iter().map(|view| panel(found, view, scale)).collect();
     let (low, high) = range(found, 0);
     let symbol = |shape, colour| Sample::Symbol(Symbol { shape, colour: rgb(colour) });

@@ -3,7 +3,7 @@
 use super::Shell;
 use super::figure::{PageFigure, axis, cable_line_style, colour, line, plain, points, with};
 use super::table::PageTable;
-use crate::figures::calibration::{AxisView, ellipse, magnification, views};
+use crate::figures::calibration::{AxisView, ellipse, views};
 use anyhow::Context as _;
 use askama::Template;
 use funicular_study::analyses::calibrate::{Calibrated, CalibratedValue, DistanceRow, ProposalRow, ReadingRow};
@@ -29,7 +29,7 @@ struct CalibratePage<'a> {
     residuals: PageFigure,
     rows: PageTable,
     /// Linear equations of the rows, for the script of the page.
-    linear: String,
+    refit: String,
     weak: Vec<String>,
     proposals: Option<PageTable>,
     script: &'static str,
@@ -56,12 +56,13 @@ pub fn page(found: &Calibrated, command_line: String) -> anyhow::Result<String> 
         ),
         residuals: residuals(found),
         rows: PageTable::of("table-rows", "Rows after the fit.", &ReadingRow::columns(found.turns), &found.rows),
-        linear: linear(found)?,
+        // No `<` ends the script element that holds it.
+        refit: serde_json::to_string(&found.refit_data())?.replace('<', "\\u003c"),
         weak: weak(found),
         proposals: (!found.proposals.is_empty()).then(|| {
             PageTable::of("table-proposals", proposed, &ProposalRow::columns(found.turns, has_rules), &found.proposals)
         }),
-        script: include_str!("../../templates/calibrate.js"),
+        script: concat!(include_str!("../../templates/refit.js"), include_str!("../../templates/calibrate.js")),
         command_line,
     };
     page.render().context("the page could not be written as HTML")
@@ -72,7 +73,7 @@ fn figure(found: &Calibrated, view: &AxisView, number: usize) -> PageFigure {
     let [a, b] = view.axes;
     let of =
         |points: &mut dyn Iterator<Item = [f64; 3]>| -> (Vec<f64>, Vec<f64>) { points.map(|p| (p[a], p[b])).unzip() };
-    let scale = magnification(found);
+    let scale = found.magnification();
     let (x, y) = of(&mut found.anchors.iter().map(|row| row.start_m));
     let mut data = vec![points("robot file", &x, &y, colour::GREY, "circle-open")];
     let (x, y) = of(&mut found.anchors.iter().map(|row| row.position_m));
@@ -135,20 +136,6 @@ fn residuals(found: &Calibrated) -> PageFigure {
         &data,
         json!({ "xaxis": axis("row", json!({})), "yaxis": axis("residual [mm]", json!({ "zeroline": true })) }),
     )
-}
-
-/// Linear equations with the values, as JSON that no `<` ends.
-fn linear(found: &Calibrated) -> anyhow::Result<String> {
-    let values: Vec<Value> = found
-        .values
-        .iter()
-        .map(|row| json!({ "path": row.path, "unit": row.unit, "value": row.value, "held": row.held }))
-        .collect();
-    let data = json!({
-        "linear": found.linear, "values": values,
-        "anchors": found.anchors.iter().map(|row| json!({ "position": row.position_m, "places": row.places })).collect::<Vec<_>>(),
-    });
-    Ok(serde_json::to_string(&data)?.replace('<', "\\u003c"))
 }
 
 /// Sentences on the weakest combinations.

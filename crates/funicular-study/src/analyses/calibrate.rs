@@ -43,7 +43,7 @@ const KEY: &str = "readings";
 const ASSUMED_DEVIATION: f64 = 1e-3;
 
 /// Names of the unknowns.
-const UNKNOWNS: [&str; 8] =
+pub const UNKNOWNS: [&str; 8] =
     ["anchors", "attachments", "offsets", "scale", "pulley-radii", "axial-stiffness", "mass", "support-stiffness"];
 
 /// Name of the inner frame.
@@ -146,6 +146,7 @@ pub fn run(request: &CalibrateRequest, watch: &mut dyn Watch) -> Result<Calibrat
     let parameters = Parameters::from_toml(&file.text)?;
     let robot = parameters.robot().clone();
     let rows = table::rows(&request.readings, &robot, request.position_std_m.is_some())?;
+    let (numbers, rows) = table::kept(rows, &request.leave_out)?;
     let is_proposed = request.propose > 0 || request.wanted_std_m.is_some();
     let needs = (is_proposed, "⟪propose⟫ or ⟪wanted_std_m⟫");
     let candidates = candidate_poses::wanted(needs, &request.grid, request.poses.as_ref(), &robot)?;
@@ -161,10 +162,10 @@ pub fn run(request: &CalibrateRequest, watch: &mut dyn Watch) -> Result<Calibrat
         tension: request.tension_std_n,
         tension_prior: request.tension_range_n.map(prior_of_range),
     };
-    let named = |error: CalibrationError| in_words(&robot, error);
+    let named = |error: CalibrationError| in_words(&robot, &numbers, error);
     let of = Calibration::new(robot.clone(), unknowns, rows, deviations, request.static_model).map_err(named)?;
     let of = with_priors(request, of)?;
-    check_signs(request, &of)?;
+    check_signs(request, &of, &numbers)?;
     let frame = of.frame(&frame_choice(request, &robot)?).map_err(named)?;
     of.check_count(&frame).map_err(named)?;
 
@@ -179,24 +180,23 @@ pub fn run(request: &CalibrateRequest, watch: &mut dyn Watch) -> Result<Calibrat
     }
     let found = found.ok_or_else(|| NoSolution(CalibrationError::NoMinimum { starts: request.starts }.to_string()))?;
 
-    let report = CalibrationReport::new(request, &of, &frame, &found, &candidates)?;
+    let report = CalibrationReport::new(request, &of, &numbers, &frame, &found, &candidates)?;
     let mut results = report.results(watch)?;
     results.warnings = caveats::warnings(&report, &results);
     Ok(results)
 }
 
 /// Refuses a reading that is no length, unless an unknown offset makes it one.
-fn check_signs(request: &CalibrateRequest, of: &Calibration) -> Result<()> {
+fn check_signs(request: &CalibrateRequest, of: &Calibration, numbers: &[usize]) -> Result<()> {
     if request.unknowns.iter().any(|unknown| unknown == "offsets") {
         return Ok(());
     }
-    for (j, row) in of.rows.iter().enumerate() {
+    for (number, row) in numbers.iter().zip(&of.rows) {
         let wrong = row.readings.iter().zip(&of.robot.cables).find(|(reading, _)| reading.is_some_and(|of| of <= 0.0));
         if let Some((reading, cable)) = wrong {
             bail!(
-                "⟪readings⟫, row {}: the reading {} m of cable {} is no length, which is positive; readings from an \
+                "⟪readings⟫, row {number}: the reading {} m of cable {} is no length, which is positive; readings from an \
                  encoder's zero need unknown offsets, ⟪unknowns⟫ anchors,offsets",
-                j + 1,
                 significant(reading.unwrap_or_default(), 4),
                 cable.name
             );
@@ -205,13 +205,16 @@ fn check_signs(request: &CalibrateRequest, of: &Calibration) -> Result<()> {
     Ok(())
 }
 
-/// Error of the core with the names of the robot.
-fn in_words(robot: &Robot, error: CalibrationError) -> anyhow::Error {
+/// Error of the core with the names of the robot and the numbers of the rows in their table.
+fn in_words(robot: &Robot, numbers: &[usize], error: CalibrationError) -> anyhow::Error {
     match error {
         CalibrationError::UnreadCable { cable } => anyhow!(
             "no row has a reading of cable {}: add its column, or hold its anchor with ⟪hold_anchors⟫",
             robot.cables[cable].name
         ),
+        CalibrationError::OpenPose { row, data, coordinates } => {
+            anyhow!(CalibrationError::OpenPose { row: numbers[row - 1], data, coordinates })
+        }
         other => anyhow!("{other}"),
     }
 }

@@ -2,10 +2,12 @@
 
 mod conditions;
 mod places;
+mod reach;
 mod rows;
 mod study;
 
 pub use conditions::ConditionRow;
+pub use reach::{ReachedPoint, WorkspaceReach};
 pub use rows::{
     AreaOfWorkspace, ComparedSets, GridOfWorkspace, InnerBox, PartOfWorkspace, RaysOfWorkspace, SectionOfWorkspace,
     VolumeRow, Workspace,

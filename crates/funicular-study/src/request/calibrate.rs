@@ -20,6 +20,8 @@ declared! {
         /// slack or not read; x_m, y_m, z_m and, where the platform turns, roll_deg, pitch_deg, yaw_deg are poses at which
         /// the search begins; tension_NAME_n are tensions at the anchors [N], which elastic cables need.
         readings: GappedColumns = GappedColumns::new() => (GappedColumns).required();
+        /// Rows of the readings that are left out, by their numbers from 1, separated by commas.
+        leave_out: Vec<f64> = Vec::new() => (Commas(ProgramForm::Positive)).form("ROWS");
         /// Numbers to find, separated by commas: anchors, attachments, offsets (length of each cable at the reading zero),
         /// scale (metres of length per metre of all readings), pulley-radii; of elastic cables also axial-stiffness, mass and
         /// support-stiffness, as factors of those of the file.

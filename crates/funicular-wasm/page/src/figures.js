@@ -283,6 +283,41 @@ export function slice({ axes, ranges, cells, here, label, unit, width }) {
   return { svg, at, cross };
 }
 
+/** Symbols' colours of the cables in a figure of residuals, for any colour vision. */
+const CABLE_COLORS = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#7a7a7a", "#8a3ffc"];
+
+/** Residuals of every cable over the rows: `rows` of a calibration, `cables` (names), `width`. */
+export function residuals({ rows, cables, width }) {
+  const [left, right, top, high] = [44, 10, 18, 120];
+  const inside = width - left - right;
+  const places = rows.flatMap(({ row, residuals: list }) =>
+    list.map(({ cable, residual_m: residual }) => ({ row, cable: cables.indexOf(cable), mm: 1000 * residual })),
+  );
+  const most = Math.max(...places.map(({ mm }) => Math.abs(mm)), 1e-9);
+  const [first, last] = [Math.min(...rows.map(({ row }) => row)), Math.max(...rows.map(({ row }) => row))];
+  const x = (row) => left + inside * (last > first ? 0.02 + (0.96 * (row - first)) / (last - first) : 0.5);
+  const y = (mm) => top + (high * (most - mm)) / (2 * most);
+  const parts = ticks(-most, most, 4).map(
+    (mm) =>
+      `<line class="grid" x1="${left}" y1="${y(mm).toFixed(1)}" x2="${width - right}" y2="${y(mm).toFixed(1)}"/>` +
+      `<text x="${left - 5}" y="${(y(mm) + 4).toFixed(1)}" text-anchor="end">${tick(mm)}</text>`,
+  );
+  const named = ticks(first, Math.max(last, first + 1), 8).filter((row) => Number.isInteger(row) && row <= last);
+  parts.push(
+    ...named.map((row) => `<text x="${x(row).toFixed(1)}" y="${top + high + 14}" text-anchor="middle">${row}</text>`),
+    ...places.map(({ row, cable, mm }) => {
+      const told = `${cables[cable]}, row ${row}: ${short(mm, 3)} mm`;
+      const color = CABLE_COLORS[cable % CABLE_COLORS.length];
+      const at = `cx="${x(row).toFixed(1)}" cy="${y(mm).toFixed(1)}"`;
+      return `<circle ${at} r="3" fill="${color}"><title>${escaped(told)}</title></circle>`;
+    }),
+    `<text x="${left}" y="11">residual [mm]</text>`,
+    `<text x="${left + inside / 2}" y="${top + high + 28}" text-anchor="middle">row</text>`,
+  );
+  const told = `Residuals of ${places.length} readings in ${rows.length} rows, at most ${short(most, 3)} mm`;
+  return figure({ told, width, height: top + high + 32, parts });
+}
+
 /** Moves the line of the present time in the figure that an element begins with. */
 export function moveClock(holder, t) {
   const figure = holder.firstElementChild;

@@ -1,5 +1,6 @@
 // The page: its parts are made, then the first robot is shown.
 
+import * as calibration from "./calibration.js";
 import * as comparison from "./comparison.js";
 import { isIdle, statics } from "./computation.js";
 import { CORES, prepare } from "./engine.js";
@@ -18,6 +19,7 @@ import * as opening from "./opening.js";
 import * as parts from "./parts.js";
 import * as places from "./places.js";
 import * as pose from "./pose.js";
+import * as reach from "./reach.js";
 import * as release from "./release.js";
 import * as response from "./response.js";
 import * as robot from "./robot.js";
@@ -140,6 +142,8 @@ async function start() {
     simulation,
     survey,
     places,
+    reach,
+    calibration,
     opening,
     importing,
     welcome,

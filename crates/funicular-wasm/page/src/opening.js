@@ -1,4 +1,4 @@
-// Files that a person opens or drops: a robot file, or files of other programs.
+// Files that a person opens or drops: a robot file, files of other programs, or a table of readings.
 
 import { stop } from "./computation.js";
 import { Cancelled } from "./engine.js";
@@ -6,6 +6,7 @@ import { $ } from "./format.js";
 import { importFiles } from "./importing.js";
 import { busy, tell } from "./messages.js";
 import { setRobot, showLibrary } from "./robot.js";
+import { emit } from "./store.js";
 
 const MAX_BYTES = 5e6; // of all files that are opened at once: more would take seconds, and no robot has it
 
@@ -67,6 +68,10 @@ async function read(files, isLast) {
   if (files.length === 1 && /\.toml$/i.test(files[0].path)) {
     await setRobot(files[0].path, files[0].text);
     showLibrary();
+    return;
+  }
+  if (files.length === 1 && /\.csv$/i.test(files[0].path)) {
+    emit("readings", files[0].path, files[0].text);
     return;
   }
   await importFiles(files, isLast);

@@ -29,6 +29,7 @@ import { ConvexGeometry } from "three/addons/geometries/ConvexGeometry.js";
 import { Line2 } from "three/addons/lines/Line2.js";
 import { LineGeometry } from "three/addons/lines/LineGeometry.js";
 import { LineMaterial } from "three/addons/lines/LineMaterial.js";
+import { CalibrationScene } from "./calibration_scene.js";
 import { canvasOf } from "./canvas.js";
 import { colorOf, COLORS, isLimited, limitingCable } from "./colors.js";
 import { setCurve } from "./curve.js";
@@ -38,6 +39,7 @@ import { Grab } from "./grab.js";
 import { Ground } from "./ground.js";
 import { Playback } from "./motion.js";
 import { Obstacles } from "./obstacles.js";
+import { ReachScene } from "./reach_scene.js";
 
 const FIELD_OF_VIEW = 35;
 const VIEW_HALF = 0.44; // of the size of the robot: half of what the view shows of it at first
@@ -86,6 +88,8 @@ export class View {
     this.remembered = new Group();
     this.handle = new Object3D();
     this.ground = new Ground(this.scene);
+    this.reach = new ReachScene(this.scene);
+    this.calibration = new CalibrationScene(this.scene);
     this.scene.add(this.platform, this.fixed, this.cables, this.remembered, this.handle);
 
     this.orbit = new OrbitControls(this.camera, this.canvas);
@@ -160,6 +164,8 @@ export class View {
   clear() {
     [this.platform, this.fixed, this.cables, this.remembered].forEach((group) => group.clear());
     this.ground.clear();
+    this.reach.set(null);
+    this.calibration.set(null);
     Object.assign(this, { lines: [], frame: null, names: [], attachments: [] });
     this.playback.mode = null;
     this.labels.replaceChildren();
@@ -278,6 +284,8 @@ export class View {
     this.drives?.recolor(color);
     this.obstacles?.recolor(color);
     this.ground.recolor(color);
+    this.reach.recolor(color);
+    this.calibration.recolor(color);
     this.draw();
   }
 

@@ -26,17 +26,30 @@ const keywordsOf = (keys) =>
     .filter(([, value]) => value !== false)
     .map(([key, value]) => `${key}=${literal(value)}`);
 
+/** Options of the program for changed values. */
+const changesOf = (set) => {
+  const textOf = (value) => (Array.isArray(value) ? JSON.stringify(value) : value);
+  return set.map(({ path, value }) => `--set ${quoted(`${path}=${textOf(value)}`)}`);
+};
+
 /** Keys of a request for a state: pose or lengths, rule, and everything that the page was made with. */
 function keysOf({ kind, pose, lengths, rule, more }) {
   const place = { pose: { pose }, lengths: { lengths_m: lengths } }[kind] ?? {};
   return { ...place, ...(rule ? { tension_rule: rule } : {}), ...more };
 }
 
+/** Command of the program for a calibration. `request`: the request, whose robot may have changes. */
+export function calibrateCommand({ file, readings, request }) {
+  const { command: name, robot, readings: _, unknowns, grid = [], leave_out: rows = [], ...rest } = request;
+  const keys = { unknowns, ...(rows.length ? { leave_out: rows } : {}), ...rest };
+  const axes = grid.map(({ axis, from, to, count }) => `--grid ${axis}=${from}:${to}:${count}`);
+  const words = [`--readings ${quoted(readings)}`, ...optionsOf(keys), ...axes, ...changesOf(robot.set)];
+  return [`funicular ${name} ${quoted(file)}`, ...words].join(" \\\n  ");
+}
+
 /** Commands of the program for statics, modes and response. */
 export function commands({ file, state, model, belowHz, response, gradient }) {
-  const textOf = (value) => (Array.isArray(value) ? JSON.stringify(value) : value);
-  const set = state.set.map(({ path, value }) => `--set ${quoted(`${path}=${textOf(value)}`)}`);
-  const rest = [...optionsOf(keysOf(state)), ...set];
+  const rest = [...optionsOf(keysOf(state)), ...changesOf(state.set)];
   const command = (name, own) => [`funicular ${name} ${quoted(file)}`, ...rest, ...own].join(" \\\n  ");
   const models = optionsOf(model);
   const list = [

@@ -24,6 +24,12 @@ const calls = {
     const found = funicular.response(request);
     return { ...found, milliseconds: performance.now() - begin };
   },
+  reach: ({ pose, level }) => {
+    const begin = performance.now();
+    const found = funicular.reach(pose, level);
+    return { ...found, milliseconds: performance.now() - begin };
+  },
+  table: ({ text, name }) => ({ columns: funicular.table(text, name) }),
   answer: ({ request }) => ({ text: funicular.answerText(JSON.stringify(request)) }),
   // For tests: more modes than an address can count is a mistake of the caller, which panics.
   crash: () => funicular.frame(0, { length: 2 ** 32 - 1 }, 0, 0),

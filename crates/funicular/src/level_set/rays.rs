@@ -135,6 +135,61 @@ impl RaySet {
     }
 }
 
+/// First border of the set along a ray from a centre inside it, or the end of the ray.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FirstBorder {
+    /// Distance from the centre [m].
+    pub distance: f64,
+    /// True if the set ends there; otherwise the ray leaves the box.
+    pub is_border: bool,
+}
+
+/// First border of the set along each ray from its centre, without what lies behind: all rays go outwards by the same steps,
+/// and each stops at its first point outside. Empty if the centre is not inside the set; `None` if the work was stopped, or
+/// if the centre is not in the box.
+///
+/// # References
+/// docs/theory.md, section 10b.
+pub fn first_borders(directions: &[Vec3], search: &RaysInBox, evaluate: &mut Evaluate<'_>) -> Option<Vec<FirstBorder>> {
+    let RaysInBox { center, step, tolerance, .. } = *search;
+    let lengths: Vec<f64> = directions.iter().map(|ray| length_in(search, ray)).collect::<Option<_>>()?;
+    let at_center = evaluate(&[center])?[0];
+    if !is_inside(at_center) {
+        return Some(Vec::new());
+    }
+
+    // Rays that are still inside, with the distance and the value of their last point.
+    let mut going: Vec<(usize, f64, Option<f64>)> = (0..directions.len()).map(|ray| (ray, 0.0, at_center)).collect();
+    let mut roots = Vec::new();
+    let mut of_rays = Vec::new();
+    while !going.is_empty() {
+        let next: Vec<f64> = going.iter().map(|(ray, distance, _)| (distance + step).min(lengths[*ray])).collect();
+        let at = |ray: usize, distance: f64| center + directions[ray] * distance;
+        let places: Vec<Vec3> = going.iter().zip(&next).map(|((ray, ..), distance)| at(*ray, *distance)).collect();
+        let values = evaluate(&places)?;
+        let mut inside = Vec::new();
+        for (((ray, near, near_value), far), value) in going.into_iter().zip(next).zip(values) {
+            if !is_inside(value) {
+                roots.push(EdgeRoot::new([at(ray, near), at(ray, far)], [near_value, value]));
+                of_rays.push(ray);
+            } else if far < lengths[ray] {
+                inside.push((ray, far, value));
+            }
+        }
+        going = inside;
+    }
+
+    if !EdgeRoot::find_all(&mut roots, tolerance, evaluate).1 {
+        return None;
+    }
+    let mut ends: Vec<FirstBorder> =
+        lengths.iter().map(|length| FirstBorder { distance: *length, is_border: false }).collect();
+    for (root, ray) in roots.iter().zip(of_rays) {
+        ends[ray] = FirstBorder { distance: (root.point() - center).norm(), is_border: true };
+    }
+    Some(ends)
+}
+
 /// Length of a ray from the centre to where it leaves the box; `None` if the centre is not inside the box.
 fn length_in(search: &RaysInBox, ray: &Vec3) -> Option<f64> {
     let [low, high] = search.bounds;

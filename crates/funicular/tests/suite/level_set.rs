@@ -1,6 +1,8 @@
 //! Level sets against solids whose volumes, areas and sections have closed forms.
 
-use funicular::level_set::{BoundaryMesh, LevelSet, MAX_NODES, PointGrid, RaySet, RaysInBox, SearchEnd, Sphere};
+use funicular::level_set::{
+    BoundaryMesh, FirstBorder, LevelSet, MAX_NODES, PointGrid, RaySet, RaysInBox, SearchEnd, Sphere, first_borders,
+};
 use funicular::math::Vec3;
 use proptest::prelude::*;
 use std::collections::BTreeMap;
@@ -222,6 +224,43 @@ fn rays_find_every_interval() {
     assert!(
         set.hull().is_none() && set.rays().iter().all(|ray| ray.is_cut() && (ray.intervals[0][0] - 0.5).abs() < 1e-9)
     );
+}
+
+#[test]
+fn the_first_border_of_a_ray_is_the_end_of_its_first_interval() {
+    let sphere = Sphere::with_directions(42).unwrap();
+    let center = Vec3::new(0.05, -0.1, 0.02);
+    let bounds = [Vec3::repeat(-1.5), Vec3::repeat(1.5)];
+    let search = RaysInBox { center, bounds, step: 0.05, tolerance: 1e-11 };
+    let borders = |inside: &dyn Fn(&Vec3) -> Option<f64>| {
+        let mut count = 0;
+        let mut evaluate = |points: &[Vec3]| {
+            count += points.len();
+            Some(points.iter().map(inside).collect())
+        };
+        let ends = first_borders(sphere.directions(), &search, &mut evaluate).unwrap();
+        (ends, count)
+    };
+
+    // A ball within a shell, whose outer interval does not count and is not computed; without values outside of it.
+    let both = |point: &Vec3| {
+        let value = (0.4 - point.norm()).max(0.2 - (point.norm() - 1.0).abs());
+        (value >= 0.0 || point.z > 0.0).then_some(value)
+    };
+    let set = RaySet::find(sphere.clone(), &search, &mut |points| Some(points.iter().map(both).collect())).unwrap();
+    let (ends, count) = borders(&both);
+    assert!(count < set.evaluations() / 2, "{count} of {}", set.evaluations());
+    for (end, ray) in ends.iter().zip(set.rays()) {
+        assert!(end.is_border && (end.distance - ray.intervals[0][1]).abs() < 1e-10, "{end:?} {ray:?}");
+    }
+
+    // A set that goes on behind the box, a centre outside the set, and one outside the box.
+    let (ends, _) = borders(&|_| Some(1.0));
+    let box_ends = set.rays().iter().map(|ray| FirstBorder { distance: ray.end, is_border: false });
+    assert_eq!(ends, box_ends.collect::<Vec<_>>());
+    assert_eq!(borders(&|_| None), (Vec::new(), 1));
+    let outside = RaysInBox { center: Vec3::repeat(2.0), ..search };
+    assert_eq!(first_borders(sphere.directions(), &outside, &mut |_| None), None);
 }
 
 #[test]

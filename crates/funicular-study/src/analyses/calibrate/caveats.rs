@@ -21,8 +21,9 @@ pub(super) fn warnings(of: &CalibrationReport, results: &Calibrated) -> Vec<Stri
     warnings.extend(exchanged_cables(of));
     // One row at a time: a wrong one makes others look wrong.
     let drop = |row: &ReadingRow| row.chi2_drop.unwrap_or_default();
-    let outliers = results.rows.iter().filter(|row| row.outlier);
-    warnings.extend(outliers.max_by(|a, b| drop(a).total_cmp(&drop(b))).map(|row| outlier(of, row)));
+    let outliers = results.rows.iter().enumerate().filter(|(_, row)| row.outlier);
+    let worst = outliers.max_by(|(_, a), (_, b)| drop(a).total_cmp(&drop(b)));
+    warnings.extend(worst.map(|(j, row)| outlier(of, j, row)));
     warnings.extend(other_minima(of));
     warnings.extend(poor_frame(of));
     warnings.extend(stretch(of));
@@ -83,9 +84,9 @@ fn exchanged_cables(of: &CalibrationReport) -> Option<String> {
     })
 }
 
-fn outlier(of: &CalibrationReport, row: &ReadingRow) -> String {
-    let remedy = row_exchange(of.of, &of.found.best, &of.frame, row.row - 1).map_or_else(
-        || "repeat the measurement, or leave the row out".to_owned(),
+fn outlier(of: &CalibrationReport, j: usize, row: &ReadingRow) -> String {
+    let remedy = row_exchange(of.of, &of.found.best, &of.frame, j).map_or_else(
+        || format!("repeat the measurement, or leave the row out (⟪leave_out⟫ {})", row.row),
         |found| {
             let [a, b] = found.cables.map(|cable| of.of.robot.cables[cable].name.as_str());
             format!("with its readings of cables {a} and {b} exchanged it fits")
@@ -166,7 +167,7 @@ fn elongation(robot: &Robot) -> Option<(f64, f64)> {
 }
 
 fn open_rows(of: &CalibrationReport) -> Option<String> {
-    let rows: Vec<String> = of.precision.open_rows.iter().map(|row| (row + 1).to_string()).collect();
+    let rows: Vec<String> = of.precision.open_rows.iter().map(|row| of.numbers[*row].to_string()).collect();
     (!rows.is_empty()).then(|| {
         format!(
             "the readings of rows {} do not fix the pose there, because cables lie in one plane or line with the platform: \

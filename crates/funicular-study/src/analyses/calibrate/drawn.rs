@@ -1,10 +1,15 @@
 //! What figures and pages draw of a calibration: anchors with their covariance, and the rows as linear equations, with
 //! which a page fits again without some of them.
 
+use super::Calibrated;
 use super::report::CalibrationReport;
 use funicular::calibration::CalibrationUnknown;
 use funicular::math::DMat;
 use serde::Serialize;
+use serde_json::{Value, json};
+
+/// Largest half axis of an ellipse of two deviations, as a part of the width of the room; smaller ones are drawn larger.
+const LARGEST: f64 = 0.08;
 
 /// Anchor after a calibration.
 #[derive(Serialize)]
@@ -49,6 +54,45 @@ pub struct LinearRows {
 pub struct NetRows {
     pub by_free: Vec<Vec<f64>>,
     pub residuals: Vec<f64>,
+}
+
+impl Calibrated {
+    /// Factor with which ellipses are drawn: 1, 2, 5 times a power of ten, not below 1.
+    pub fn magnification(&self) -> f64 {
+        let span = |axis: usize| {
+            let ends = self.anchors.iter().map(|row| row.position_m[axis]);
+            let (low, high) = ends.fold((f64::MAX, f64::MIN), |(low, high), x| (low.min(x), high.max(x)));
+            high - low
+        };
+        let width = self.axes.iter().map(|axis| span(*axis)).fold(0.0, f64::max);
+        let variances = self.anchors.iter().filter_map(|row| row.covariance_m2);
+        let largest = variances.flat_map(|of| [of[0][0], of[1][1], of[2][2]]).fold(0.0, f64::max);
+        let wanted = LARGEST * width / (2.0 * largest.sqrt());
+        if !wanted.is_finite() || wanted <= 1.0 {
+            return 1.0;
+        }
+        let power = 10.0_f64.powf(wanted.log10().floor());
+        let step = [5.0, 2.0, 1.0].into_iter().find(|step| step * power <= wanted).unwrap_or(1.0);
+        step * power
+    }
+
+    /// Data with which the script of a page fits again without some rows: the linear equations, the numbers of their rows, the
+    /// values and anchors that they move, and the factor with which ellipses are drawn. `linear` is null where a combination
+    /// is lost.
+    pub fn refit_data(&self) -> Value {
+        let values = self
+            .values
+            .iter()
+            .map(|row| json!({ "path": row.path, "unit": row.unit, "value": row.value, "held": row.held }));
+        let anchors = self.anchors.iter().map(|row| json!({ "position": row.position_m, "places": row.places }));
+        json!({
+            "linear": self.linear,
+            "rows": self.rows.iter().map(|row| row.row).collect::<Vec<_>>(),
+            "values": values.collect::<Vec<_>>(),
+            "anchors": anchors.collect::<Vec<_>>(),
+            "magnification": self.magnification(),
+        })
+    }
 }
 
 fn lists(matrix: &DMat) -> Vec<Vec<f64>> {

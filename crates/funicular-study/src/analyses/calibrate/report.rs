@@ -44,6 +44,8 @@ pub(super) const MAX_PROPOSALS: usize = 100;
 pub(super) struct CalibrationReport<'a> {
     pub(super) request: &'a CalibrateRequest,
     pub(super) of: &'a Calibration,
+    /// Numbers of the rows in their table, from 1.
+    pub(super) numbers: &'a [usize],
     pub(super) frame: CalibrationFrame,
     pub(super) found: &'a CalibrationSearch,
     pub(super) precision: CalibrationPrecision,
@@ -65,6 +67,7 @@ impl<'a> CalibrationReport<'a> {
     pub(super) fn new(
         request: &'a CalibrateRequest,
         of: &'a Calibration,
+        numbers: &'a [usize],
         frame: &CalibrationFrame,
         found: &'a CalibrationSearch,
         candidates: &Candidates,
@@ -86,6 +89,7 @@ impl<'a> CalibrationReport<'a> {
         Ok(Self {
             request,
             of,
+            numbers,
             found,
             factor,
             quantile: quantile.unwrap_or(f64::NAN),
@@ -258,7 +262,7 @@ impl<'a> CalibrationReport<'a> {
             let limit = chi2_above(OUTLIER / count as f64, left_out.degrees.max(1));
             let drop = left_out.chi2_drop.map(|drop| drop / scale);
             ReadingRow {
-                row: j + 1,
+                row: self.numbers[j],
                 position_m: pose.position_w.into(),
                 roll_pitch_yaw_deg: rotation::to_roll_pitch_yaw_deg(&pose.rot_wp),
                 residuals: residuals.collect(),
@@ -305,7 +309,7 @@ impl<'a> CalibrationReport<'a> {
                 chi2: other.chi2,
                 values: other.values.iter().enumerate().map(|(k, value)| self.of.meaning(k, *value)[0]).collect(),
                 farthest_m: best.values.iter().zip(&other.values).map(apart).fold(0.0, f64::max),
-                row: row + 1,
+                row: self.numbers[row],
             }
         };
         self.found.others.iter().map(row).collect()

@@ -8,6 +8,7 @@ use crate::request::GappedColumns;
 use crate::table_fault::TableFault;
 use crate::text::significant;
 use crate::values::finite;
+use anyhow::{Result, bail};
 use funicular::calibration::MeasuredRow;
 use funicular::math::Vec3;
 use funicular::robot::{PlatformMotion, Pose, Robot};
@@ -66,6 +67,22 @@ pub(super) fn rows(columns: &GappedColumns, robot: &Robot, measured: bool) -> Re
     let rows = (0..count).map(of_row).collect::<Result<Vec<_>, TableFault>>()?;
     check_unit(&rows, robot).map_err(fault)?;
     Ok(rows)
+}
+
+/// Rows without those that a request leaves out, and before them their numbers in the table, from 1.
+pub(super) fn kept(rows: Vec<MeasuredRow>, left_out: &[f64]) -> Result<(Vec<usize>, Vec<MeasuredRow>)> {
+    let count = rows.len();
+    let is_row = |number: f64| number.fract() == 0.0 && (1.0..=count as f64).contains(&number);
+    if let Some(wrong) = left_out.iter().find(|number| !is_row(**number)) {
+        bail!("⟪leave_out⟫ {wrong}: there is no such row: give numbers from 1 to {count}");
+    }
+    let numbered = rows.into_iter().enumerate().map(|(j, row)| (j + 1, row));
+    let kept = numbered.filter(|(number, _)| !left_out.contains(&(*number as f64)));
+    let (numbers, rows): (Vec<usize>, Vec<MeasuredRow>) = kept.unzip();
+    if rows.is_empty() {
+        bail!("⟪leave_out⟫ leaves no row of {count}: keep at least one");
+    }
+    Ok((numbers, rows))
 }
 
 /// Refuses a column that no cable and no pose has.

@@ -29,10 +29,10 @@ pub enum SearchedSet {
 pub type EvaluateSet<'a> = dyn FnMut(SearchedSet, &[Vec3]) -> Option<Vec<Option<f64>>> + 'a;
 
 /// Robot with its conditions.
-struct JudgedRobot {
-    robot: Robot,
+pub(super) struct JudgedRobot {
+    pub(super) robot: Robot,
     options: Options,
-    conditions: Conditions,
+    pub(super) conditions: Conditions,
 }
 
 /// Request of a workspace that is ready to run.
@@ -195,7 +195,7 @@ impl OncePerPlace<'_, '_> {
 }
 
 impl JudgedRobot {
-    fn new(robot: Robot, request: &WorkspaceRequest) -> Result<Self> {
+    pub(super) fn new(robot: Robot, request: &WorkspaceRequest) -> Result<Self> {
         let mut point = request.point.clone();
         let robot = with_request(robot, &point)?;
         let options = options_of(&robot, &mut point)?;
@@ -203,11 +203,13 @@ impl JudgedRobot {
         Ok(Self { robot, options, conditions })
     }
 
+    /// Distance of a pose from the limits, as [`Conditions::margin`].
+    pub(super) fn margin(&self, pose: &Pose) -> Option<f64> {
+        self.conditions.margin(&self.robot, pose, &self.options)
+    }
+
     fn value(&self, position: &Vec3, orientations: &[Rotation], rule: OrientationRule) -> Option<f64> {
-        let at = |rotation: &Rotation| {
-            let pose = Pose { position_w: *position, rot_wp: *rotation };
-            self.conditions.margin(&self.robot, &pose, &self.options)
-        };
+        let at = |rotation: &Rotation| self.margin(&Pose { position_w: *position, rot_wp: *rotation });
         match rule {
             OrientationRule::All => {
                 let mut least = f64::INFINITY;
