@@ -75,7 +75,9 @@ fn no_sampled_points_of_two_cables_are_nearer_than_their_distance() {
 /// Lines through many points of the cables are as far apart as the cables, and the few nodes of a simulation nearly so.
 #[test]
 fn lines_through_points_of_the_cables_have_their_least_margin() {
+    const FROM_END: f64 = 0.05;
     let mut robot = cogiro();
+    robot.clearance = Some(RequiredClearance { from_end: Some(FROM_END), ..RequiredClearance::default() });
     robot.obstacles.push(column(
         "column",
         Pose::new([3.0, 1.0, 1.0], [0.0; 3]),
