@@ -430,7 +430,7 @@ fn requests() -> Vec<Value> {
                 &state,
                 &tensions,
                 &json!({
-                    "to": "vtk", "segments": 5, "modes_below_hz": 10.0, "duration_s": 2.0,
+                    "to": "vtk", "segments": 5, "cable_pieces": 4, "modes_below_hz": 10.0, "duration_s": 2.0,
                     "scenario": { "release": [{ "at_s": 0.1, "mass_kg": 1.0 }] },
                 }),
             ],
