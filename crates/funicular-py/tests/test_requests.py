@@ -172,7 +172,8 @@ MORE = [
     f"funicular identify robots/cogiro.toml --fit platform.mass_kg {TENSIONS} --length-std-m 0.002 "
     "--measured-lengths-m 9.1,9.0,7.8,7.6,7.3,7.4,8.3,8.4",
     f"funicular identify {ROBOT} --fit platform.mass_kg {LENGTHS} --measured-tensions-n 17,36,40,15,50,52 --propose 1 "
-    "--grid x=-0.1,0.1 --propose-measuring frequencies,tensions --propose-modes 4 --propose-by determinant",
+    "--grid x=-0.1,0.1 --propose-measuring frequencies,tensions --propose-payloads-kg 0,2 --propose-modes 4 "
+    "--payload-kg 1 --payload-center-m 0,0,-0.1 --propose-by determinant",
     f"funicular identify {ROBOT} --fit platform.mass_kg {LENGTHS} --measured-tensions-n 17,36,40,15,50,52 "
     "--wanted-percent 5 --poses near.csv --propose-for platform.mass_kg",
     "funicular identify robots/grab-4-cables.toml --fit platform.inertia_kg_m2 --experiments states.json --rigid-cables "

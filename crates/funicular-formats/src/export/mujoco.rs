@@ -179,7 +179,6 @@ fn written(
         springs.lost.push(text);
     }
     let frequencies = springs.frequencies()?;
-    let fastest = frequencies.last().copied().unwrap_or(1.0 / MAX_STEP_S);
     let (chains, listed_hz) = chained.unzip();
 
     let mut changed = Vec::new();
@@ -189,10 +188,6 @@ fn written(
         .map(|(i, name)| tendon(&springs, i, name, chains.map(|chains| &chains[i]), &frequencies))
         .collect::<Result<Vec<_>>>()?;
     let loads = dead_forces(&springs);
-    let of_chains = cables.iter().filter_map(|cable| cable.rope.as_ref()).map(|rope| rope.fastest);
-    let step = of_chains
-        .map(|fastest| MAX_ANGLE_OF_CHAINS / fastest)
-        .fold(MAX_STEP_S.min(MAX_ANGLE_PER_STEP / (TAU * fastest)), f64::min);
 
     let robot = springs.robot;
     let size = robot.platform_length().min(springs.shown_box()[1].amax() * 2.0);
@@ -204,13 +199,13 @@ fn written(
         comment_source: in_comment(&robot.source),
         lost: springs.lost.iter().map(|text| in_comment(text)).collect(),
         has_chains: chains.is_some(),
+        step: time_step(&frequencies, &cables),
         frequencies: listed_hz
             .unwrap_or(frequencies)
             .iter()
             .map(|hz| format!("{hz:.4}"))
             .collect::<Vec<_>>()
             .join(", "),
-        step,
         gravity: vector(&robot.gravity_w),
         point_size: POINT_SIZE * size,
         cable_size: CABLE_SIZE * size,
@@ -224,6 +219,14 @@ fn written(
     .render()?;
     *warnings = springs.lost;
     Ok(text + "\n")
+}
+
+/// Time step [s] for the frequencies of the platform [Hz] and the chains.
+fn time_step(frequencies: &[f64], cables: &[CableTendon]) -> f64 {
+    let of_platform = MAX_ANGLE_PER_STEP / (TAU * frequencies.last().copied().unwrap_or(1.0 / MAX_STEP_S));
+    let of_chains =
+        cables.iter().filter_map(|cable| cable.rope.as_ref()).map(|rope| MAX_ANGLE_OF_CHAINS / rope.fastest);
+    of_chains.fold(MAX_STEP_S.min(of_platform), f64::min)
 }
 
 /// Numbers of a vector with all digits.

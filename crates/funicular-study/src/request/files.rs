@@ -113,7 +113,7 @@ declared! {
         /// Program that the file is for.
         #[serde(with = "crate::names")]
         to: ExportFormat = ExportFormat::Opensees => (name::<ExportFormat>()).form("PROGRAM").required();
-        /// Elements per cable, 1 to 1000: bars in OpenSees, segments in MoorDyn, pieces of a curve in VTK; a cable of MuJoCo is one.
+        /// Elements per cable, 1 to 1000: bars in OpenSees, segments in MoorDyn, pieces of a curve in VTK.
         segments: usize = 20 => (Count(1..=1000));
         /// Pieces of each cable in MuJoCo, 2 to 100: a chain of bars that has the mass, the sag and the vibration of the
         /// cable. Without it cables are straight and have no mass.
