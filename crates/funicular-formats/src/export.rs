@@ -5,7 +5,7 @@ mod links;
 pub(crate) mod moordyn;
 mod mujoco;
 pub(crate) mod opensees;
-mod straight;
+mod springs;
 pub(crate) mod support;
 pub(crate) mod vtk;
 pub(crate) mod xml_text;
@@ -36,6 +36,9 @@ pub struct Exported {
 /// Maximum number of elements per cable.
 const MAX_SEGMENTS: usize = 1000;
 
+/// Numbers of pieces of a cable in MuJoCo: one has no mass, and a hundred of eight cables take a step of a millisecond.
+const CABLE_PIECES: std::ops::RangeInclusive<usize> = 2..=100;
+
 /// Writes the robot at equilibrium as a file of another program.
 ///
 /// # Errors
@@ -44,7 +47,7 @@ pub fn run(at_rest: &AtRest, request: &request::ExportRequest) -> Result<Exporte
     let request::ExportRequest { to, segments, modes_below_hz, .. } = *request;
     refuse(request)?;
     let given = &at_rest.equilibrium;
-    let straight = to.has_straight_cables().then(|| straight::at_rest(at_rest)).transpose()?;
+    let straight = has_straight_cables(request).then(|| springs::at_rest(at_rest)).transpose()?;
     let at_rest = straight.as_ref().unwrap_or(at_rest);
 
     // Supports settle under the cables that the file has.
@@ -66,7 +69,10 @@ pub fn run(at_rest: &AtRest, request: &request::ExportRequest) -> Result<Exporte
                 moordyn::script(at_rest, scenario, duration, segments, &mut warnings)?
             }
         },
-        ExportFormat::Mujoco => mujoco::model(at_rest, given, &mut warnings)?,
+        ExportFormat::Mujoco => match request.cable_pieces {
+            None => mujoco::model(at_rest, given, &mut warnings)?,
+            Some(pieces) => mujoco::model_of_chains(at_rest, pieces, &mut warnings)?,
+        },
         ExportFormat::Sdf => links::sdf(at_rest, given, &mut warnings)?,
         ExportFormat::Urdf => links::urdf(at_rest, given, &mut warnings)?,
         ExportFormat::Vtk => vtk::poly_data(at_rest, segments, modes_below_hz, &mut warnings)?,
@@ -75,13 +81,21 @@ pub fn run(at_rest: &AtRest, request: &request::ExportRequest) -> Result<Exporte
     Ok(Exported { text, warnings })
 }
 
+/// True if the file has straight springs without mass as cables.
+fn has_straight_cables(request: &request::ExportRequest) -> bool {
+    request.to.has_straight_cables() && request.cable_pieces.is_none()
+}
+
 /// Refuses a request that no file can hold, before any computation.
 ///
 /// # Errors
 /// The option to leave out or to change.
 pub fn refuse(request: &request::ExportRequest) -> Result<()> {
     let model = request.state.static_model;
-    if request.to.has_straight_cables() {
+    if request.cable_pieces.is_some() && request.to != ExportFormat::Mujoco {
+        bail!("⟪cable_pieces⟫ is for MuJoCo: for {} leave it out", request.to.program());
+    }
+    if has_straight_cables(request) {
         if model == StaticModel::Ideal {
             bail!("ideal cables have no stiffness, which {} needs: leave out ⟪static_model⟫", request.to.program());
         }
@@ -103,6 +117,13 @@ pub fn refuse(request: &request::ExportRequest) -> Result<()> {
     request::check("duration_s", request.duration_s, positive)?;
     if !(1..=MAX_SEGMENTS).contains(&request.segments) {
         bail!("⟪segments⟫: {} is not a number of elements from 1 to {MAX_SEGMENTS}", request.segments);
+    }
+    if let Some(pieces) = request.cable_pieces.filter(|pieces| !CABLE_PIECES.contains(pieces)) {
+        bail!(
+            "⟪cable_pieces⟫: {pieces} is not a number of pieces from {} to {}",
+            CABLE_PIECES.start(),
+            CABLE_PIECES.end()
+        );
     }
     request::check("modes_below_hz", request.modes_below_hz, positive)
 }

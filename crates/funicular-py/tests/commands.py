@@ -146,7 +146,7 @@ def chosen(text: str) -> dict[str, Any]:
 # Options of `identify` that belong to the request; the others belong to its experiment.
 OF_REQUEST = {"starts", "from_hz", "to_hz", "response_noise", "frequency_noise", "damping_noise", "rigid_cables"}
 OF_REQUEST |= {"profile", "tension_rule", "target_tension_n", "min_tension_n", "max_tension_n"}
-OF_REQUEST |= {"propose", "grid", "poses", "propose_measuring", "propose_modes", "propose_for", "propose_by", "wanted_percent"}
+OF_REQUEST |= {"propose", "grid", "poses", "propose_measuring", "propose_payloads_kg", "propose_modes", "propose_for", "propose_by", "wanted_percent"}
 OF_REQUEST |= {"cable_model", "assembly", "in_plane_only", "winches"}
 
 

@@ -77,6 +77,8 @@ OTHERS: dict[tuple[str | None, str], tuple[str, Callable[..., Any]]] = {
     ("identify", "--input-point-m"): ("`input_point_m=` of `funicular.read_measurements`", funicular.read_measurements),
     ("identify", "--output-point-m"): ("`output_point_m=` of `funicular.read_measurements`", funicular.read_measurements),
     ("identify", "--measured-pose"): ("`measured_pose` of an experiment", Robot.identify),
+    ("identify", "--payload-kg"): ("`payload_kg` of an experiment", Robot.identify),
+    ("identify", "--payload-center-m"): ("`payload_center_m` of an experiment", Robot.identify),
     ("identify", "--measured-tensions-n"): ("`measured_tensions_n` of an experiment", Robot.identify),
     ("identify", "--measured-lengths-m"): ("`measured_lengths_m` of an experiment", Robot.identify),
     ("identify", "--position-std-m"): ("`position_std_m` of an experiment", Robot.identify),

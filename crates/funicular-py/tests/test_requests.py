@@ -156,6 +156,7 @@ MORE = [
     f"funicular report {ROBOT} --below-hz 3 --input mz --output arz --cable-model spring --mass-kg 12",
     f"funicular export {ROBOT} --to moordyn --segments 5 --pose 0,0,0.5 --mass-kg 12 --wind-m-s 5,0,0",
     f"funicular export {ROBOT} --to moordyn --segments 5 --mass-kg 12.5 --scenario docs/simulation/release.toml --duration-s 2",
+    f"funicular export {ROBOT} --to mujoco --cable-pieces 3 --pose 0,0,0.5",
     f"funicular report {ROBOT} --input-point-m 0.1,0,0 --output-point-m 0,0,0.1 {STATE} {MODEL}",
     f"funicular export robots/cogiro.toml --to vtk {TENSIONS} {STATE}",
     f"funicular sweep robots/cogiro.toml --vary platform.mass_kg=200,300 {TENSIONS} {STATE} {MODEL} --up-to-hz 50",
@@ -171,7 +172,8 @@ MORE = [
     f"funicular identify robots/cogiro.toml --fit platform.mass_kg {TENSIONS} --length-std-m 0.002 "
     "--measured-lengths-m 9.1,9.0,7.8,7.6,7.3,7.4,8.3,8.4",
     f"funicular identify {ROBOT} --fit platform.mass_kg {LENGTHS} --measured-tensions-n 17,36,40,15,50,52 --propose 1 "
-    "--grid x=-0.1,0.1 --propose-measuring frequencies,tensions --propose-modes 4 --propose-by determinant",
+    "--grid x=-0.1,0.1 --propose-measuring frequencies,tensions --propose-payloads-kg 0,2 --propose-modes 4 "
+    "--payload-kg 1 --payload-center-m 0,0,-0.1 --propose-by determinant",
     f"funicular identify {ROBOT} --fit platform.mass_kg {LENGTHS} --measured-tensions-n 17,36,40,15,50,52 "
     "--wanted-percent 5 --poses near.csv --propose-for platform.mass_kg",
     "funicular identify robots/grab-4-cables.toml --fit platform.inertia_kg_m2 --experiments states.json --rigid-cables "
@@ -455,7 +457,7 @@ def test_files_and_pages_are_those_of_the_program(executable: str, folder: Path)
 
     robot = funicular.Robot.from_file(ROBOT)
     rest = robot.equilibrium(pose=[0, 0, 0.5])
-    for to, ending, keywords in [("opensees", "py", {}), ("moordyn", "txt", {}), ("mujoco", "xml", {}), ("sdf", "sdf", {}), ("urdf", "urdf", {}), ("vtk", "vtp", {"modes_below_hz": 2})]:
+    for to, ending, keywords in [("opensees", "py", {}), ("moordyn", "txt", {}), ("mujoco", "xml", {}), ("mujoco", "xml", {"cable_pieces": 4}), ("sdf", "sdf", {}), ("urdf", "urdf", {}), ("vtk", "vtp", {"modes_below_hz": 2})]:
         more = "".join(f" --{key.replace('_', '-')} {value}" for key, value in keywords.items())
         run(f"export {ROBOT} --to {to} --pose 0,0,0.5 --segments 5{more} -o theirs.{ending}")
         rest.export(to, f"ours.{ending}", segments=5, **keywords)

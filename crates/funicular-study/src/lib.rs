@@ -40,6 +40,7 @@ pub mod measurements;
 pub mod names;
 mod normal;
 mod parameter_pattern;
+mod payload;
 mod quantiles;
 mod refused;
 pub mod request;

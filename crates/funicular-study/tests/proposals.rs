@@ -54,6 +54,95 @@ fn a_proposed_measurement_leaves_the_deviations_that_it_promises() {
     assert!(largest(1) < largest(0));
 }
 
+/// Normally distributed numbers: xorshift and the method of Box and Muller.
+struct Normal(u64);
+
+impl Normal {
+    fn next(&mut self) -> f64 {
+        let mut uniform = || {
+            for shift in [13, -7, 17_i32] {
+                self.0 ^= if shift > 0 { self.0 << shift } else { self.0 >> -shift };
+            }
+            ((self.0 >> 11) as f64 + 0.5) / (1_u64 << 53) as f64
+        };
+        let (a, b) = (uniform(), uniform());
+        (-2.0 * a.ln()).sqrt() * (std::f64::consts::TAU * b).cos()
+    }
+}
+
+/// Frequencies with noise of a relative deviation, and this deviation as theirs.
+fn noisy(frequency_hz: &[f64], noise: f64, normal: &mut Normal) -> Value {
+    let row = |(k, hz): (usize, &f64)| {
+        let seen = hz * (1.0 + noise * normal.next());
+        json!({ "frequency_hz": seen, "std_hz": noise * hz, "label": (k + 1).to_string() })
+    };
+    frequency_hz.iter().enumerate().map(row).collect()
+}
+
+#[test]
+fn a_payload_tells_more_and_noisy_measurements_with_it_scatter_as_promised() {
+    const DRAWS: usize = 24;
+    const CENTER_M: [f64; 3] = [0.2, 0.0, -0.4];
+
+    // The robot has the values of its file and 64 kg, to the digits of the measured frequencies.
+    let grid = json!([{ "axis": "x", "values": [0.0, 2.0] }]);
+    let candidates = json!({
+        "propose": 1, "grid": grid, "propose_modes": 4, "propose_payloads_kg": [0.0, 20.0], "starts": 1,
+    });
+    let mut first = measured();
+    first["payload_center_m"] = json!(CENTER_M);
+    let proposed = identified(&json!([first]), &candidates);
+    let next = &proposed.proposals[0];
+    assert_eq!((next.payload_kg, next.measured.as_str()), (Some(20.0), "frequencies"));
+    let without = identified(&json!([measured()]), &json!({ "propose": 1, "grid": grid, "propose_modes": 4 }));
+    assert_eq!(without.proposals[0].payload_kg, None);
+    assert!(next.largest_percent.unwrap() < without.proposals[0].largest_percent.unwrap());
+
+    let [x, y, z] = next.position_m;
+    let truth = [proposed.values[0].value, proposed.values[1].value];
+    let of_first: Vec<f64> =
+        measured()["frequencies"].as_array().unwrap().iter().map(|of| of["frequency_hz"].as_f64().unwrap()).collect();
+    let mut normal = Normal(20_140_531);
+    let mut squares = [0.0; 2];
+    for _ in 0..DRAWS {
+        let before = json!({ "hold_lengths_of_pose": true, "frequencies": noisy(&of_first, 0.002, &mut normal) });
+        let after = json!({
+            "hold_lengths_of_pose": true, "pose": [x, y, z, 0.0, 0.0, 0.0], "payload_kg": 20.0,
+            "payload_center_m": CENTER_M, "frequencies": noisy(&next.frequency_hz, 0.01, &mut normal),
+        });
+        let found = identified(&json!([before, after]), &json!({ "starts": 1 }));
+        for (k, square) in squares.iter_mut().enumerate() {
+            let promised = next.deviations[k] / proposed.deviation_factor;
+            *square += ((found.values[k].value - truth[k]) / promised).powi(2);
+        }
+    }
+
+    // Sums of as many squares of a normal distribution are between these limits with 99.9 %.
+    assert!(squares.iter().all(|sum| (7.5..54.0).contains(sum)), "{squares:?}");
+}
+
+#[test]
+fn a_payload_of_a_proposal_needs_a_proposal_and_a_mass_of_the_platform() {
+    let refused = |more: Value, state: Value| {
+        let mut first = measured();
+        first.as_object_mut().unwrap().extend(state.as_object().unwrap().clone());
+        let mut request = json!({
+            "command": "identify", "robot": { "text": HALL }, "experiments": [first],
+            "fit": [{ "path": "materials.rope.youngs_modulus_pa" }],
+        });
+        request.as_object_mut().unwrap().extend(more.as_object().unwrap().clone());
+        run(&Request::from_json(&request.to_string()).unwrap(), &mut Silent).map(drop).unwrap_err().to_string()
+    };
+    let alone = refused(json!({ "propose_payloads_kg": [1.0] }), json!({}));
+    assert!(alone.contains("are payloads of a proposal"), "{alone}");
+    let twice = refused(json!({}), json!({ "mass_kg": 60.0, "payload_kg": 1.0 }));
+    assert!(twice.contains("is the mass of platform and payload together"), "{twice}");
+    let grid = json!([{ "axis": "x", "values": [0.0] }]);
+    let replaced =
+        refused(json!({ "propose": 1, "grid": grid, "propose_payloads_kg": [1.0] }), json!({ "mass_kg": 60.0 }));
+    assert!(replaced.contains("is the mass of platform and payload together"), "{replaced}");
+}
+
 #[test]
 fn the_least_number_of_measurements_reaches_the_wanted_deviation() {
     let fit = json!([{ "path": "platform.mass_kg" }]);

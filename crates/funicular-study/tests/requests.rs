@@ -379,7 +379,7 @@ fn requests() -> Vec<Value> {
                 &model,
                 &json!({
                     "profile": ["platform.*"], "propose": 2, "grid": grid, "poses": [[0.0, 0.0, 0.5, 0.0, 0.0, 0.0]],
-                    "propose_measuring": ["tensions", "pose"], "propose_modes": 4, "propose_for": ["platform.mass_kg"],
+                    "propose_measuring": ["tensions", "pose"], "propose_payloads_kg": [0.0, 2.0], "propose_modes": 4, "propose_for": ["platform.mass_kg"],
                     "propose_by": "determinant", "wanted_percent": 2.0,
                     "fit": [
                         { "path": "platform.mass_kg", "minimum": 1.0, "maximum": 30.0 },
@@ -430,7 +430,7 @@ fn requests() -> Vec<Value> {
                 &state,
                 &tensions,
                 &json!({
-                    "to": "vtk", "segments": 5, "modes_below_hz": 10.0, "duration_s": 2.0,
+                    "to": "vtk", "segments": 5, "cable_pieces": 4, "modes_below_hz": 10.0, "duration_s": 2.0,
                     "scenario": { "release": [{ "at_s": 0.1, "mass_kg": 1.0 }] },
                 }),
             ],

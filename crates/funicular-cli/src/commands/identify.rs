@@ -189,7 +189,7 @@ impl Printed for Identified {
             let _ = write!(
                 text,
                 "\nMeasurements to make next, one after the other\n{}\n",
-                Table::of(&ProposedMeasurement::columns(), &self.proposals)
+                Table::of(&ProposedMeasurement::columns(&self.proposals), &self.proposals)
             );
         }
         if let Some(count) = self.measurements_needed {

@@ -243,6 +243,64 @@ fn a_model_of_mujoco_rests_at_the_equilibrium_of_springs() {
 }
 
 #[test]
+fn a_cable_of_mujoco_in_pieces_has_the_mass_the_stiffness_and_the_end_of_the_rope() {
+    const PIECES: usize = 5;
+
+    let file = succeed(&["export", &robot("cogiro.toml"), "--to", "mujoco", "--cable-pieces", &PIECES.to_string()]);
+    let found: serde_json::Value =
+        serde_json::from_str(&succeed(&["statics", &robot("cogiro.toml"), "--format", "json"])).unwrap();
+    let document = roxmltree::Document::parse(&file).unwrap();
+    let named = |kind: &str, name: &str| {
+        document.descendants().find(|node| node.has_tag_name(kind) && node.attribute("name") == Some(name)).unwrap()
+    };
+    let value = |node: roxmltree::Node, attribute: &str| numbers(node, attribute)[0];
+    let platform = named("body", "platform");
+
+    for cable in found["cables"].as_array().unwrap() {
+        let name = cable["name"].as_str().unwrap();
+        let length = cable["unstrained_length_m"].as_f64().unwrap();
+        let bars: Vec<_> = (1..PIECES).map(|k| named("body", &format!("cable:{name}:{k}"))).collect();
+
+        // Half of the last piece hangs from the anchor; the weight of the chain is corrected by 1e-4 of it.
+        let inner =
+            |body: roxmltree::Node, tag: &str| body.children().find(|node| node.has_tag_name(tag)).unwrap().id();
+        let mass: f64 =
+            bars.iter().map(|body| value(document.get_node(inner(*body, "inertial")).unwrap(), "mass")).sum();
+        let expected = 0.064 * length * (1.0 - 0.5 / PIECES as f64);
+        assert!((mass / expected - 1.0).abs() < 1e-3, "{name}: {mass} {expected}");
+
+        // Both springs in series are the rope.
+        let winch = named("general", &format!("length:{name}"));
+        let stretch = named("joint", &format!("stretch:{name}"));
+        let compliance = 1.0 / value(stretch, "stiffness") + 1.0 / value(winch, "gainprm");
+        assert!((compliance * -numbers(winch, "forcerange")[0] / length - 1.0).abs() < 1e-9, "{name}: {compliance}");
+
+        // From the platform along the bars to the tip, and from there to the anchor with the force of the tendon.
+        let mut tip_p = [0.0; 3];
+        for at in
+            bars.iter().map(|body| numbers(*body, "pos")).chain([numbers(named("site", &format!("tip:{name}")), "pos")])
+        {
+            (0..3).for_each(|i| tip_p[i] += at[i]);
+        }
+        let [w, x, y, z] = numbers(platform, "quat")[..] else { panic!("four numbers") };
+        let turn = [
+            [1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y - w * z), 2.0 * (x * z + w * y)],
+            [2.0 * (x * y + w * z), 1.0 - 2.0 * (x * x + z * z), 2.0 * (y * z - w * x)],
+            [2.0 * (x * z - w * y), 2.0 * (y * z + w * x), 1.0 - 2.0 * (x * x + y * y)],
+        ];
+        let origin = numbers(platform, "pos");
+        let anchor = numbers(named("site", &format!("anchor:{name}")), "pos");
+        let tip = |i: usize| origin[i] + (0..3).map(|j| turn[i][j] * tip_p[j]).sum::<f64>();
+        let last = (0..3).map(|i| (anchor[i] - tip(i)).powi(2)).sum::<f64>().sqrt();
+        let [bias, minus_k] = numbers(winch, "biasprm")[..2] else { panic!("three numbers") };
+        let tension = -(bias + minus_k * last);
+        let [low, high] = ["tension_platform_n", "tension_anchor_n"].map(|key| cable[key].as_f64().unwrap());
+        assert!(low < tension && tension < high && high - tension < 0.2 * (high - low), "{low} {tension} {high}");
+        assert!((numbers(winch, "ctrlrange")[0] / last + 0.8).abs() < 1e-9);
+    }
+}
+
+#[test]
 fn links_of_gazebo_and_of_viewers_are_where_the_robot_rests() {
     for name in ["cogiro.toml", "stadium-camera.toml", "grab-3-cables.toml"] {
         let found: serde_json::Value =
@@ -361,6 +419,11 @@ fn robots_that_cannot_be_exported_are_refused_with_the_reason() {
         (yuan(), "--to abaqus", "possible values: opensees, moordyn, mujoco, sdf, urdf, vtk"),
         (yuan(), "--to mujoco --static-model ideal", "ideal cables have no stiffness, which MuJoCo needs"),
         (yuan(), "--to mujoco --modes-below-hz 3", "MuJoCo has no modes"),
+        (yuan(), "--to opensees --cable-pieces 4", "--cable-pieces is for MuJoCo: for OpenSees leave it out"),
+        (yuan(), "--to mujoco --cable-pieces 1", "give a whole number from 2 to 100"),
+        (yuan(), "--to mujoco --cable-pieces 4 --cable-load-n-per-m 0,0,-1", "cable \"1\" has wind or another load"),
+        (yuan(), "--to mujoco --cable-pieces 4 --static-model spring", "leave out --static-model"),
+        (massless.clone(), "--to mujoco --cable-pieces 4", "no cable has mass"),
         (yuan(), "--to vtk --modes-below-hz 1e4", "lower the frequency limit"),
         (sideways, "--to moordyn", "MoorDyn has it along -z only"),
         (massless, "--to moordyn", "cable \"1\" has no mass"),

@@ -19,6 +19,8 @@ pub(crate) struct Chain {
     pub(crate) weight_factor: f64,
     /// Joints in equilibrium from the platform to the anchor, ends included, world axes [m].
     pub(crate) nodes_w: Vec<Vec3>,
+    /// Tension of each bar in the same order [N].
+    pub(crate) tensions: Vec<f64>,
 }
 
 /// Cable that a chain replaces.
@@ -108,6 +110,7 @@ impl HangingCable {
             bar_length,
             weight_factor: factor,
             nodes_w,
+            tensions: self.forces(factor, count).map(|(force, _)| force.norm()).collect(),
         })
     }
 

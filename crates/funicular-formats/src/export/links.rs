@@ -9,7 +9,7 @@
 //! the documentation of Drake's `multibody/parsing`.
 
 use super::mujoco::vector;
-use super::straight::StraightRobot;
+use super::springs::SpringRobot;
 use super::xml_text::{in_comment, names};
 use anyhow::{Result, bail};
 use askama::Template;
@@ -83,19 +83,19 @@ pub(super) fn sdf(at_rest: &AtRest, given: &Equilibrium, warnings: &mut Vec<Stri
              viewers"
         );
     }
-    let mut straight = StraightRobot::of(at_rest, given, warnings);
-    straight.lost.push(
+    let mut springs = SpringRobot::of(at_rest, given, warnings);
+    springs.lost.push(
         "Gazebo has no cables: it draws them where they are at rest, and a constant wrench holds the platform until a \
          node publishes the forces of the cables; Drake reads them as springs, which also push"
             .to_owned(),
     );
-    if !straight.dead_forces().is_empty() {
-        straight.lost.push("the dead loads on the platform are left out beside the springs".to_owned());
+    if !springs.dead_forces().is_empty() {
+        springs.lost.push("the dead loads on the platform are left out beside the springs".to_owned());
     }
-    let robot = straight.robot;
+    let robot = springs.robot;
     let (gravity, held) = (vector(&robot.gravity_w), vector(&(-robot.gravity_w * robot.platform.mass)));
-    let text = SdfWorld { parts: Links::of(&mut straight)?, gravity, held }.render()?;
-    *warnings = straight.lost;
+    let text = SdfWorld { parts: Links::of(&mut springs)?, gravity, held }.render()?;
+    *warnings = springs.lost;
     Ok(text + "\n")
 }
 
@@ -104,39 +104,39 @@ pub(super) fn sdf(at_rest: &AtRest, given: &Equilibrium, warnings: &mut Vec<Stri
 /// # Errors
 /// A cable without stiffness.
 pub(super) fn urdf(at_rest: &AtRest, given: &Equilibrium, warnings: &mut Vec<String>) -> Result<String> {
-    let mut straight = StraightRobot::of(at_rest, given, warnings);
-    straight.lost.push("URDF has no cables and no forces: it draws the cables where they are at rest".to_owned());
-    let (joint, axis) = match straight.robot.platform.motion {
+    let mut springs = SpringRobot::of(at_rest, given, warnings);
+    springs.lost.push("URDF has no cables and no forces: it draws the cables where they are at rest".to_owned());
+    let (joint, axis) = match springs.robot.platform.motion {
         PlatformMotion::Rigid | PlatformMotion::PointMass => ("floating", None),
         PlatformMotion::Planar(plane) => {
-            ("planar", Some(vector(&(straight.equilibrium.pose.rot_wp.inverse() * plane.normal_w()))))
+            ("planar", Some(vector(&(springs.equilibrium.pose.rot_wp.inverse() * plane.normal_w()))))
         }
     };
-    let name = names("robot", std::iter::once(straight.robot.name.as_str()), &[], &mut Vec::new()).remove(0);
-    let text = UrdfRobot { parts: Links::of(&mut straight)?, name, joint, axis }.render()?;
-    *warnings = straight.lost;
+    let name = names("robot", std::iter::once(springs.robot.name.as_str()), &[], &mut Vec::new()).remove(0);
+    let text = UrdfRobot { parts: Links::of(&mut springs)?, name, joint, axis }.render()?;
+    *warnings = springs.lost;
     Ok(text + "\n")
 }
 
 impl Links {
-    fn of(straight: &mut StraightRobot) -> Result<Self> {
-        let robot = straight.robot;
+    fn of(springs: &mut SpringRobot) -> Result<Self> {
+        let robot = springs.robot;
         let pulleys = robot.cables.iter().any(|cable| cable.anchor.pulley.is_some());
-        straight.lost.extend(pulleys.then(|| {
+        springs.lost.extend(pulleys.then(|| {
             "pulleys are left out: a cable ends at its exit point, which does not move; its spring has the stiffness of \
              arc, drum side and winch too"
                 .to_owned()
         }));
 
-        let first = straight.frequencies()?.first().copied();
+        let first = springs.frequencies()?.first().copied();
         let mut changed = Vec::new();
         let given = robot.cables.iter().map(|cable| cable.name.as_str());
         let written = names("cable", given, &['/', ':'], &mut changed);
-        straight.lost.extend(changed);
-        let cables = written.into_iter().enumerate().map(|(i, name)| CableLink::of(straight, i, name, first)).collect();
+        springs.lost.extend(changed);
+        let cables = written.into_iter().enumerate().map(|(i, name)| CableLink::of(springs, i, name, first)).collect();
 
-        let (platform, pose) = (&robot.platform, &straight.equilibrium.pose);
-        let [box_center, box_half] = straight.shown_box();
+        let (platform, pose) = (&robot.platform, &springs.equilibrium.pose);
+        let [box_center, box_half] = springs.shown_box();
         let inertia = match platform.motion {
             // It does not turn, because all forces act at one point.
             PlatformMotion::PointMass => Mat3::identity() * (platform.mass * box_half.amax().powi(2)),
@@ -152,7 +152,7 @@ impl Links {
         Ok(Self {
             comment_name: in_comment(&robot.name),
             comment_source: in_comment(&robot.source),
-            lost: straight.lost.iter().map(|text| in_comment(text)).collect(),
+            lost: springs.lost.iter().map(|text| in_comment(text)).collect(),
             position: vector(&pose.position_w),
             angles: vector(&Vec3::new(roll, pitch, yaw)),
             mass: platform.mass,
@@ -168,9 +168,9 @@ impl Links {
 }
 
 impl CableLink {
-    fn of(straight: &StraightRobot, i: usize, name: String, first_hz: Option<f64>) -> Self {
-        let (cable, state) = (&straight.robot.cables[i], &straight.equilibrium.cables[i]);
-        let spring = straight.spring(i, first_hz);
+    fn of(springs: &SpringRobot, i: usize, name: String, first_hz: Option<f64>) -> Self {
+        let (cable, state) = (&springs.robot.cables[i], &springs.equilibrium.cables[i]);
+        let spring = springs.spring(i, first_hz);
         let chord = state.chord_w();
         let beyond = state.unstrained_length - state.free_length();
         let slack = state.unstrained_length - beyond;

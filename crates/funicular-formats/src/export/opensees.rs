@@ -14,7 +14,7 @@
 //! with funicular.
 
 use super::chain::Chain;
-use super::straight::in_plane;
+use super::springs::in_plane;
 use super::support::Support;
 use super::{first_frequencies, modes_below, one_line};
 use anyhow::Result;

@@ -106,7 +106,7 @@ class Analyses:
         -------
         The keys of the program's JSON; lists of numbers are arrays.
         """
-    def export(self, /, to: ExportFormat, path: str | PathLike[str], *, segments: SupportsIndex | None = None, modes_below_hz: SupportsFloat | SupportsIndex | None = None, scenario: Any = None, duration_s: SupportsFloat | SupportsIndex | None = None) -> list[str]:
+    def export(self, /, to: ExportFormat, path: str | PathLike[str], *, segments: SupportsIndex | None = None, cable_pieces: SupportsIndex | None = None, modes_below_hz: SupportsFloat | SupportsIndex | None = None, scenario: Any = None, duration_s: SupportsFloat | SupportsIndex | None = None) -> list[str]:
         """
         Writes the equilibrium as a file of another program; returns the caveats of the file.
 
@@ -120,8 +120,11 @@ class Analyses:
         path
             Path of the file, which is complete or absent.
         segments
-            Elements per cable, 1 to 1000: bars in OpenSees, segments in MoorDyn, pieces of a curve in VTK; a cable of
-            MuJoCo is one; 20 if not given.
+            Elements per cable, 1 to 1000: bars in OpenSees, segments in MoorDyn, pieces of a curve in VTK; 20 if not
+            given.
+        cable_pieces
+            Pieces of each cable in MuJoCo, 2 to 100: a chain of bars that has the mass, the sag and the vibration of
+            the cable. Without it cables are straight and have no mass; if not given: straight cables without mass.
         modes_below_hz
             Upper limit of the frequencies of modes in the file [Hz]: in VTK one field per mode, in OpenSees the modes
             to compare with; if not given: no modes in VTK, the first ten in OpenSees.
@@ -1226,7 +1229,7 @@ class Robot(Analyses):
         InputError
             An argument is wrong; the message says which and what to give.
         """
-    def identify(self, /, fit: Any, experiments: Any, *, starts: SupportsIndex | None = None, profile: str | Sequence[str] | None = None, propose: SupportsIndex | None = None, grid: Mapping[str, ArrayLike] | None = None, poses: ArrayLike | None = None, propose_measuring: str | Sequence[str] | None = None, propose_modes: SupportsIndex | None = None, propose_for: str | Sequence[str] | None = None, propose_by: Literal['variances', 'determinant'] = "variances", wanted_percent: SupportsFloat | SupportsIndex | None = None, from_hz: SupportsFloat | SupportsIndex | None = None, to_hz: SupportsFloat | SupportsIndex | None = None, response_noise: SupportsFloat | SupportsIndex | None = None, frequency_noise: SupportsFloat | SupportsIndex | None = None, damping_noise: SupportsFloat | SupportsIndex | None = None, tension_rule: TensionRule | None = None, target_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, cable_model: CableModel | None = None, assembly: Assembly = "consistent", in_plane_only: bool = False, winches: Winches = "as-given", rigid_cables: bool = False, lengths_m: ArrayLike | None = None, pose: Pose | ArrayLike | None = None, hold_lengths_of_pose: bool = False, mass_kg: SupportsFloat | SupportsIndex | None = None, static_model: StaticModel = "catenary", force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, wind_m_s: ArrayLike | None = None, cable_load_n_per_m: ArrayLike | None = None) -> Identified:
+    def identify(self, /, fit: Any, experiments: Any, *, starts: SupportsIndex | None = None, profile: str | Sequence[str] | None = None, propose: SupportsIndex | None = None, grid: Mapping[str, ArrayLike] | None = None, poses: ArrayLike | None = None, propose_measuring: str | Sequence[str] | None = None, propose_modes: SupportsIndex | None = None, propose_payloads_kg: ArrayLike | None = None, propose_for: str | Sequence[str] | None = None, propose_by: Literal['variances', 'determinant'] = "variances", wanted_percent: SupportsFloat | SupportsIndex | None = None, from_hz: SupportsFloat | SupportsIndex | None = None, to_hz: SupportsFloat | SupportsIndex | None = None, response_noise: SupportsFloat | SupportsIndex | None = None, frequency_noise: SupportsFloat | SupportsIndex | None = None, damping_noise: SupportsFloat | SupportsIndex | None = None, tension_rule: TensionRule | None = None, target_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, cable_model: CableModel | None = None, assembly: Assembly = "consistent", in_plane_only: bool = False, winches: Winches = "as-given", rigid_cables: bool = False, lengths_m: ArrayLike | None = None, pose: Pose | ArrayLike | None = None, hold_lengths_of_pose: bool = False, mass_kg: SupportsFloat | SupportsIndex | None = None, static_model: StaticModel = "catenary", force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, wind_m_s: ArrayLike | None = None, cable_load_n_per_m: ArrayLike | None = None) -> Identified:
         """
         Finds the values of the robot file that fit measurements best, with their deviations.
 
@@ -1241,7 +1244,8 @@ class Robot(Analyses):
         experiments
             One mapping per state of the robot, or a single one: `responses` and `frequencies` as
             `funicular.read_measurements` returns them, `measured_pose`, `measured_tensions_n`, `measured_lengths_m`
-            with their deviations, `cables` with the names of those that were mounted, and the keys of the state.
+            with their deviations, `cables` with the names of those that were mounted, `payload_kg` with its
+            `payload_center_m`, and the keys of the state.
         starts
             Maximum number of starts of the search. The first start has the values of the file, the others are spread by
             the priors; the search ends at the first start that fits; 10 if not given.
@@ -1257,10 +1261,13 @@ class Robot(Analyses):
             Poses of a proposal instead of a grid: position [m] and roll, pitch, yaw [degrees].
         propose_measuring
             What can be measured at each of these poses, separated by commas: frequencies (the lowest ones), tensions,
-            lengths, pose (at the lengths of the file's robot there). The loads are those of the first experiment;
+            lengths, pose (at the lengths of the file's robot there). Other loads are those of the first experiment;
             frequencies if not given.
         propose_modes
             Number of the lowest natural frequencies that are measured at each pose of a proposal; 6 if not given.
+        propose_payloads_kg
+            Payloads of a proposal [kg], which the platform carries at each of these poses, separated by commas; if not
+            given: that of the first experiment.
         propose_for
             Values whose deviations the proposal reduces, by their paths, as in `profile`; if not given: all fitted
             values.

@@ -381,7 +381,8 @@ def identify(of: Any, given: Given) -> Identified:
     experiments
         One mapping per state of the robot, or a single one: `responses` and `frequencies` as
         `funicular.read_measurements` returns them, `measured_pose`, `measured_tensions_n`, `measured_lengths_m`
-        with their deviations, `cables` with the names of those that were mounted, and the keys of the state.
+        with their deviations, `cables` with the names of those that were mounted, `payload_kg` with its
+        `payload_center_m`, and the keys of the state.
     profile
         Paths of fitted values whose interval of 95 % is also found by holding the value and fitting the others
         again; `details["values"]` has it under `profile`. * stands for any key.

@@ -113,8 +113,11 @@ declared! {
         /// Program that the file is for.
         #[serde(with = "crate::names")]
         to: ExportFormat = ExportFormat::Opensees => (name::<ExportFormat>()).form("PROGRAM").required();
-        /// Elements per cable, 1 to 1000: bars in OpenSees, segments in MoorDyn, pieces of a curve in VTK; a cable of MuJoCo is one.
+        /// Elements per cable, 1 to 1000: bars in OpenSees, segments in MoorDyn, pieces of a curve in VTK.
         segments: usize = 20 => (Count(1..=1000));
+        /// Pieces of each cable in MuJoCo, 2 to 100: a chain of bars that has the mass, the sag and the vibration of the
+        /// cable. Without it cables are straight and have no mass.
+        cable_pieces: Option<usize> = None => (Count(2..=100)).otherwise("straight cables without mass");
         /// Upper limit of the frequencies of modes in the file [Hz]: in VTK one field per mode, in OpenSees the modes to
         /// compare with.
         modes_below_hz: Option<f64> = None =>
@@ -136,6 +139,7 @@ declared! {
         "funicular export robots/cogiro.toml --to moordyn --segments 20 -o cogiro.txt",
         "funicular export robots/yuan2014-4mm.toml --to moordyn --mass-kg 12.5 \\\n    --scenario docs/simulation/release.toml --for 2 -o drop.py && python3 drop.py",
         "funicular export robots/cogiro.toml --to mujoco -o cogiro.xml",
+        "funicular export robots/cogiro.toml --to mujoco --cable-pieces 10 -o cogiro.xml",
         "funicular export robots/cogiro.toml --to vtk --pose 1,2,1.5 --modes-below-hz 10 -o cogiro.vtp",
     }
 }

@@ -51,10 +51,13 @@ declared! {
         /// Poses of a proposal instead of a grid: position [m] and roll, pitch, yaw [degrees].
         poses: Option<Vec<[f64; 6]>> = None => (Poses).under("Proposal");
         /// What can be measured at each of these poses, separated by commas: frequencies (the lowest ones), tensions,
-        /// lengths, pose (at the lengths of the file's robot there). The loads are those of the first experiment.
+        /// lengths, pose (at the lengths of the file's robot there). Other loads are those of the first experiment.
         propose_measuring: Vec<String> = vec!["frequencies".to_owned()] => (Texts).form("KINDS").under("Proposal");
         /// Number of the lowest natural frequencies that are measured at each pose of a proposal.
         propose_modes: usize = 6 => (Count(1..=100)).under("Proposal");
+        /// Payloads of a proposal [kg], which the platform carries at each of these poses, separated by commas.
+        propose_payloads_kg: Option<Vec<f64>> = None =>
+            (Commas(ProgramForm::NotNegative)).form("M1,M2,…").under("Proposal").otherwise("that of the first experiment");
         /// Values whose deviations the proposal reduces, by their paths, as in ⟪profile⟫.
         propose_for: Vec<String> = Vec::new() => (Texts).form("PATHS").under("Proposal").otherwise("all fitted values");
         /// Criterion of the proposal. Variances are relative to the values, or in usual errors of values that may be zero.
@@ -137,6 +140,12 @@ declared! {
         /// Names of the cables that were mounted.
         #[serde(skip_serializing_if = "Option::is_none")]
         cables: Option<Vec<String>> = None => (Data(shape::texts)).otherwise("all");
+        /// Payload that the platform carried, beside its own mass [kg].
+        #[serde(skip_serializing_if = "Option::is_none")]
+        payload_kg: Option<f64> = None => (Number(NotNegative)).under("State").otherwise("none");
+        /// Centre of mass of the payload, platform frame [m].
+        #[serde(skip_serializing_if = "Option::is_none")]
+        payload_center_m: Option<[f64; 3]> = None => (Vector).under("State").otherwise("that of the platform");
         /// Frequency responses.
         #[serde(skip_serializing_if = "Vec::is_empty")]
         responses: Vec<MeasuredResponse> = Vec::new() => (Data(shape::objects));

@@ -3,6 +3,7 @@
 use super::experiment::{Prepared, Solved};
 use super::observations::{Stage, Subject};
 use crate::at_rest::AtRest;
+use crate::payload::change_carrying;
 use anyhow::{Result, bail};
 use funicular::gradient::{Gradients, Hold, VibrationGradients};
 use funicular::math::{Complex, Mat3, Vec3, skew};
@@ -15,12 +16,16 @@ const SMALL_ANGLE: f64 = 1e-2;
 
 impl Prepared<'_> {
     /// Change of the robot of this experiment, for a change of the robot of the file. `all` is the robot of the file,
-    /// with all cables. What the experiment states itself does not change with the file.
+    /// with all cables and no payload. What the experiment states itself does not change with the file.
     pub(super) fn change(&self, mut change: RobotChange, all: &Robot) -> RobotChange {
         let state = &self.given.state;
         if let Some(mounted) = &self.given.cables {
             let mut kept = all.cables.iter().map(|cable| mounted.contains(&cable.name));
             change.cables.retain(|_| kept.next().unwrap_or(false));
+        }
+        // A payload without a place of its own moves with the centre of mass of the platform.
+        if let (Some(payload), Some(center_p)) = (self.given.payload_kg, self.given.payload_center_m) {
+            change = change_carrying(change, all, payload, center_p.into());
         }
         if state.mass_kg.is_some() {
             change.mass = 0.0;

@@ -4,8 +4,10 @@ use super::observations::{Observation, ROBUST, Stage, Subject};
 use super::reading::observations;
 use crate::at_rest::{self, AtRest};
 use crate::measurements::MeasuredFrequency;
-use crate::request::{Experiment, IdentifyRequest};
+use crate::payload::carrying;
+use crate::request::{self, Experiment, IdentifyRequest};
 use crate::signals::{Input, Output};
+use crate::values::not_negative;
 use anyhow::{Result, anyhow, bail};
 use funicular::dynamics::{Dynamics, Linearisation};
 use funicular::math::{Complex, Vec3};
@@ -79,6 +81,7 @@ impl<'a> Prepared<'a> {
         request: &IdentifyRequest,
     ) -> Result<Self> {
         let observations = observations(given, number, &name, request)?;
+        check_payload(given, &name)?;
         let robot = mounted(robot.clone(), given, &name)?;
         check_statics(&robot, given, &name)?;
         if request.rigid_cables && !given.responses.is_empty() {
@@ -342,9 +345,26 @@ fn enough(list: Vec<Mode>, needed: usize) -> Result<Vec<Mode>> {
     Ok(list)
 }
 
-/// Robot with the cables that were mounted in an experiment.
-fn mounted(mut robot: Robot, given: &Experiment, name: &str) -> Result<Robot> {
+/// Checks the payload of an experiment.
+///
+/// # Errors
+/// A payload that is not possible, or that the state replaces.
+fn check_payload(given: &Experiment, name: &str) -> Result<()> {
+    request::check("payload_kg", given.payload_kg, not_negative)?;
+    request::check_vector("payload_center_m", given.payload_center_m)?;
+    if given.payload_kg.is_some() && given.state.mass_kg.is_some() {
+        bail!("{name}: ⟪mass_kg⟫ is the mass of platform and payload together: leave out it or ⟪payload_kg⟫");
+    }
+    Ok(())
+}
+
+/// Robot with the cables that were mounted and the payload that was carried in an experiment.
+pub(super) fn mounted(robot: Robot, given: &Experiment, name: &str) -> Result<Robot> {
+    let payload = given.payload_kg.unwrap_or(0.0);
+    let center_p = given.payload_center_m.map_or(robot.platform.center_of_mass_p, Vec3::from);
+    let mut robot = if payload > 0.0 { carrying(&robot, payload, center_p) } else { robot };
     let Some(cables) = &given.cables else { return Ok(robot) };
+
     let known: Vec<String> = robot.cables.iter().map(|cable| cable.name.clone()).collect();
     if let Some(unknown) = cables.iter().find(|cable| !known.contains(cable)) {
         bail!("{name}: the robot has no cable \"{unknown}\"{}", crate::names::suggestion(unknown, &known));

@@ -1,5 +1,6 @@
-//! What to measure next: poses and kinds of measurements that reduce the deviations of the values most (96k).
+//! What to measure next: poses, payloads and kinds of measurements that reduce the deviations of the values most (96k).
 
+use super::experiment::mounted;
 use super::model::IdentifiedModel;
 use super::unknowns::Unknown;
 use crate::Watch;
@@ -41,6 +42,9 @@ pub struct ProposedMeasurement {
     pub number: usize,
     pub position_m: [f64; 3],
     pub roll_pitch_yaw_deg: [f64; 3],
+    /// Payload that the platform carries there, if payloads are candidates.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub payload_kg: Option<f64>,
     /// What is measured there: `frequencies`, `tensions`, `lengths` or `pose`.
     pub measured: String,
     /// Natural frequencies of the identified robot there, if they are measured.
@@ -57,8 +61,9 @@ pub struct ProposedMeasurement {
 }
 
 impl ProposedMeasurement {
-    /// Columns of the proposed measurements.
-    pub fn columns() -> Columns<Self> {
+    /// Columns of proposed measurements, with their payloads if these were candidates.
+    pub fn columns(rows: &[Self]) -> Columns<Self> {
+        let has_payloads = rows.iter().any(|row| row.payload_kg.is_some());
         Columns::new([
             column("number", "1", "number of proposed measurements up to this one", |row: &Self| row.number)
                 .plain("next"),
@@ -66,6 +71,9 @@ impl ProposedMeasurement {
                 .components("position", "m", 4),
             parts("{}_deg", ["roll", "pitch", "yaw"], "deg", "{} of the platform", |row: &Self| row.roll_pitch_yaw_deg)
                 .components("roll, pitch, yaw", "°", 3),
+            column("payload_kg", "kg", "payload that the platform carries there", |row: &Self| row.payload_kg)
+                .significant("payload", "kg", 4)
+                .only_if(has_payloads),
             column("measured", "", "what is measured there", |row: &Self| row.measured.clone()).plain("measured"),
             column("largest_percent", "%", "largest relative deviation of a chosen value then", |row: &Self| {
                 row.largest_percent
@@ -77,13 +85,21 @@ impl ProposedMeasurement {
     }
 }
 
-/// Candidate: what is measured at a pose.
+/// Candidate: what is measured at a pose with a payload.
 struct Candidate {
-    pose: Pose,
-    kind: &'static str,
+    place: CandidatePlace,
     frequency_hz: Vec<f64>,
     /// Derivatives of its residuals; `None` if the robot cannot be measured there.
     rows: Option<DMat>,
+}
+
+/// Pose, payload and kind of measurement of a candidate.
+#[derive(Clone, Copy)]
+struct CandidatePlace {
+    pose: Pose,
+    /// Payload [kg]; `None` for that of the first experiment.
+    payload_kg: Option<f64>,
+    kind: &'static str,
 }
 
 /// Checks the options of a proposal.
@@ -92,6 +108,17 @@ struct Candidate {
 /// A kind that does not exist, or a deviation that is not positive.
 pub(super) fn check(request: &IdentifyRequest) -> Result<()> {
     request::check("wanted_percent", request.wanted_percent, crate::values::positive)?;
+    let payloads = request.propose_payloads_kg.as_deref();
+    if payloads.is_some() && !is_wanted(request) {
+        bail!("⟪propose_payloads_kg⟫ are payloads of a proposal: give ⟪propose⟫ or ⟪wanted_percent⟫");
+    }
+    let replaced = request.experiments.first().is_some_and(|first| first.state.mass_kg.is_some());
+    if payloads.is_some() && replaced {
+        bail!("⟪mass_kg⟫ is the mass of platform and payload together: leave out it or ⟪propose_payloads_kg⟫");
+    }
+    for payload in payloads.unwrap_or_default() {
+        request::check("propose_payloads_kg", Some(*payload), crate::values::not_negative)?;
+    }
     let known = KINDS.map(str::to_owned);
     if let Some(unknown) = request.propose_measuring.iter().find(|kind| !known.contains(kind)) {
         bail!("⟪propose_measuring⟫: there is no `{unknown}`{}", suggestion(unknown, &known));
@@ -119,17 +146,25 @@ pub(super) fn proposals(
 ) -> Result<(Vec<ProposedMeasurement>, Option<usize>)> {
     let kinds: Vec<&'static str> =
         KINDS.into_iter().filter(|kind| request.propose_measuring.iter().any(|wanted| wanted == kind)).collect();
-    let total = poses.len() * kinds.len();
+    let payloads =
+        request.propose_payloads_kg.as_ref().map_or(vec![None], |all| all.iter().copied().map(Some).collect());
+    let total = poses.len() * payloads.len() * kinds.len();
     if total > MAX_CANDIDATES {
-        bail!("⟪grid⟫: {total} measurements are candidates: give at most {MAX_CANDIDATES} poses times kinds");
+        bail!(
+            "⟪grid⟫: {total} measurements are candidates: give at most {MAX_CANDIDATES} poses times payloads times kinds"
+        );
     }
+    let places = poses.iter().flat_map(|pose| {
+        let of_pose = payloads.iter().flat_map(|payload| kinds.iter().map(move |kind| (*payload, *kind)));
+        of_pose.map(|(payload_kg, kind)| CandidatePlace { pose: *pose, payload_kg, kind })
+    });
     let mut candidates = Vec::with_capacity(total);
-    for (pose, kind) in poses.iter().flat_map(|pose| kinds.iter().map(move |kind| (pose, *kind))) {
+    for place in places {
         watch.borrow_mut().progress(candidates.len(), total, "candidates");
         if watch.borrow().is_cancelled() {
             return Err(Cancelled.into());
         }
-        candidates.push(candidate(model, request, &best.x, pose, kind));
+        candidates.push(candidate(model, request, &best.x, place));
     }
 
     let (covariance, weight) = covariance(model, best, chosen);
@@ -175,14 +210,8 @@ fn covariance(model: &IdentifiedModel<'_>, best: &Minimum, chosen: &[bool]) -> (
 }
 
 /// Candidate with its derivatives at the identified values.
-fn candidate(
-    model: &IdentifiedModel<'_>,
-    request: &IdentifyRequest,
-    x: &[f64],
-    pose: &Pose,
-    kind: &'static str,
-) -> Candidate {
-    let found = experiment(model, request, x, pose, kind).and_then(|experiment| {
+fn candidate(model: &IdentifiedModel<'_>, request: &IdentifyRequest, x: &[f64], place: CandidatePlace) -> Candidate {
+    let found = experiment(model, request, x, place).and_then(|experiment| {
         let frequency_hz: Vec<f64> = experiment.frequencies.iter().map(|of| of.frequency_hz).collect();
         let of_candidate = IdentifyRequest { experiments: vec![experiment], ..request.clone() };
         let is_cancelled = || false;
@@ -192,7 +221,7 @@ fn candidate(
         Some((frequency_hz, jacobian.rows(0, measured).into_owned()))
     });
     let (frequency_hz, rows) = found.map_or_else(|| (Vec::new(), None), |(hz, rows)| (hz, Some(rows)));
-    Candidate { pose: *pose, kind, frequency_hz, rows }
+    Candidate { place, frequency_hz, rows }
 }
 
 /// Experiment of a candidate, whose measured values are those of the identified robot; `None` without an equilibrium.
@@ -200,11 +229,10 @@ fn experiment(
     model: &IdentifiedModel<'_>,
     request: &IdentifyRequest,
     x: &[f64],
-    pose: &Pose,
-    kind: &str,
+    CandidatePlace { pose, payload_kg, kind }: CandidatePlace,
 ) -> Option<Experiment> {
     let first = request.experiments.first()?;
-    let given = request::Pose::from(pose);
+    let given = request::Pose::from(&pose);
     let state = State {
         lengths_m: None,
         pose: Some(given),
@@ -213,6 +241,8 @@ fn experiment(
     };
     let mut experiment = Experiment {
         cables: first.cables.clone(),
+        payload_kg: payload_kg.or(first.payload_kg),
+        payload_center_m: first.payload_center_m,
         position_std_m: first.position_std_m,
         rotation_std_deg: first.rotation_std_deg,
         tension_std_n: first.tension_std_n,
@@ -236,7 +266,8 @@ fn experiment(
         }
         "pose" => experiment.measured_pose = Some(given),
         _ => {
-            let rest = at_rest::equilibrium(model.robot(x).ok()?, &request.robot, &experiment.state, &request.tensions);
+            let robot = mounted(model.robot(x).ok()?, &experiment, "").ok()?;
+            let rest = at_rest::equilibrium(robot, &request.robot, &experiment.state, &request.tensions);
             let cables = rest.ok()?.equilibrium.cables;
             if kind == "tensions" {
                 experiment.measured_tensions_n = Some(cables.iter().map(|cable| cable.tension_platform).collect());
@@ -271,9 +302,10 @@ fn proposed(
         .max_by(|a, b| coordinate[*a].total_cmp(&coordinate[*b]));
     ProposedMeasurement {
         number,
-        position_m: candidate.pose.position_w.into(),
-        roll_pitch_yaw_deg: rotation::to_roll_pitch_yaw_deg(&candidate.pose.rot_wp),
-        measured: candidate.kind.to_owned(),
+        position_m: candidate.place.pose.position_w.into(),
+        roll_pitch_yaw_deg: rotation::to_roll_pitch_yaw_deg(&candidate.place.pose.rot_wp),
+        payload_kg: candidate.place.payload_kg,
+        measured: candidate.place.kind.to_owned(),
         frequency_hz: candidate.frequency_hz.clone(),
         deviations,
         largest_percent: largest.map(|k| 100.0 * coordinate[k]),

@@ -5,11 +5,10 @@ use super::rows::unstrained;
 use super::{Swing, check_rest};
 use crate::at_rest::AtRest;
 use crate::error::{ErrorKind, NoSolution};
+use crate::payload::carrying;
 use crate::request::SettleRequest;
 use anyhow::{Result, anyhow};
-use funicular::math::{Mat3, Vec3};
 use funicular::modes::{CommandedMotions, Decay, DecayingMotion, LengthCommand};
-use funicular::robot::Robot;
 use funicular::statics;
 use serde::Serialize;
 use std::f64::consts::TAU;
@@ -60,7 +59,9 @@ impl Swing<'_> {
         payload_kg: f64,
     ) -> Result<WithPayload> {
         let AtRest { robot, equilibrium, .. } = self.at_rest;
-        let robot = carrying(robot, payload_kg);
+        let required = robot.required.payload;
+        let center_p = if required.max_mass > 0.0 { required.center_p } else { robot.platform.center_of_mass_p };
+        let robot = carrying(robot, payload_kg, center_p);
         let at_end = unstrained(equilibrium);
         let equilibrium = statics::forward(&robot, &at_end, equilibrium.model, Some(&equilibrium.pose))?;
         let at_rest = AtRest { robot, equilibrium, requested_pose: None, rule: None, held_pose: None };
@@ -82,46 +83,4 @@ impl Swing<'_> {
 
 fn sum(decay: &Decay) -> f64 {
     decay.motions.iter().map(DecayingMotion::size).sum()
-}
-
-/// Robot whose platform carries a payload without extent.
-fn carrying(robot: &Robot, mass: f64) -> Robot {
-    let mut robot = robot.clone();
-    let required = robot.required.payload;
-    let platform = &mut robot.platform;
-    let center_p = if required.max_mass > 0.0 { required.center_p } else { platform.center_of_mass_p };
-    let (own, arm) = (platform.mass, center_p - platform.center_of_mass_p);
-    let both = own + mass;
-    platform.mass = both;
-    platform.center_of_mass_p += arm * (mass / both);
-    // Two point masses about their common centre.
-    platform.inertia_p += about_center(&arm) * (own * mass / both);
-    robot
-}
-
-/// Inertia of a unit mass about a point that is `arm` away.
-fn about_center(arm: &Vec3) -> Mat3 {
-    Mat3::identity() * arm.norm_squared() - arm * arm.transpose()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// The kinetic energy of platform and payload, with a velocity and an angular velocity of the platform origin.
-    #[test]
-    fn a_payload_adds_the_energy_of_its_mass() {
-        let mut robot = Robot::from_toml(funicular_robots::YUAN2014_4MM).unwrap();
-        robot.required.payload.max_mass = 5.0;
-        robot.required.payload.center_p = Vec3::new(0.3, -0.2, 0.1);
-        let (velocity, turning) = (Vec3::new(0.4, 0.7, -0.2), Vec3::new(1.0, -2.0, 0.5));
-        let energy = |robot: &Robot| {
-            let platform = &robot.platform;
-            let at_center = velocity + turning.cross(&platform.center_of_mass_p);
-            0.5 * platform.mass * at_center.norm_squared() + 0.5 * turning.dot(&(platform.inertia_p * turning))
-        };
-        let at_payload = velocity + turning.cross(&robot.required.payload.center_p);
-        let expected = energy(&robot) + 0.5 * 5.0 * at_payload.norm_squared();
-        assert!((energy(&carrying(&robot, 5.0)) / expected - 1.0).abs() < 1e-14);
-    }
 }

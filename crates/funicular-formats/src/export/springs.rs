@@ -1,5 +1,5 @@
-//! The robot with straight cables without mass, for programs whose cables are springs: its equilibrium, the spring of
-//! every cable, the dead forces on the platform, and what such a program loses.
+//! The robot for programs whose cables are springs: its equilibrium on straight cables without mass, the spring of every
+//! cable, the dead forces on the platform, and what such a program loses.
 
 use anyhow::{Result, bail};
 use funicular::cable::CableModel;
@@ -13,8 +13,9 @@ use funicular_study::at_rest::AtRest;
 /// Part of the weight of the platform above which the weight of the cables is reported as lost.
 const HEAVY_CABLES: f64 = 1e-6;
 
-/// Robot at rest on straight, massless, elastic cables: the static model `spring`.
-pub(super) struct StraightRobot<'a> {
+/// Robot at rest on springs: straight cables without mass (the static model `spring`), or chains that hang as its cables
+/// do.
+pub(super) struct SpringRobot<'a> {
     pub(super) robot: &'a Robot,
     pub(super) equilibrium: Equilibrium,
     /// What the file does not have, one sentence each.
@@ -52,14 +53,22 @@ pub(super) fn at_rest(given: &AtRest) -> Result<AtRest> {
     Ok(AtRest { equilibrium: straight, ..given.clone() })
 }
 
-impl<'a> StraightRobot<'a> {
+impl<'a> SpringRobot<'a> {
     /// The robot at rest on straight cables. `given` is the equilibrium that it was made of, `lost` what the file has lost
     /// already.
     pub(super) fn of(at_rest: &'a AtRest, given: &Equilibrium, lost: &[String]) -> Self {
         let mut found = Self { robot: &at_rest.robot, equilibrium: at_rest.equilibrium.clone(), lost: lost.to_vec() };
         found.tell_sag(given);
         found.tell_drives();
-        found.tell_ropes_and_platform();
+        found.tell_ropes_and_platform("the damping of the motion of their ropes is left out, as this motion is");
+        found
+    }
+
+    /// The robot at rest on chains that have the mass of its cables.
+    pub(super) fn of_chains(at_rest: &'a AtRest, lost: &[String]) -> Self {
+        let mut found = Self { robot: &at_rest.robot, equilibrium: at_rest.equilibrium.clone(), lost: lost.to_vec() };
+        found.tell_drives();
+        found.tell_ropes_and_platform("the damping of the motion of their ropes is left out");
         found
     }
 
@@ -91,7 +100,7 @@ impl<'a> StraightRobot<'a> {
     }
 
     /// Reports what cables with a property lose.
-    fn lose(&mut self, has: impl Fn(&Cable) -> bool, what: &str) {
+    pub(super) fn lose(&mut self, has: impl Fn(&Cable) -> bool, what: &str) {
         let cables = self.robot.cables.iter().filter(|cable| has(cable));
         let names: Vec<&str> = cables.map(|cable| cable.name.as_str()).collect();
         if !names.is_empty() {
@@ -117,25 +126,19 @@ impl<'a> StraightRobot<'a> {
         );
     }
 
-    /// Reports what ropes and platform have and the file does not.
-    fn tell_ropes_and_platform(&mut self) {
+    /// Reports what ropes and platform have and the file does not; `undamped` is what becomes of the damping of ropes.
+    fn tell_ropes_and_platform(&mut self, undamped: &str) {
         let robot = self.robot;
         self.lose(
             |cable| cable.material.dynamic_axial_stiffness.is_some(),
             "`dynamic_axial_stiffness_n` is left out: the ropes have their stiffness under a slow load",
         );
-        self.lose(
-            |cable| cable.load_per_length_w != Vec3::zeros() || drags(robot, cable),
-            "wind and other loads along the cables are left out",
-        );
+        self.lose(|cable| is_loaded(robot, cable), "wind and other loads along the cables are left out");
         let damped = |rope: &Material| {
             let (Damping::Ratio(by) | Damping::Viscous(by)) = rope.damping;
             by > 0.0 && rope.mass_per_length > 0.0
         };
-        self.lose(
-            |cable| damped(&cable.material),
-            "the damping of the motion of their ropes is left out, as this motion is; the loss of their stretch is kept",
-        );
+        self.lose(|cable| damped(&cable.material), &format!("{undamped}; the loss of their stretch is kept"));
         if robot.platform.translational_damping_p.norm() + robot.platform.rotational_damping_p.norm() > 0.0 {
             self.lost.push("the viscous damping of the platform is left out".to_owned());
         }
@@ -225,9 +228,10 @@ impl<'a> StraightRobot<'a> {
     }
 }
 
-/// True if the wind pulls at a cable.
-fn drags(robot: &Robot, cable: &Cable) -> bool {
-    robot.wind.velocity_w != Vec3::zeros() && cable.material.drag_width.is_some_and(|width| width > 0.0)
+/// True if the wind or another load acts along a cable.
+pub(super) fn is_loaded(robot: &Robot, cable: &Cable) -> bool {
+    let drags = robot.wind.velocity_w != Vec3::zeros() && cable.material.drag_width.is_some_and(|width| width > 0.0);
+    drags || cable.load_per_length_w != Vec3::zeros()
 }
 
 /// Two unit vectors that form right-handed axes together with a normal.
