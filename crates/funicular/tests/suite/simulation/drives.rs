@@ -7,7 +7,7 @@ use funicular::math::Vec3;
 use funicular::modes;
 use funicular::robot::{Damping, Pose, Robot, State};
 use funicular::simulation::{Simulation, SimulationEvent, SimulationSettings};
-use funicular::statics::{self, Equilibrium, StaticModel};
+use funicular::statics::{self, CableState, Equilibrium, StaticModel};
 
 /// Tables of drives, each with what its cables name.
 const DRIVES: [(&str, &str, &str); 12] = [
@@ -158,17 +158,29 @@ fn a_small_push_rings_at_the_modes_of_drives() {
         }
         let dynamics = Dynamics::about(&robot, &rest, Linearisation::default(), 8.0).unwrap();
         let first_hz = modes::below(&dynamics, 8.0).modes[0].frequency_hz;
-        let of = Ring { cycles: 60.0, tolerance: 1e-12, off: 2e-6, part: 0.03, least: 4, books: 1e-4 };
+        let of = Ring { cycles: 60.0, tolerance: 1e-12, off: 2e-6, part: 0.03, least: 3, books: 1e-4 };
         let (force_w, moment_w) = (Vec3::new(4e-2, 3e-2, 6e-2), Vec3::new(6e-3, 8e-3, 8e-3));
         rings_at_its_modes(&(robot, rest), first_hz, force_w, moment_w, &of);
     }
 }
 
-/// A servo with a delay follows a swing of its command as the frequency response says, in which the delay is exact.
+/// Servos, one with a delay, follow a swing of their command as the frequency response says, in which a delay is exact.
+/// There the rope that a winch pays out has the stretch of its present tension, here that with which it was wound: the
+/// responses differ by the strain, which is a tenth of the usual one on these ropes.
 #[test]
-fn a_delayed_servo_follows_a_swing_as_its_frequency_response() {
-    let (_, robot, _) = subjects().into_iter().find(|(name, ..)| name == "delayed servo").unwrap();
-    swings_as_its_response(robot);
+fn servos_follow_a_swing_as_their_frequency_response() {
+    for (name, mut robot, rest) in subjects() {
+        if !name.contains("servo") {
+            continue;
+        }
+        for cable in &mut robot.cables {
+            cable.material.axial_stiffness *= 10.0;
+        }
+        let (robot, rest) = at_rest(robot, rest.pose);
+        let strain = |cable: &CableState| cable.tension_anchor / robot.cables[0].material.axial_stiffness;
+        let most = rest.cables.iter().map(strain).fold(0.0, f64::max);
+        swings_as_its_response(robot, 5e-6 + most);
+    }
 }
 
 /// The books of the energy balance after a release; on a robot without drives they are as far off.
