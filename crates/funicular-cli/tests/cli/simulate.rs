@@ -159,7 +159,7 @@ fn a_release_beside_a_pillar_has_distances() {
     let directory = tempfile::tempdir().unwrap();
     let at = |name: &str| directory.path().join(name).to_str().unwrap().to_owned();
     let pillar =
-        "\n[obstacles.pillar]\nsize_m = [0.2, 0.2, 0.8]\nposition_m = [0, 0, 1.0]\n[clearance]\nobstacles_m = 0.01\n";
+        "\n[obstacles.pillar]\nsize_m = [0.2, 0.2, 0.8]\nposition_m = [0, 0, 0.878]\n[clearance]\nobstacles_m = 0.01\n";
     let text = fs::read_to_string(robot("yuan2014-4mm.toml")).unwrap() + pillar;
     fs::write(at("hall.toml"), text).unwrap();
     let scenario = project("docs/simulation/release.toml");
