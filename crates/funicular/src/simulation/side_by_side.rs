@@ -142,7 +142,7 @@ fn of_element<S: Simd>(
         for (slope, out) in slopes.iter().zip(out.chunks_exact_mut(3)) {
             let slope = part.splat(*slope);
             for (out, force) in out.iter_mut().zip(force) {
-                let sum = part.mul_add(slope, force, part.of(out));
+                let sum = part.plus(slope, force, part.of(out));
                 part.set(out, sum);
             }
         }
@@ -156,7 +156,7 @@ fn along<S: Simd>(part: Part<S>, slopes: &[f64], values: &[Line]) -> [S::f64s; 3
     for (slope, value) in slopes.iter().zip(values.chunks_exact(3)) {
         let slope = part.splat(*slope);
         for axis in 0..3 {
-            sums[axis] = part.mul_add(slope, part.of(&value[axis]), sums[axis]);
+            sums[axis] = part.plus(slope, part.of(&value[axis]), sums[axis]);
         }
     }
     sums
@@ -177,8 +177,7 @@ impl<S: Simd> Part<S> {
     ) -> [S::f64s; 3] {
         let simd = self.simd;
         let per_length = self.of(&law.per_length);
-        let dot =
-            |a: [S::f64s; 3], b: [S::f64s; 3]| self.mul_add(a[0], b[0], self.mul_add(a[1], b[1], self.mul(a[2], b[2])));
+        let dot = |a: [S::f64s; 3], b: [S::f64s; 3]| self.plus(a[0], b[0], self.plus(a[1], b[1], self.mul(a[2], b[2])));
         let slope = slope.map(|of| self.mul(of, per_length));
         let ratio = simd.sqrt_f64s(dot(slope, slope));
         // A point of the rope that has folded onto itself has no tangent and no tension.
@@ -187,7 +186,7 @@ impl<S: Simd> Part<S> {
         if let Some(slope_rate) = slope_rate {
             let along = self.mul(self.mul(dot(slope_rate, slope), per_length), inverse);
             let rate = simd.sub_f64s(along, self.mul(ratio, self.of(&law.relative_rate)));
-            strain = self.mul_add(self.of(&law.damping_time), rate, strain);
+            strain = self.plus(self.of(&law.damping_time), rate, strain);
         }
         let tension = simd.max_f64s(self.mul(self.of(&law.stiffness), strain), self.splat(0.0));
         let factor = self.mul(self.mul(tension, inverse), self.splat(weight));
@@ -365,13 +364,13 @@ fn products<S: Simd>(part: Part<S>, values: &[Line], at: [usize; 3], numbers: &[
     for (k, pair) in pairs.enumerate() {
         for (s, number) in pair.iter().enumerate() {
             for i in 0..3 {
-                sums[s][i] = part.mul_add(part.of(&rows[i][2 * k + s]), part.of(number), sums[s][i]);
+                sums[s][i] = part.plus(part.of(&rows[i][2 * k + s]), part.of(number), sums[s][i]);
             }
         }
     }
     if let [number] = odd {
         for i in 0..3 {
-            sums[0][i] = part.mul_add(part.of(&rows[i][numbers.len() - 1]), part.of(number), sums[0][i]);
+            sums[0][i] = part.plus(part.of(&rows[i][numbers.len() - 1]), part.of(number), sums[0][i]);
         }
     }
     from_fn(|i| part.simd.add_f64s(sums[0][i], sums[1][i]))
