@@ -53,11 +53,6 @@ impl CtrlC {
             (Ok(found), _) => Ok(found),
         }
     }
-
-    /// Exception that ended the work, or else the error of the work.
-    pub(crate) fn or(self, error: &anyhow::Error) -> PyErr {
-        self.raised.unwrap_or_else(|| errors::study(error))
-    }
 }
 
 impl Watch for CtrlC {
@@ -208,7 +203,8 @@ pub(crate) fn plot_page(py: Python<'_>, path: PathBuf, label: String, call: Stri
     py.detach(|| {
         let mut watch = CtrlC::new();
         let page = pages::plot::plot(&file, label, call, &mut watch);
-        page.map(|page| (worded(&page.html, Words::Python), in_words(&page.notes))).map_err(|error| watch.or(&error))
+        let page = watch.result(page)?;
+        Ok((worded(&page.html, Words::Python), in_words(&page.notes)))
     })
 }
 

@@ -209,7 +209,8 @@ pub(crate) fn frf(
 
     let found = py.detach(|| {
         let mut watch = CtrlC::new();
-        frf::response(&rest.at_rest, &pairs, frequencies, adaptive, &mut watch).map_err(|error| watch.or(&error))
+        let found = frf::response(&rest.at_rest, &pairs, frequencies, adaptive, &mut watch);
+        watch.result(found)
     })?;
     if let Some(caveat) = &found.caveat {
         errors::warn(py, "ResponseWarning", caveat, LEVEL)?;

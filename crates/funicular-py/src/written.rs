@@ -164,7 +164,7 @@ pub(crate) fn write_frf(
     let (warnings, bytes) = py.detach(|| {
         let mut watch = CtrlC::new();
         let found = frf::about(&rest.at_rest, &pairs(of), frequencies, of.adaptive, PROMINENCE_DB, &mut watch);
-        let found = found.map_err(|error| watch.or(&error))?;
+        let found = watch.result(found)?;
         let bytes = frf_file(&found).map_err(|error| errors::study(&error))?;
         Ok::<_, PyErr>((found.warnings, bytes))
     })?;

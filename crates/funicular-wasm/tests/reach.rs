@@ -1,4 +1,4 @@
-//! What the live page asks beside frames: rays to the border of the workspace, tables, and data of a refit.
+//! Answers for the live page besides frames: rays to the border of the workspace, tables, and data of a refit.
 
 use funicular_study::request::Request;
 use funicular_wasm::answer;

@@ -62,7 +62,8 @@ impl PyRobot {
         let request = self.request_of(command, given)?;
         let found = py.detach(|| {
             let mut watch = CtrlC::new();
-            let found = run_on(&request, Some((*self.robot).clone()), &mut watch).map_err(|error| watch.or(&error))?;
+            let found = run_on(&request, Some((*self.robot).clone()), &mut watch);
+            let found = watch.result(found)?;
             found.to_json(Words::Python).map_err(|error| errors::study(&error.into()))
         })?;
         answers::loaded(py, &found)
@@ -128,7 +129,8 @@ impl PyRobot {
         };
         let found = py.detach(|| {
             let mut watch = CtrlC::new();
-            trajectory::run((*self.robot).clone(), &request, &mut watch).map_err(|error| watch.or(&error))
+            let found = trajectory::run((*self.robot).clone(), &request, &mut watch);
+            watch.result(found)
         })?;
         if let Some(path) = page {
             let command_line = format!("robot.trajectory(…, page={:?})", path.display().to_string());
@@ -152,7 +154,8 @@ impl PyRobot {
         let is_svg = figure.as_deref().map(figure_is_svg).transpose()?;
         let found = py.detach(|| {
             let mut watch = CtrlC::new();
-            run_on(&request, Some((*self.robot).clone()), &mut watch).map_err(|error| watch.or(&error))
+            let found = run_on(&request, Some((*self.robot).clone()), &mut watch);
+            watch.result(found)
         })?;
         if let Results::Calibrate(found) = &found {
             if let Some(path) = page {

@@ -372,7 +372,7 @@ fn found(at_rest: &AtRest, request: &SimulateRequest, first: History, finer: Opt
 }
 
 impl Simulated {
-    /// What the columns of the rows depend on.
+    /// Names in the columns of the rows.
     pub fn names(&self) -> RowNames {
         let (cables, points) = (self.cables.clone(), self.points.clone());
         RowNames { cables, points, has_distances: self.nearest.is_some() }

@@ -326,3 +326,30 @@ impl FarEnd {
         shorter
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::delayed_weights;
+    use crate::math::Complex;
+
+    /// The size of a delayed number is right at every frequency, and its angle falls behind the delay's by 1.3e-3 at one
+    /// radian.
+    #[test]
+    fn a_delayed_number_has_the_phase_of_the_delay() {
+        let delay = 0.01;
+        let response = |angle: f64| {
+            let lambda = Complex::i() * (angle / delay);
+            // The sides are linear in value, rate and acceleration.
+            let side = |k: usize| {
+                let of = |number: [f64; 3]| Complex::from(delayed_weights(delay, number)[k]);
+                of([1.0, 0.0, 0.0]) + of([0.0, 1.0, 0.0]) * lambda + of([0.0, 0.0, 1.0]) * lambda * lambda
+            };
+            side(1) / side(0)
+        };
+        for (angle, bound) in [(0.1, 1.5e-8), (1.0, 1.4e-3)] {
+            let found = response(angle);
+            let off = (found.arg() + angle).abs();
+            assert!((found.norm() - 1.0).abs() < 1e-12 && off < bound && off > 0.8 * bound, "{angle}: {off:e}");
+        }
+    }
+}

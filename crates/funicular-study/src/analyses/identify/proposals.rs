@@ -1,4 +1,4 @@
-//! What to measure next: poses, payloads and kinds of measurements that reduce the deviations of the values most (96k).
+//! Proposed measurements: the poses, payloads and kinds that reduce the deviations of the values most (96k).
 
 use super::experiment::mounted;
 use super::model::IdentifiedModel;

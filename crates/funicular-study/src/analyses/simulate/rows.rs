@@ -45,7 +45,7 @@ pub struct SimulatedRow {
     pub energy_defect_j: f64,
 }
 
-/// What the columns of the rows depend on.
+/// Names in the columns of the rows, and which columns there are.
 #[derive(Debug, Clone)]
 pub struct RowNames {
     /// Names of the cables.
