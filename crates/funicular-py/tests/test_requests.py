@@ -80,7 +80,7 @@ MORE = [
     f"funicular simulate {ROBOT} --duration-s 0.01 --once {LENGTHS}",
     f"funicular simulate {ROBOT} --duration-s 0.02 --once --stretch-damping-time-s 1e-4 --hold-platform",
     "funicular simulate windy.toml --duration-s 0.02 --once --gust-seed 1",
-    f"funicular calibrate {MACHINE} --unknowns anchors --hold-anchors bl,br --leave-out 2,5 --starts 3 --position-std-m 0.01 --tension-std-n 2",
+    f"funicular calibrate {MACHINE} --unknowns anchors --hold-anchors bl,br --leave-out 2,5 --starts 3 --position-std-m 0.01 --rotation-std-deg 0.5 --tension-std-n 2",
     f"funicular calibrate {MACHINE} --prior cables.tl.anchor_m=±0.05 --prior cables.tr.anchor_m.y=3.8±0.1 --profile anchors",
     "funicular calibrate robots/ipanema2.toml --readings docs/tutorials/ipanema-lengths.csv --static-model spring --tension-range-n 200:2000",
     f"funicular calibrate {MACHINE} --propose 1 --grid x=1:3:3 --propose-by determinant --min-tension-n 5 --max-tension-n 50 --tension-rule closest --target-tension-n 20",

@@ -345,7 +345,7 @@ fn requests() -> Vec<Value> {
                 &json!({
                     "readings": { "length_1_m": [1.0, null], "x_m": [0.0, 0.1], "y_m": [0.0, 0.0], "z_m": [0.5, 0.5] },
                     "unknowns": ["anchors", "offsets"], "hold_anchors": ["2"], "frame": ["1", "3"], "leave_out": [2.0],
-                    "length_std_m": 5e-4, "position_std_m": 0.01, "tension_std_n": 2.0, "tension_range_n": [20.0, 120.0],
+                    "length_std_m": 5e-4, "position_std_m": 0.01, "rotation_std_deg": 0.5, "tension_std_n": 2.0, "tension_range_n": [20.0, 120.0],
                     "prior": [{ "path": "offsets", "prior": 0.0, "prior_std": 0.02 }, { "path": "cables.1.anchor_m", "prior_std": 0.05 }],
                     "profile": ["anchors"], "static_model": "catenary", "starts": 4, "propose": 2,
                     "grid": [{ "axis": "x", "from": -1.0, "to": 1.0, "count": 9 }, { "axis": "yaw", "values": [-5.0, 5.0] }],

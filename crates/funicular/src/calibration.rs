@@ -171,12 +171,6 @@ impl Calibration {
             let text = "a point mass has no attachments: leave them out of the unknowns";
             return Err(CalibrationError::NoSuchUnknown(text));
         }
-        if let PlatformMotion::Planar(plane) = &self.robot.platform.motion
-            && plane.normal_w().amax() < 1.0
-        {
-            let text = "a planar platform is calibrated in a coordinate plane only: turn the robot file into one";
-            return Err(CalibrationError::NoSuchUnknown(text));
-        }
         if self.unknowns.contains(&CalibrationUnknown::SupportStiffness) && !self.robot.has_supports() {
             let text =
                 "no anchor of the robot file is on a flexible support: leave their stiffness out of the unknowns";
@@ -226,10 +220,10 @@ impl Calibration {
         Err(CalibrationError::TooFewRows { data, unknowns, poses, needed })
     }
 
-    /// Number of data of a row: readings, coordinates, tensions, measured or known beforehand.
+    /// Number of data of a row: readings, coordinates, angles, tensions, measured or known beforehand.
     pub fn data_count(&self, row: &MeasuredRow) -> usize {
         let tensions = (0..self.robot.cables.len()).filter(|cable| self.tension_datum(row, *cable).is_some()).count();
-        row.readings.iter().flatten().count() + row.position.iter().flatten().count() + tensions
+        row.readings.iter().flatten().count() + self.pose_data_counts(row).iter().sum::<usize>() + tensions
     }
 
     /// Number of coordinates of a pose that the readings see: degrees of freedom, or only the translations if all cables
@@ -260,6 +254,12 @@ impl Calibration {
     /// World axes along which the platform moves, as by [`moving_axes`].
     pub fn axes(&self) -> Vec<usize> {
         moving_axes(&self.robot)
+    }
+
+    /// Unit vectors of the translations of the platform, two of them in a plane, world axes. Anchors that are unknown move
+    /// along them only.
+    pub fn translations_w(&self) -> Vec<Vec3> {
+        self.robot.platform.motion.translations_w()
     }
 
     /// Values of the unknowns in the robot file: metres, and for a scale or a factor its value or logarithm times a length.
@@ -320,7 +320,7 @@ impl Calibration {
             middle -= plane.normal_w() * plane.distance(&middle);
         }
         // Cables whose anchors lie in a plane with the platform would not see it leave the plane.
-        if self.axes().len() == 3 {
+        if self.translations_w().len() == 3 {
             let up = self.robot.up_w();
             let drop = MIDDLE_BELOW * self.anchor_spread();
             let highest = self.robot.cables.iter().map(|cable| cable.anchor.point_w.dot(&up)).fold(f64::MIN, f64::max);
@@ -341,12 +341,9 @@ impl Calibration {
     }
 }
 
-/// World axes along which a platform moves that is calibrated: 0, 1, 2 without the normal of a plane.
+/// World axes along which a platform moves that is calibrated: 0, 1, 2 without one that is the normal of its plane.
 pub fn moving_axes(robot: &Robot) -> Vec<usize> {
-    match &robot.platform.motion {
-        PlatformMotion::Planar(plane) => (0..3).filter(|&axis| plane.normal_w()[axis].abs() < 0.5).collect(),
-        _ => vec![0, 1, 2],
-    }
+    robot.platform.motion.components().into_iter().filter(|component| *component < 3).collect()
 }
 
 /// Distance between attachments, relative to the readings, up to which they are one point.

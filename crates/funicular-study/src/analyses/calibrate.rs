@@ -138,6 +138,7 @@ found!(Calibrated, "calibrate");
 pub fn run(request: &CalibrateRequest, watch: &mut dyn Watch) -> Result<Calibrated> {
     request::check("length_std_m", request.length_std_m, crate::values::positive)?;
     request::check("position_std_m", request.position_std_m, crate::values::positive)?;
+    request::check("rotation_std_deg", request.rotation_std_deg, crate::values::positive)?;
     request::check_positive("tension_std_n", request.tension_std_n)?;
     request::check("wanted_std_m", request.wanted_std_m, crate::values::positive)?;
     check_tension_range(request)?;
@@ -145,7 +146,11 @@ pub fn run(request: &CalibrateRequest, watch: &mut dyn Watch) -> Result<Calibrat
     let file = request.robot.read()?;
     let parameters = Parameters::from_toml(&file.text)?;
     let robot = parameters.robot().clone();
-    let rows = table::rows(&request.readings, &robot, request.position_std_m.is_some())?;
+    let rows = table::rows(
+        &request.readings,
+        &robot,
+        [request.position_std_m, request.rotation_std_deg].map(|of| of.is_some()),
+    )?;
     let (numbers, rows) = table::kept(rows, &request.leave_out)?;
     let is_proposed = request.propose > 0 || request.wanted_std_m.is_some();
     let needs = (is_proposed, "⟪propose⟫ or ⟪wanted_std_m⟫");
@@ -159,6 +164,7 @@ pub fn run(request: &CalibrateRequest, watch: &mut dyn Watch) -> Result<Calibrat
     let deviations = ReadingDeviations {
         reading: request.length_std_m.unwrap_or(ASSUMED_DEVIATION),
         position: request.position_std_m.unwrap_or(1.0),
+        angle: request.rotation_std_deg.unwrap_or(1.0).to_radians(),
         tension: request.tension_std_n,
         tension_prior: request.tension_range_n.map(prior_of_range),
     };

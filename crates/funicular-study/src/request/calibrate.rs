@@ -35,6 +35,8 @@ declared! {
         length_std_m: Option<f64> = None => (Number(Positive)).otherwise("that of the residuals");
         /// Standard deviation of the coordinates x_m, y_m, z_m [m]; with it they are measurements.
         position_std_m: Option<f64> = None => (Number(Positive)).otherwise("they only start the search");
+        /// Standard deviation of the angles roll_deg, pitch_deg, yaw_deg [degrees]; with it they are measurements.
+        rotation_std_deg: Option<f64> = None => (Number(Positive)).otherwise("they only start the search");
         /// Standard deviation of the measured tensions [N].
         tension_std_n: f64 = 1.0 => (Number(Positive));
         /// Values known beforehand with their standard deviations: kinds as in ⟪unknowns⟫, or paths of values; without a value

@@ -136,13 +136,12 @@ impl Calibration {
             let length = rest.cables[i].unstrained_length;
             Some(((length - at.offsets[i]) / at.scale - (*reading)?) / self.deviations.reading)
         });
-        let positions = (0..3)
-            .filter_map(|axis| Some((rest.pose.position_w[axis] - row.position[axis]?) / self.deviations.position));
+        let of_pose = self.pose_data(row, &rest.pose).into_iter().map(|datum| datum.residual);
         let tensions = rest.cables.iter().enumerate().filter_map(|(i, cable)| {
             let (known, deviation) = self.tension_datum(row, i)?;
             Some((cable.tension_anchor - known) / deviation)
         });
-        DVec::from_vec(readings.chain(positions).chain(tensions).collect())
+        DVec::from_vec(readings.chain(of_pose).chain(tensions).collect())
     }
 
     /// Derivatives of the residuals along a change; `of_reading` is the derivative of the reading of each cable.
@@ -154,24 +153,24 @@ impl Calibration {
         change: &RobotChange,
         of_reading: impl Fn(usize) -> f64,
     ) -> Option<DVec> {
-        let (translation_w, tensions) = self.rates(at, rest, change)?;
+        let ([translation_w, rotation_w], tensions) = self.rates(at, rest, change)?;
         let readings = row.readings.iter().enumerate();
         let readings = readings.filter_map(|(i, reading)| reading.map(|_| of_reading(i) / self.deviations.reading));
-        let positions =
-            (0..3).filter_map(|axis| row.position[axis].map(|_| translation_w[axis] / self.deviations.position));
+        let of_pose = self.pose_data(row, &rest.pose).into_iter().map(|datum| datum.rate(&translation_w, &rotation_w));
         let tensions = tensions.iter().enumerate().filter_map(|(i, rate)| {
             let (_, deviation) = self.tension_datum(row, i)?;
             Some(rate / deviation)
         });
-        Some(DVec::from_vec(readings.chain(positions).chain(tensions).collect()))
+        Some(DVec::from_vec(readings.chain(of_pose).chain(tensions).collect()))
     }
 
-    /// Rates of the position and of the tensions at the anchors along a change, at held lengths; by differences where
-    /// supports settle.
-    fn rates(&self, at: &CalibratedRobot, rest: &Equilibrium, change: &RobotChange) -> Option<(Vec3, Vec<f64>)> {
+    /// Rates of translation and rotation and of the tensions at the anchors along a change, at held lengths; by differences
+    /// where supports settle.
+    fn rates(&self, at: &CalibratedRobot, rest: &Equilibrium, change: &RobotChange) -> Option<([Vec3; 2], Vec<f64>)> {
         if !at.robot.has_supports() {
             let by = derivatives::at_held_lengths(&at.robot, rest, change).ok()?;
-            return Some((by.translation_w, by.cables.iter().map(|cable| cable.tension_anchor).collect()));
+            let motion = [by.translation_w, by.rotation_w];
+            return Some((motion, by.cables.iter().map(|cable| cable.tension_anchor).collect()));
         }
         let moved = |step: f64| {
             let lengths = rest.cables.iter().zip(&change.cables);
@@ -184,7 +183,11 @@ impl Calibration {
         let per_step = 0.5 / DIFFERENCE;
         let tensions = above.cables.iter().zip(&below.cables);
         let tensions = tensions.map(|(above, below)| (above.tension_anchor - below.tension_anchor) * per_step);
-        Some(((above.pose.position_w - below.pose.position_w) * per_step, tensions.collect()))
+        let turn = (above.pose.rot_wp * below.pose.rot_wp.inverse()).scaled_axis();
+        Some((
+            [above.pose.position_w - below.pose.position_w, turn].map(|motion| motion * per_step),
+            tensions.collect(),
+        ))
     }
 
     /// Change of the robot along an unknown.

@@ -172,17 +172,18 @@ impl Calibration {
     }
 
     /// Residuals of every row at a fit, computed less measured, in the units of the data: readings of the cables that
-    /// were read [m], measured coordinates [m], tensions [N].
+    /// were read [m], measured coordinates [m] and angles [rad], tensions [N].
     pub fn residuals_of(&self, fit: &CalibrationFit) -> Vec<Vec<f64>> {
         let of_row = |(row, terms): (&super::MeasuredRow, &RowTerms)| {
             let read = row.readings.iter().flatten().count();
-            let placed = row.position.iter().flatten().count();
+            let [placed, turned] = self.pose_data_counts(row);
             let tensions = (0..self.robot.cables.len()).filter_map(|cable| self.tension_datum(row, cable));
             let tensions: Vec<f64> = tensions.map(|(_, deviation)| deviation).collect();
             let unit = |k: usize| match k {
                 k if k < read => self.deviations.reading,
                 k if k < read + placed => self.deviations.position,
-                k => tensions[k - read - placed],
+                k if k < read + placed + turned => self.deviations.angle,
+                k => tensions[k - read - placed - turned],
             };
             terms.residuals.iter().enumerate().map(|(k, residual)| residual * unit(k)).collect()
         };

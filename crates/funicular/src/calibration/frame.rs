@@ -61,6 +61,7 @@ impl Calibration {
             FrameChoice::Inner => (motions.transpose(), Vec::new(), Vec::new()),
             FrameChoice::Anchors(order) => self.conditions(&motions, order),
         };
+        let conditions = stacked(&conditions, &self.plane_conditions());
         let is_inner = *choice == FrameChoice::Inner;
         Ok(CalibrationFrame { free: null_space(&conditions), motions, conditions, is_inner, held, held_coordinates })
     }
@@ -71,17 +72,41 @@ impl Calibration {
         if motions.ncols() != frame.motions.ncols() {
             return frame.clone();
         }
-        let conditions = if frame.is_inner { motions.transpose() } else { frame.conditions.clone() };
+        let conditions = if frame.is_inner {
+            stacked(&motions.transpose(), &self.plane_conditions())
+        } else {
+            frame.conditions.clone()
+        };
         CalibrationFrame { free: null_space(&conditions), motions, conditions, ..frame.clone() }
+    }
+
+    /// Conditions, as rows, that keep unknown anchors and attachments at their distance from a plane that contains no world
+    /// axis across which they could leave it; none in a coordinate plane, in which that coordinate is no unknown.
+    fn plane_conditions(&self) -> DMat {
+        let PlatformMotion::Planar(plane) = &self.robot.platform.motion else {
+            return DMat::zeros(0, self.unknowns.len());
+        };
+        let normal = plane.normal_w();
+        let is_anchor = |of: &CalibrationUnknown| matches!(of, CalibrationUnknown::Anchor { .. });
+        let points = (0..self.robot.cables.len()).flat_map(|cable| [(cable, true), (cable, false)]);
+        let row = |(point, anchors): (usize, bool)| {
+            DVec::from_fn(self.unknowns.len(), |k, _| match &self.unknowns[k] {
+                of if of.cable() != Some(point) || is_anchor(of) != anchors => 0.0,
+                CalibrationUnknown::Anchor { axis, .. } | CalibrationUnknown::Attachment { axis, .. } => normal[*axis],
+                _ => 0.0,
+            })
+        };
+        let rows: Vec<DVec> = points.map(row).filter(|row| row.amax() > 0.0).collect();
+        if rows.is_empty() { DMat::zeros(0, self.unknowns.len()) } else { DMat::from_columns(&rows).transpose() }
     }
 
     /// Poses in general position, at which no accident hides a motion.
     fn generic_poses(&self) -> Vec<Pose> {
         let reach = 0.2 * self.anchor_spread();
-        let count = self.coordinate_count();
+        let (count, translations) = (self.coordinate_count(), self.translations_w().len());
         let spread = |(j, pose): (usize, Pose)| {
             let step = DVec::from_fn(count, |c, _| {
-                let turn = c >= self.axes().len();
+                let turn = c >= translations;
                 let size = if turn { 0.3 * self.coordinates().ell() } else { reach };
                 size * (2.0 * super::spread::spread(j, c) - 1.0)
             });
@@ -143,12 +168,11 @@ impl Calibration {
         let count = cables.len() as f64;
         let middle = cables.iter().map(|cable| cable.anchor.point_w).sum::<Vec3>() / count;
         let (spread, ell) = (self.anchor_spread().max(f64::MIN_POSITIVE), self.coordinates().ell());
-        let axes = self.axes();
         let turns: Vec<Vec3> = match &self.robot.platform.motion {
             PlatformMotion::Planar(plane) => vec![plane.normal_w()],
             _ => (0..3).map(|axis| Vec3::ith(axis, 1.0)).collect(),
         };
-        let shifts = axes.iter().map(|&axis| Vec3::ith(axis, 1.0));
+        let shifts = self.translations_w();
 
         let mut fields = Vec::new();
         let still = |_: usize| Vec3::zeros();
@@ -202,6 +226,7 @@ impl Calibration {
             }
         }
         known.push(if is_known(CalibrationUnknown::Scale) { scale * self.scale_length } else { 0.0 });
+        known.extend((self.plane_conditions() * &unknowns).iter());
         MotionField { unknowns, known }
     }
 
@@ -267,7 +292,7 @@ impl Calibration {
             }
             Some((cable, row))
         };
-        let axes: Vec<Vec3> = self.axes().into_iter().map(|axis| Vec3::ith(axis, 1.0)).collect();
+        let axes = self.translations_w();
         let mut candidates = Vec::new();
         if let Some(&a) = order.first() {
             candidates.extend(axes.iter().filter_map(|axis| row(a, *axis)));
@@ -292,6 +317,14 @@ impl Calibration {
         candidates.extend(order.iter().flat_map(|&cable| axes.iter().filter_map(move |axis| row(cable, *axis))));
         candidates
     }
+}
+
+/// Rows of two matrices, one below the other.
+fn stacked(above: &DMat, below: &DMat) -> DMat {
+    let mut all = DMat::zeros(above.nrows() + below.nrows(), below.ncols());
+    all.rows_mut(0, above.nrows()).copy_from(above);
+    all.rows_mut(above.nrows(), below.nrows()).copy_from(below);
+    all
 }
 
 /// Change of the unknowns by a motion, and of the numbers that are known.
@@ -379,18 +412,15 @@ impl Calibration {
         let at = self.robot_at(values);
         let count = at.robot.cables.len() as f64;
         let middle = at.robot.cables.iter().map(|cable| cable.anchor.point_w).sum::<Vec3>() / count;
-        let axes = self.axes();
-        let turns = if axes.len() == 2 { 1 } else { 3 };
-        let used = axes.len() + turns;
+        let shifts = self.translations_w();
+        let turns = if shifts.len() == 2 { 1 } else { 3 };
+        let used = shifts.len() + turns;
         let along = DMat::from_columns(&fields.iter().take(used).map(|of| of.unknowns.clone()).collect::<Vec<_>>());
         let step = (conditions * along).svd(true, true).solve(missing, NEW_CONDITION).ok()?;
 
-        let mut shift = Vec3::zeros();
-        for (k, axis) in axes.iter().enumerate() {
-            shift[*axis] = step[k];
-        }
+        let shift = shifts.iter().zip(step.iter()).map(|(shift, size)| shift * *size).sum();
         let turn = match &self.robot.platform.motion {
-            PlatformMotion::Planar(plane) => plane.normal_w() * step[axes.len()],
+            PlatformMotion::Planar(plane) => plane.normal_w() * step[shifts.len()],
             _ => Vec3::new(step[3], step[4], step[5]),
         };
         let turn = turn / self.anchor_spread();

@@ -100,6 +100,7 @@ impl Calibration {
         let tension = |cable: usize| any(&|row: &MeasuredRow| row.tensions.get(cable).copied().flatten().is_some());
         MeasuredRow {
             position: [0, 1, 2].map(|axis| any(&|row: &MeasuredRow| row.position[axis].is_some())),
+            angles: [0, 1, 2].map(|axis| any(&|row: &MeasuredRow| row.angles[axis].is_some())),
             tensions: (0..self.robot.cables.len()).map(tension).collect(),
             ..MeasuredRow::default()
         }

@@ -1,7 +1,7 @@
 //! One row of measured readings: residuals and their derivatives by the unknowns of the robot and by the row's pose.
 
 use super::{CalibratedRobot, Calibration, CalibrationUnknown};
-use crate::math::{DMat, DVec, Vec6};
+use crate::math::{DMat, DVec, Mat3, Vec3, Vec6};
 use crate::platform::StraightCable;
 use crate::robot::Pose;
 
@@ -12,6 +12,8 @@ pub struct MeasuredRow {
     pub readings: Vec<Option<f64>>,
     /// Measured coordinates of the platform origin, world axes [m].
     pub position: [Option<f64>; 3],
+    /// Measured angles roll, pitch and yaw of the platform [rad], `R = Rz Ry Rx`.
+    pub angles: [Option<f64>; 3],
     /// Tension of each cable at its anchor [N]; `None` where it was not measured, empty if none was.
     pub tensions: Vec<Option<f64>>,
     /// Pose at which the search begins.
@@ -32,6 +34,8 @@ pub struct ReadingDeviations {
     pub reading: f64,
     /// Of a measured coordinate of the platform [m].
     pub position: f64,
+    /// Of a measured angle of the platform [rad].
+    pub angle: f64,
     /// Of a measured tension [N].
     pub tension: f64,
     /// Tension of elastic cables at the anchor that was not measured, with its standard deviation [N]; `None` if nothing is
@@ -50,6 +54,22 @@ pub(super) struct RowTerms {
     pub(super) by_pose: DMat,
 }
 
+/// Measured coordinate or angle of the platform: its residual and derivatives, divided by its standard deviation.
+pub(super) struct PoseDatum {
+    pub(super) residual: f64,
+    /// By the translation of the platform, world axes.
+    by_translation: Vec3,
+    /// By its rotation vector, world axes.
+    by_rotation: Vec3,
+}
+
+impl PoseDatum {
+    /// Rate along a motion of the platform.
+    pub(super) fn rate(&self, translation_w: &Vec3, rotation_w: &Vec3) -> f64 {
+        self.by_translation.dot(translation_w) + self.by_rotation.dot(rotation_w)
+    }
+}
+
 impl Calibration {
     /// Residuals of a row at a pose, in deviations (96a).
     pub(super) fn residuals(&self, at: &CalibratedRobot, row: &MeasuredRow, pose: &Pose) -> DVec {
@@ -57,9 +77,42 @@ impl Calibration {
             let length = at.robot.cables[i].straight_length(pose);
             Some(((length - at.offsets[i]) / at.scale - (*reading)?) / self.deviations.reading)
         });
-        let positions =
-            (0..3).filter_map(|axis| Some((pose.position_w[axis] - row.position[axis]?) / self.deviations.position));
-        DVec::from_vec(readings.chain(positions).collect())
+        DVec::from_vec(readings.chain(self.pose_data(row, pose).into_iter().map(|datum| datum.residual)).collect())
+    }
+
+    /// Number of measured coordinates of the platform in a row, and of measured angles; cables that end in one point say
+    /// nothing of angles.
+    pub(super) fn pose_data_counts(&self, row: &MeasuredRow) -> [usize; 2] {
+        let angles = if self.is_point { 0 } else { row.angles.iter().flatten().count() };
+        [row.position.iter().flatten().count(), angles]
+    }
+
+    /// Measured coordinates and angles of the platform in a row, against those of a pose (96a).
+    pub(super) fn pose_data(&self, row: &MeasuredRow, pose: &Pose) -> Vec<PoseDatum> {
+        let position = |axis: usize| {
+            let deviation = self.deviations.position;
+            Some(PoseDatum {
+                residual: (pose.position_w[axis] - row.position[axis]?) / deviation,
+                by_translation: Vec3::ith(axis, 1.0 / deviation),
+                by_rotation: Vec3::zeros(),
+            })
+        };
+        let (roll, pitch, yaw) = pose.rot_wp.euler_angles();
+        // The platform turns by the rates of the angles about these axes; upright, the first and the last coincide, and
+        // least squares share the turn between them.
+        let axes = Mat3::from_columns(&[pose.rot_wp * Vec3::x(), Vec3::new(-yaw.sin(), yaw.cos(), 0.0), Vec3::z()]);
+        let rates = axes.try_inverse().unwrap_or_else(|| axes.transpose());
+        let angle = |k: usize| {
+            let (deviation, turn) = (self.deviations.angle, std::f64::consts::TAU);
+            let apart = [roll, pitch, yaw][k] - row.angles[k]?;
+            Some(PoseDatum {
+                residual: (apart - turn * (apart / turn).round()) / deviation,
+                by_translation: Vec3::zeros(),
+                by_rotation: rates.row(k).transpose() / deviation,
+            })
+        };
+        let angles = (0..if self.is_point { 0 } else { 3 }).filter_map(angle);
+        (0..3).filter_map(position).chain(angles).collect()
     }
 
     /// Residuals of a row with their derivatives: a straight length changes with its anchor by the unit vector `u`
@@ -102,11 +155,11 @@ impl Calibration {
         }
 
         let first = row.readings.iter().flatten().count();
-        let measured = (0..3).filter(|axis| row.position[*axis].is_some());
-        for (k, axis) in measured.enumerate() {
+        for (k, datum) in self.pose_data(row, pose).iter().enumerate() {
             for c in 0..by_pose.ncols() {
                 let motion = coordinates.expand(&Vec6::ith(c, 1.0));
-                by_pose[(first + k, c)] = motion[axis] / self.deviations.position;
+                by_pose[(first + k, c)] =
+                    datum.rate(&motion.fixed_rows::<3>(0).into(), &motion.fixed_rows::<3>(3).into());
             }
         }
         RowTerms { residuals, by_unknowns, by_pose }

@@ -5,7 +5,7 @@ use super::frame::CalibrationFrame;
 use super::spread::spread;
 use super::{Calibration, CalibrationFit, CalibrationUnknown, MeasuredRow, anchors_from_lengths, null_space};
 use crate::math::{DMat, DVec, Vec3};
-use crate::robot::Pose;
+use crate::robot::{Pose, Robot};
 use crate::statics::StaticModel;
 
 /// Arrivals at the best minimum that end the search: two if its χ² is one of noise.
@@ -159,7 +159,7 @@ impl Calibration {
 
     /// Pose in the neighbourhood of another one.
     fn nearby(&self, pose: &Pose, number: usize) -> Pose {
-        let translations = self.axes().len();
+        let translations = self.translations_w().len();
         let step = DVec::from_fn(self.coordinate_count(), |c, _| {
             let size = if c < translations {
                 2.0 * START_SHIFT * self.anchor_spread()
@@ -224,10 +224,9 @@ impl Calibration {
 
     /// True if the readings alone leave the robot its mirror image and every place: points, all anchors unknown.
     fn is_free_figure(&self, frame: &CalibrationFrame) -> bool {
-        let axes = self.axes();
-        let all = if axes.len() == 2 { 3 } else { 6 };
+        let all = if self.translations_w().len() == 2 { 3 } else { 6 };
         let anchors = (0..self.robot.cables.len()).all(|cable| {
-            axes.iter().all(|&axis| self.position_of(&CalibrationUnknown::Anchor { cable, axis }).is_some())
+            self.axes().iter().all(|&axis| self.position_of(&CalibrationUnknown::Anchor { cable, axis }).is_some())
         });
         !self.is_elastic()
             && self.is_point
@@ -241,16 +240,8 @@ impl Calibration {
         if !self.is_free_figure(frame) {
             return found;
         }
-        let axis = self.axes()[0];
-        let mut mirrored = found.clone();
-        for (value, unknown) in mirrored.values.iter_mut().zip(&self.unknowns) {
-            if matches!(unknown, CalibrationUnknown::Anchor { axis: of, .. } if *of == axis) {
-                *value = -*value;
-            }
-        }
-        for pose in &mut mirrored.poses {
-            pose.position_w[axis] = -pose.position_w[axis];
-        }
+        let across = self.translations_w()[0];
+        let mirrored = self.with_points(&found, |point| point - across * (2.0 * across.dot(point)));
         if self.unlikeness(&found) <= self.unlikeness(&mirrored) {
             return self.in_frame(&found, frame);
         }
@@ -259,43 +250,58 @@ impl Calibration {
 
     /// Fit that is turned towards the file and then placed by the conditions.
     fn in_frame(&self, found: &CalibrationFit, frame: &CalibrationFrame) -> CalibrationFit {
-        let axes = self.axes();
         let (points, wanted) = self.figures(found);
         let alignment = Alignment::of(&points, &wanted, false);
+        let aligned = self.with_points(found, |point| self.placed(point, &alignment.apply(&self.place(point))));
+        let (values, poses) = frame.placed(self, &aligned.values, &aligned.poses);
+        CalibrationFit { values, poses, ..aligned }
+    }
+
+    /// Fit whose anchors and positions are moved.
+    fn with_points(&self, found: &CalibrationFit, moved: impl Fn(&Vec3) -> Vec3) -> CalibrationFit {
         let at = self.robot_at(&found.values);
-        let place = |point: &Vec3| {
-            let moved = alignment.apply(&DVec::from_fn(axes.len(), |k, _| point[axes[k]]));
-            let mut placed = *point;
-            axes.iter().enumerate().for_each(|(k, &axis)| placed[axis] = moved[k]);
-            placed
-        };
-        let mut values = found.values.clone();
-        for (value, unknown) in values.iter_mut().zip(&self.unknowns) {
+        let mut out = found.clone();
+        for (value, unknown) in out.values.iter_mut().zip(&self.unknowns) {
             if let CalibrationUnknown::Anchor { cable, axis } = unknown {
-                *value = place(&at.robot.cables[*cable].anchor.point_w)[*axis];
+                *value = moved(&at.robot.cables[*cable].anchor.point_w)[*axis];
             }
         }
-        let poses: Vec<Pose> =
-            found.poses.iter().map(|pose| Pose { position_w: place(&pose.position_w), ..*pose }).collect();
-        let (values, poses) = frame.placed(self, &values, &poses);
-        CalibrationFit { values, poses, ..found.clone() }
+        for pose in &mut out.poses {
+            pose.position_w = moved(&pose.position_w);
+        }
+        out
+    }
+
+    /// Coordinates of a point along the translations of the platform.
+    fn place(&self, point: &Vec3) -> DVec {
+        DVec::from_vec(self.translations_w().iter().map(|along| along.dot(point)).collect())
+    }
+
+    /// Point with other coordinates along the translations of the platform.
+    fn placed(&self, point: &Vec3, place: &DVec) -> Vec3 {
+        let along = self.translations_w();
+        along
+            .iter()
+            .zip(place.iter())
+            .fold(*point, |point, (along, wanted)| point + along * (wanted - along.dot(&point)))
     }
 
     /// Anchors and mean position of a fit, and of the file, as rows.
     fn figures(&self, found: &CalibrationFit) -> (DMat, DMat) {
-        let axes = self.axes();
         let at = self.robot_at(&found.values);
-        let count = self.robot.cables.len();
         let mean = found.poses.iter().map(|pose| pose.position_w).sum::<Vec3>() / found.poses.len().max(1) as f64;
         let start = self.start_poses();
         let wanted_mean = start.iter().map(|pose| pose.position_w).sum::<Vec3>() / start.len().max(1) as f64;
-        let points = DMat::from_fn(count + 1, axes.len(), |i, k| {
-            at.robot.cables.get(i).map_or(mean, |cable| cable.anchor.point_w)[axes[k]]
-        });
-        let wanted = DMat::from_fn(count + 1, axes.len(), |i, k| {
-            self.robot.cables.get(i).map_or(wanted_mean, |cable| cable.anchor.point_w)[axes[k]]
-        });
-        (points, wanted)
+        let figure = |robot: &Robot, mean: Vec3| {
+            let points = robot.cables.iter().map(|cable| cable.anchor.point_w).chain([mean]);
+            self.places(points)
+        };
+        (figure(&at.robot, mean), figure(&self.robot, wanted_mean))
+    }
+
+    /// Coordinates of points along the translations of the platform, as rows.
+    fn places(&self, points: impl Iterator<Item = Vec3>) -> DMat {
+        DMat::from_columns(&points.map(|point| self.place(&point)).collect::<Vec<_>>()).transpose()
     }
 
     /// Sum of squared distances to the file after the best shift and turn.
@@ -311,28 +317,24 @@ impl Calibration {
         if !self.is_free_figure(frame) || self.rows.iter().any(|row| row.readings.iter().any(Option::is_none)) {
             return None;
         }
-        let axes = self.axes();
         let count = self.robot.cables.len();
         let lengths = DMat::from_fn(self.rows.len(), count, |j, i| self.rows[j].readings[i].unwrap_or_default());
-        let (anchors, positions) = anchors_from_lengths(&lengths, axes.len())?;
+        let (anchors, positions) = anchors_from_lengths(&lengths, self.translations_w().len())?;
 
         // Turned to the file, mirrored if need be.
-        let wanted = DMat::from_fn(count, axes.len(), |i, k| self.robot.cables[i].anchor.point_w[axes[k]]);
+        let wanted = self.places(self.robot.cables.iter().map(|cable| cable.anchor.point_w));
         let alignment = Alignment::of(&anchors, &wanted, true);
         let mut values = self.start();
         for (value, unknown) in values.iter_mut().zip(&self.unknowns) {
-            if let CalibrationUnknown::Anchor { cable, axis } = unknown
-                && let Some(k) = axes.iter().position(|of| of == axis)
-            {
-                *value = alignment.apply(&anchors.row(*cable).transpose())[k];
+            if let CalibrationUnknown::Anchor { cable, axis } = unknown {
+                let placed = alignment.apply(&anchors.row(*cable).transpose());
+                *value = self.placed(&self.robot.cables[*cable].anchor.point_w, &placed)[*axis];
             }
         }
         let middle = self.middle();
         let pose = |j: usize| {
             let placed = alignment.apply(&positions.row(j).transpose());
-            let mut pose = middle;
-            axes.iter().enumerate().for_each(|(k, &axis)| pose.position_w[axis] = placed[k]);
-            pose
+            Pose { position_w: self.placed(&middle.position_w, &placed), ..middle }
         };
         let poses: Vec<Pose> = (0..self.rows.len()).map(pose).collect();
         let (values, poses) = frame.placed(self, &values, &poses);

@@ -13,15 +13,15 @@ const SINGLE: usize = 3;
 /// Motion or number that a weak combination consists of.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum CombinationPart {
-    /// All anchors apart along a world axis [m/m].
+    /// All anchors apart along a direction [m/m].
     Stretch {
-        /// World axis.
-        axis: usize,
+        /// Unit vector, world axes.
+        along_w: Vec3,
     },
-    /// Shear of the anchors between two world axes [m/m].
+    /// Shear of the anchors between two directions [m/m].
     Shear {
-        /// World axes.
-        axes: [usize; 2],
+        /// Unit vectors, world axes.
+        between_w: [Vec3; 2],
     },
     /// All offsets together [m].
     CommonOffset,
@@ -126,17 +126,17 @@ impl Calibration {
         };
         let (still, none) = (|_: usize| Vec3::zeros(), |_: usize| 0.0);
 
-        let axes = self.axes();
+        let directions = self.translations_w();
         let mut motions = Vec::new();
-        for (n, &axis) in axes.iter().enumerate() {
-            let stretch = |i: usize| Vec3::ith(axis, (anchors[i] - middle)[axis]);
-            motions.push((CombinationPart::Stretch { axis }, field(&stretch, &none, 0.0)));
-            for &other in &axes[n + 1..] {
+        for (n, &along_w) in directions.iter().enumerate() {
+            let stretch = |i: usize| along_w * along_w.dot(&(anchors[i] - middle));
+            motions.push((CombinationPart::Stretch { along_w }, field(&stretch, &none, 0.0)));
+            for &other in &directions[n + 1..] {
                 let shear = |i: usize| {
                     let from = anchors[i] - middle;
-                    Vec3::ith(axis, from[other]) + Vec3::ith(other, from[axis])
+                    along_w * other.dot(&from) + other * along_w.dot(&from)
                 };
-                motions.push((CombinationPart::Shear { axes: [axis, other] }, field(&shear, &none, 0.0)));
+                motions.push((CombinationPart::Shear { between_w: [along_w, other] }, field(&shear, &none, 0.0)));
             }
         }
         if has(CalibrationUnknown::Offset { cable: 0 }) {

@@ -131,6 +131,13 @@ impl PlatformMotion {
         }
     }
 
+    /// Unit vectors of the translations that the platform can make, world axes, in the order of its coordinates.
+    pub fn translations_w(&self) -> Vec<Vec3> {
+        let motions = self.motions();
+        let count = if matches!(self, Self::Planar(_)) { 2 } else { 3 };
+        (0..count).map(|k| motions.fixed_view::<3, 1>(0, k).into_owned()).collect()
+    }
+
     /// Names of the coordinates: world axes where possible; in another plane its two directions `u` and `v`, and
     /// `turn`.
     pub fn coordinate_names(&self) -> &'static [&'static str] {

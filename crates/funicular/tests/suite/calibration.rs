@@ -2,6 +2,7 @@
 //! differences, coverage of intervals, starts from nothing, and data that are wrong.
 
 mod more_unknowns;
+mod planes_and_trackers;
 mod published;
 mod starts;
 
@@ -52,7 +53,7 @@ fn rows<const N: usize>(readings: &[[f64; N]]) -> Vec<MeasuredRow> {
 }
 
 fn deviations(reading: f64) -> ReadingDeviations {
-    ReadingDeviations { reading, position: 1.0, tension: 1.0, tension_prior: None }
+    ReadingDeviations { reading, position: 1.0, angle: 1.0, tension: 1.0, tension_prior: None }
 }
 
 fn as_candidates(poses: &[Pose]) -> Vec<CandidatePose> {
@@ -534,7 +535,7 @@ fn sagging(tensions: bool) -> Result<Calibration, CalibrationError> {
     let rows = SAG_READINGS.iter().zip(&SAG_TENSIONS).map(row).collect();
     let mut all = unknowns(4, &[0, 1, 2], true);
     all.push(CalibrationUnknown::AxialStiffness);
-    let deviations = ReadingDeviations { reading: 1e-3, position: 1.0, tension: 3.0, tension_prior: None };
+    let deviations = ReadingDeviations { reading: 1e-3, position: 1.0, angle: 1.0, tension: 3.0, tension_prior: None };
     Calibration::new(robot, all, rows, deviations, StaticModel::Catenary)
 }
 
@@ -609,7 +610,7 @@ fn a_rigid_platform_on_elastic_cables_is_calibrated_with_tensions() {
     }
 
     let start = with_errors(&truth, 0.05, &mut draws);
-    let deviations = ReadingDeviations { reading: 1e-3, position: 1.0, tension: 3.0, tension_prior: None };
+    let deviations = ReadingDeviations { reading: 1e-3, position: 1.0, angle: 1.0, tension: 3.0, tension_prior: None };
     let of = Calibration::new(start, unknowns(8, &[0, 1, 2], true), rows, deviations, StaticModel::Catenary).unwrap();
     let begun = std::time::Instant::now();
     let (fit, frame, precision) = fitted(&of);

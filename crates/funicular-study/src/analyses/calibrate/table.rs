@@ -20,13 +20,17 @@ const MAX_ROWS: usize = 10_000;
 /// a robot is known within a factor of 20, and millimetres are a factor of 1000.
 const OTHER_UNIT: f64 = 20.0;
 
+/// Component of the normal of a plane from which on the plane gives a coordinate that a row does not: a millimetre in
+/// the given ones is then less than a metre in it.
+const ACROSS_PLANE: f64 = 1e-3;
+
 /// Checks a table of readings for a robot.
 ///
 /// # Errors
 /// The first fault: a column that is missing or unknown, no rows, a value that is none, a pose that the platform cannot
 /// have, or readings in another unit.
 pub fn check(columns: &GappedColumns, robot: &Robot) -> Result<(), TableFault> {
-    rows(columns, robot, false).map(drop)
+    rows(columns, robot, [false; 2]).map(drop)
 }
 
 /// Names of the columns of a cable's lengths, with the metres of their unit.
@@ -42,8 +46,12 @@ fn tension_name(cable: &str) -> String {
     format!("tension_{cable}_n")
 }
 
-/// Rows of a table; with `measured` the coordinates of the platform are data.
-pub(super) fn rows(columns: &GappedColumns, robot: &Robot, measured: bool) -> Result<Vec<MeasuredRow>, TableFault> {
+/// Rows of a table; where `measured` says so, the coordinates of the platform are data, and its angles.
+pub(super) fn rows(
+    columns: &GappedColumns,
+    robot: &Robot,
+    measured: [bool; 2],
+) -> Result<Vec<MeasuredRow>, TableFault> {
     let fault = |text: String| TableFault { key: KEY, row: None, text };
     check_columns(columns, robot).map_err(fault)?;
     let lengths = length_columns(columns, robot).map_err(fault)?;
@@ -56,10 +64,12 @@ pub(super) fn rows(columns: &GappedColumns, robot: &Robot, measured: bool) -> Re
             checked.map_err(|reason| fault(format!("`{name}`: {reason}")))?;
         }
         let value = |name: &str| columns.get(name).and_then(|values| values[row]);
+        let of_pose = |first: usize| [0, 1, 2].map(|k| POSE[first + k]);
         let reading = |of: &Option<(&[Option<f64>], f64)>| of.and_then(|(values, unit)| Some(values[row]? * unit));
         Ok(MeasuredRow {
             readings: lengths.iter().map(reading).collect(),
-            position: if measured { ["x_m", "y_m", "z_m"].map(value) } else { [None; 3] },
+            position: of_pose(0).map(|name| value(name).filter(|_| measured[0])),
+            angles: of_pose(3).map(|name| value(name).filter(|_| measured[1]).map(f64::to_radians)),
             tensions: robot.cables.iter().map(|cable| value(&tension_name(&cable.name))).collect(),
             start: pose(value, robot).map_err(fault)?,
         })
@@ -135,18 +145,18 @@ fn count(columns: &GappedColumns, lengths: &[LengthColumn]) -> Result<usize, Str
 
 /// Pose at which a row starts; `None` if a coordinate in which the platform moves is not given.
 fn pose(value: impl Fn(&str) -> Option<f64>, robot: &Robot) -> Result<Option<Pose>, String> {
-    let (mut position, fixed) = match &robot.platform.motion {
-        PlatformMotion::Planar(plane) => (plane.normal_w() * plane.offset(), plane.normal_w()),
-        _ => (Vec3::zeros(), Vec3::zeros()),
-    };
-    for (axis, name) in POSE[..3].iter().enumerate() {
-        match value(name) {
-            Some(given) => position[axis] = given,
-            None if fixed[axis].abs() > 0.5 => {}
-            None => return Ok(None),
+    let given = [0, 1, 2].map(|axis| value(POSE[axis]));
+    let missing: Vec<usize> = (0..3).filter(|axis| given[*axis].is_none()).collect();
+    let mut position = Vec3::from(given.map(Option::unwrap_or_default));
+    match (&robot.platform.motion, missing.as_slice()) {
+        (_, []) => {}
+        // One coordinate follows from the plane, if it is across it.
+        (PlatformMotion::Planar(plane), [axis]) if plane.normal_w()[*axis].abs() > ACROSS_PLANE => {
+            position[*axis] = -plane.distance(&position) / plane.normal_w()[*axis];
         }
+        _ => return Ok(None),
     }
-    let angles = ["roll_deg", "pitch_deg", "yaw_deg"].map(|name| value(name).unwrap_or(0.0));
+    let angles = [3, 4, 5].map(|axis| value(POSE[axis]).unwrap_or(0.0));
     let pose = Pose::new(position.into(), angles);
     check_pose(robot, &pose).map_err(|error| error.to_string())?;
     Ok(Some(pose))

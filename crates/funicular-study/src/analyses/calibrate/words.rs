@@ -3,22 +3,32 @@
 use crate::columns::Style;
 use crate::text::significant;
 use funicular::calibration::{CalibrationFrame, CalibrationUnknown, CombinationPart, WeakCombination};
+use funicular::math::Vec3;
 use funicular::robot::Robot;
+
+/// Names of the world axes.
+const AXES: [&str; 3] = ["x", "y", "z"];
+
+/// A world axis by its name, or a direction by its components.
+fn direction(along_w: &Vec3) -> String {
+    let axis = (0..3).find(|axis| *along_w == Vec3::ith(*axis, 1.0));
+    let components = || along_w.map(|component| significant(component, 3)).as_slice().join(" ");
+    axis.map_or_else(|| format!("[{}]", components()), |axis| AXES[axis].to_owned())
+}
 
 /// Part of a sentence about a combination whose deviation is known.
 fn part(robot: &Robot, paths: &[String], (part, amount): &(CombinationPart, f64)) -> String {
-    let axis = |axis: usize| ["x", "y", "z"][axis];
     let cable = |cable: usize| robot.cables[cable].name.clone();
     let per_metre = |amount: f64| format!("{} mm/m", significant(1e3 * amount.abs(), 3));
     let millimetres = |amount: f64| format!("{} mm", significant(1e3 * amount.abs(), 3));
     let more = *amount > 0.0;
     match *part {
-        CombinationPart::Stretch { axis: of } => {
+        CombinationPart::Stretch { along_w } => {
             let how = if more { "farther apart" } else { "closer together" };
-            format!("all anchors {how} along {} by {}", axis(of), per_metre(*amount))
+            format!("all anchors {how} along {} by {}", direction(&along_w), per_metre(*amount))
         }
-        CombinationPart::Shear { axes: [a, b] } => {
-            format!("all anchors sheared between {} and {} by {}", axis(a), axis(b), per_metre(*amount))
+        CombinationPart::Shear { between_w: [a, b] } => {
+            format!("all anchors sheared between {} and {} by {}", direction(&a), direction(&b), per_metre(*amount))
         }
         CombinationPart::CommonOffset => {
             format!("all offsets {} by {}", if more { "larger" } else { "smaller" }, millimetres(*amount))
@@ -84,7 +94,7 @@ fn robot_is_planar(robot: &Robot) -> bool {
 
 /// Path of an unknown and its unit.
 pub(super) fn path(robot: &Robot, of: &CalibrationUnknown) -> (String, &'static str) {
-    let axis = |axis: usize| ["x", "y", "z"][axis];
+    let axis = |axis: usize| AXES[axis];
     let cable = |cable: usize| funicular::robot::parameters::quoted_key(&robot.cables[cable].name);
     match *of {
         CalibrationUnknown::Anchor { cable: i, axis: k } => (format!("cables.{}.anchor_m.{}", cable(i), axis(k)), "m"),

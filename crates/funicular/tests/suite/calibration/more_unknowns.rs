@@ -16,7 +16,7 @@ fn with_pulleys(radius: f64) -> Robot {
 }
 
 /// Poses in the room of the rigid platform, turned by up to `turn` degrees.
-fn rigid_poses(count: usize, turn: f64, draws: &mut Draws) -> Vec<Pose> {
+pub(super) fn rigid_poses(count: usize, turn: f64, draws: &mut Draws) -> Vec<Pose> {
     let pose = |_| {
         let place = [3.0 + draws.within(1.2), 2.5 + draws.within(1.0), 1.6 + draws.within(0.7)];
         Pose::new(place, [draws.within(turn), draws.within(turn), draws.within(turn)])
@@ -211,7 +211,7 @@ fn the_stiffness_of_supports_is_found_with_tensions_and_positions() {
     for support in &mut start.supports {
         support.stiffness_w *= 1.5;
     }
-    let deviations = ReadingDeviations { reading: 5e-4, position: 5e-4, tension: 1.0, tension_prior: None };
+    let deviations = ReadingDeviations { reading: 5e-4, position: 5e-4, angle: 1.0, tension: 1.0, tension_prior: None };
     let of = Calibration::new(start, all, rows, deviations, StaticModel::Catenary).unwrap();
     let (fit, _, precision) = fitted(&of);
     let [factor, rate] = of.meaning(12, fit.values[12]);
