@@ -16,9 +16,9 @@ pub(super) struct Push {
 }
 
 impl Push {
-    /// Share of the push that acts at a time.
+    /// Share of the push that acts from a time on.
     pub(super) fn share(&self, time: f64) -> f64 {
-        if !(time >= self.from && time <= self.until) {
+        if !(time >= self.from && time < self.until) {
             return 0.0;
         }
         if self.rise == 0.0 {

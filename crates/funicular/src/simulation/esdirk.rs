@@ -57,6 +57,10 @@ const NEWTON_PART: f64 = 0.03;
 /// Newton steps of a stage; more than this many with one factor are slower than a new factor.
 const NEWTON_STEPS: usize = 10;
 const NEWTON_STEPS_OF_OLD_FACTOR: usize = 4;
+/// Contraction from which on a factor of the present step is made anew at the present place: a rope has gone slack or taut
+/// since it was made, and steps with it go to and fro across the kink, with a contraction of 1. Smooth motion contracts by
+/// 0.1 or less. A change of an older factor that is followed by one so large is taken back.
+const KINK_CONTRACTION: f64 = 0.7;
 /// Change of the step up to which a factor is kept.
 const FACTOR_CHANGE: f64 = 0.15;
 
@@ -99,6 +103,8 @@ pub(super) struct Stepper {
     contraction: f64,
     stages: Vec<MotionNumbers>,
     work: MotionNumbers,
+    /// Last change of Newton's method.
+    change: Vec<f64>,
 }
 
 /// A stage that Newton's method did not solve.
@@ -122,6 +128,7 @@ impl Stepper {
             contraction: 0.1,
             stages: vec![MotionNumbers::zeros(size); STAGES],
             work: MotionNumbers::zeros(size),
+            change: vec![0.0; size],
             system,
         }
     }
@@ -216,13 +223,15 @@ impl Stepper {
         Ok(())
     }
 
-    /// One step, at most to `until`; returns how the motion went in between.
-    pub(super) fn advance(&mut self, until: f64) -> Result<DenseOutput, TooFast> {
+    /// One step of at most `longest` [s], at most to `until`; returns how the motion went in between. What is commanded may
+    /// jump at `until`, not before.
+    pub(super) fn advance(&mut self, until: f64, longest: f64) -> Result<DenseOutput, TooFast> {
         if self.roll_wheels(Rolling::Between) {
             self.accelerate()?;
         }
         loop {
             let left = until - self.time;
+            self.step = self.step.min(longest);
             // The rest is gone in one step, or in two of one length.
             let ends = self.step >= 0.999_999 * left;
             let h = if ends {
@@ -235,8 +244,14 @@ impl Stepper {
             if h < LEAST_STEP && !ends {
                 return Err(TooFast { time: self.time });
             }
-            match self.attempt(h) {
-                Ok(error) if error <= 1.0 => return Ok(self.accept(h, until, error, ends)),
+            match self.attempt(h, until) {
+                Ok(error) if error <= 1.0 => {
+                    let dense = self.accept(h, until, error, ends);
+                    if ends && self.system.jumps_at(until) {
+                        self.accelerate()?;
+                    }
+                    return Ok(dense);
+                }
                 Ok(error) => {
                     self.counts.rejected += 1;
                     self.step = h * (0.9 * error.powf(-0.25)).clamp(0.2, 0.9);
@@ -277,8 +292,8 @@ impl Stepper {
         dense
     }
 
-    /// Tries a step; its error over the tolerance.
-    fn attempt(&mut self, h: f64) -> Result<f64, NotSolved> {
+    /// Tries a step that ends before `until` or there; its error over the tolerance.
+    fn attempt(&mut self, h: f64, until: f64) -> Result<f64, NotSolved> {
         if self.factored.is_none_or(|of| (h / of - 1.0).abs() > FACTOR_CHANGE) {
             self.factored = None;
         }
@@ -286,7 +301,7 @@ impl Stepper {
         self.stages[0].v.copy_from_slice(&self.now.v);
         self.stages[0].a.copy_from_slice(&self.now.a);
         for stage in 1..STAGES {
-            self.solve_stage(stage, h)?;
+            self.solve_stage(stage, h, until)?;
         }
         let error = self.error(h);
         if error.is_finite() { Ok(error) } else { Err(NotSolved) }
@@ -302,9 +317,10 @@ impl Stepper {
         if j == 0 { omega } else { turn_rate(&Vec3::from_column_slice(&self.stages[j].x[3..BODY]), &omega) }
     }
 
-    fn solve_stage(&mut self, stage: usize, h: f64) -> Result<(), NotSolved> {
+    fn solve_stage(&mut self, stage: usize, h: f64, until: f64) -> Result<(), NotSolved> {
         let (weights, hg) = (&WEIGHTS[stage], h * GAMMA);
-        let time = self.time + TIMES[stage] * h;
+        // A step that ends where something jumps knows nothing of what comes after it.
+        let time = (self.time + TIMES[stage] * h).min(until.next_down());
         let lengths = self.system.lengths(time);
         let turn_base = self.turn_base(weights, stage) * h;
         let (past, rest) = self.stages.split_at_mut(stage);
@@ -336,21 +352,28 @@ impl Stepper {
             if !size.is_finite() {
                 return Err(NotSolved);
             }
-            if round > 0 {
+            let follows = last.is_finite();
+            if follows {
                 self.contraction = size / last;
             }
             let rate = self.contraction.min(0.95);
-            if (round > 0 || size < NEWTON_PART) && self.contraction < 1.0 && rate / (1.0 - rate) * size < NEWTON_PART {
+            if (follows || size < NEWTON_PART) && self.contraction < 1.0 && rate / (1.0 - rate) * size < NEWTON_PART {
                 place(&self.work, &turn_base, hg, current);
                 return Ok(());
             }
-            if round > 1 && self.contraction > 1.5 && is_fresh {
-                return Err(NotSolved);
-            }
-            if round >= NEWTON_STEPS_OF_OLD_FACTOR && !is_fresh {
+            let crosses_kink = follows && self.contraction > KINK_CONTRACTION;
+            if crosses_kink || (round >= NEWTON_STEPS_OF_OLD_FACTOR && !is_fresh) {
                 self.factored = None;
             }
+            if crosses_kink && !is_fresh {
+                for (v, (change, before)) in current.v.iter_mut().zip(self.needed.iter().zip(&self.change)) {
+                    *v -= scale * (change + before);
+                }
+                last = f64::INFINITY;
+                continue;
+            }
             last = size;
+            self.change.copy_from_slice(&self.needed);
         }
         self.factored = None;
         Err(NotSolved)

@@ -141,6 +141,9 @@ struct Stretch {
     tension: f64,
 }
 
+/// Ratio of lengths below which a rope counts as folded; ropes in use have 1.
+pub(super) const FOLDED: f64 = 0.1;
+
 impl RopeMesh {
     /// Index of the anchor's node.
     #[inline]
@@ -181,8 +184,18 @@ impl RopeMesh {
         } else {
             0.0
         };
-        let tension = (self.stiffness * (ratio - 1.0 + self.damping_time * rate)).max(0.0);
+        let tension = (self.stiffness * (ratio - 1.0 + self.damping_at(ratio) * rate)).max(0.0);
         Stretch { tangent, ratio, rate, tension }
+    }
+
+    /// Damping time at a ratio of lengths [s]. It fades where the rope folds: a point that has folded onto itself has no
+    /// tangent, and a tension there would jump from one direction to the opposite one.
+    ///
+    /// # References
+    /// docs/theory.md, equation (97e1).
+    #[inline]
+    fn damping_at(&self, ratio: f64) -> f64 {
+        self.damping_time * (ratio / FOLDED).min(1.0)
     }
 
     /// Adds to `out` what the nodes need for the motion besides the inner forces, which a [`RopePack`] has added: inertia
@@ -376,12 +389,12 @@ impl RopeMesh {
                 add(&mut border.by_length, e * degree + q, &entry);
                 border.of_length -= part * sigma * sliding.dot(&x_slope) / length.value;
             }
-            let stiff = (of.stiffness + self.damping_time * of.damping) * self.stiffness;
             for g in 0..degree {
                 let Stretch { tangent, ratio, tension, .. } = self.stretch(length, g, x, v);
                 if tension == 0.0 {
                     continue;
                 }
+                let stiff = (of.stiffness + self.damping_at(ratio) * of.damping) * self.stiffness;
                 let weight = self.basis.gauss_weights[g];
                 let slopes = self.basis.at_gauss(g);
                 let by_length = tangent * (-stiff * ratio / length.value * weight);
@@ -462,7 +475,7 @@ impl RopeMesh {
                 if tension == 0.0 {
                     continue;
                 }
-                let along = (of.stiffness + self.damping_time * of.damping) * self.stiffness;
+                let along = (of.stiffness + self.damping_at(ratio) * of.damping) * self.stiffness;
                 let across = of.stiffness * tension / ratio;
                 let block = tangent * tangent.transpose() * (along - across) + Mat3::identity() * across;
                 let block = block * (self.basis.gauss_weights[g] * per_length);

@@ -18,6 +18,9 @@ mod state;
 
 const SLACK: f64 = SlackCable::TENSION;
 
+/// Steps of a command of lengths, at least: ropes without mass on a held platform would need none, but their work does.
+const STEPS_OF_COMMAND: f64 = 32.0;
+
 /// One cable at one time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CableSample {
@@ -272,7 +275,10 @@ impl Simulation {
         let now = self.stepper.time;
         let next = self.breaks.partition_point(|at| *at <= now);
         let until = self.breaks.get(next).copied().unwrap_or(now + 1.0);
-        let dense = self.stepper.advance(until).map_err(|of| self.too_fast(of.time))?;
+        let since = next.checked_sub(1).map_or(0.0, |before| self.breaks[before]);
+        let is_winding = self.stepper.system.is_winding(now, until);
+        let longest = if is_winding { (until - since) / STEPS_OF_COMMAND } else { f64::INFINITY };
+        let dense = self.stepper.advance(until, longest).map_err(|of| self.too_fast(of.time))?;
         if let Some((event, cable, time)) = self.blown(&dense) {
             // Back to the time at which the cable fails.
             self.rewind(&dense, time);
@@ -300,8 +306,10 @@ impl Simulation {
     fn book(&mut self, dense: DenseOutput, until: f64) {
         let before = self.books;
         let (first, halfway) = (self.powers, self.powers_at(&dense, 0.5 * (dense.from + until)));
+        // Where a push begins or ends, the step knows the power before it, the next one that after it.
+        let at_jump = self.stepper.system.jumps_at(until).then(|| self.powers_at(&dense, until.next_down()));
         self.take_energy();
-        let powers = StepPowers { at: [first, halfway, self.powers], duration: until - dense.from };
+        let powers = StepPowers { at: [first, halfway, at_jump.unwrap_or(self.powers)], duration: until - dense.from };
         self.books = with_work(&self.books, powers.work(1.0));
         let lengths = self.stepper.system.lengths(self.stepper.time);
         self.note_slack(dense.from, &lengths);

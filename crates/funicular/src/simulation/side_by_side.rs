@@ -2,7 +2,7 @@
 //! substitutions of Newton's method. What is done once per factor, per rope or per wind stays in [`RopeMesh`] and
 //! [`Skyline`], which are the oracle of what is here.
 
-use super::rope::{RopeMesh, WoundLength};
+use super::rope::{FOLDED, RopeMesh, WoundLength};
 use super::skyline::Skyline;
 use crate::math::Vec3;
 use crate::math::simd::{LANES, Lanes, Line, Part};
@@ -186,7 +186,9 @@ impl<S: Simd> Part<S> {
         if let Some(slope_rate) = slope_rate {
             let along = self.mul(self.mul(dot(slope_rate, slope), per_length), inverse);
             let rate = simd.sub_f64s(along, self.mul(ratio, self.of(&law.relative_rate)));
-            strain = self.plus(self.of(&law.damping_time), rate, strain);
+            let fold = simd.min_f64s(self.mul(ratio, self.splat(1.0 / FOLDED)), self.splat(1.0));
+            let damping_time = self.mul(self.of(&law.damping_time), fold);
+            strain = self.plus(damping_time, rate, strain);
         }
         let tension = simd.max_f64s(self.mul(self.of(&law.stiffness), strain), self.splat(0.0));
         let factor = self.mul(self.mul(tension, inverse), self.splat(weight));

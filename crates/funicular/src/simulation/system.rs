@@ -14,6 +14,10 @@ use crate::robot::Support;
 /// Number of numbers of the platform in a motion.
 pub(super) const BODY: usize = 6;
 
+/// Jump of a commanded acceleration [m/s²] and of the share of a push from which on it counts as one: far above rounding,
+/// far below gravity.
+const LEAST_JUMP: f64 = 1e-6;
+
 /// End of a rope at the platform.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum RopeEnd {
@@ -197,6 +201,21 @@ impl System {
     /// Motion of the support of a far end.
     fn support_motion(far: &FarEnd, m: &MotionNumbers) -> ExitMotion {
         far.support.map_or([Vec3::zeros(); 3], |support| m.point(Self::of_support(support.index).start))
+    }
+
+    /// True if a commanded acceleration or a push is another one from a time on than before it.
+    pub(super) fn jumps_at(&self, time: f64) -> bool {
+        let before = time.next_down();
+        let lengths = self.windings.iter().any(|winding| {
+            let [before, after] = [before, time].map(|at| winding.at(at));
+            (after.acceleration - before.acceleration).abs() > LEAST_JUMP
+        });
+        lengths || self.body.pushes.iter().any(|push| (push.share(time) - push.share(before)).abs() > LEAST_JUMP)
+    }
+
+    /// True if a winch has a length to follow between two times.
+    pub(super) fn is_winding(&self, from: f64, until: f64) -> bool {
+        self.windings.iter().any(|winding| winding.is_changing(from, until))
     }
 
     /// Commanded lengths of all ropes at a time.

@@ -87,7 +87,7 @@ fn simulate(index: u64) -> Result<Finished, Refused> {
     let settings = settings(&sample, &mut draw);
     let events = events(&sample, &rest, duration, &mut draw);
     let told = |error: SimulationError| match error {
-        SimulationError::TooFast { .. } => Refused::Wrong(format!("{error}, {events:?}")),
+        SimulationError::TooFast { .. } => Refused::Wrong(format!("{error}, {settings:?}, {events:?}")),
         other => Refused::Rightly(kind(&other.to_string())),
     };
 
