@@ -218,8 +218,8 @@ fn load_factors_without_derivatives_are_refused_with_the_reason() {
             4.0 * x,
             3.0 * y,
             2.0 * z,
-            0.2 * y,
             0.3 * x,
+            0.2 * y,
             -0.1 * z
         )
         .unwrap();
