@@ -88,7 +88,7 @@ impl LoadCapacity<'_> {
 
         let lower_bound = self.smallest(&self.required, |facet| facet.inner);
         let (coefficients, held) = match self.required.vertices() {
-            Some(vertices) => self.worst_vertex(vertices)?,
+            Some(vertices) => self.worst_vertex(&vertices)?,
             None => self.worst_of_ball()?,
         };
         Ok(LoadFactor {
@@ -126,7 +126,7 @@ impl LoadCapacity<'_> {
 
     /// Vertex with the smallest multiple. Vertices are taken in the order of their lower bounds, until the bound of the
     /// next one is above the smallest multiple so far.
-    fn worst_vertex(&self, vertices: Vec<Vec6>) -> Result<(LoadCoefficients, HeldMultiple), StaticsError> {
+    fn worst_vertex(&self, vertices: &[Vec6]) -> Result<(LoadCoefficients, HeldMultiple), StaticsError> {
         let single = |load: &Vec6| {
             let ratio = |facet: &Facet| facet.inner / -facet.normal.dot(load);
             let opposed = self.available.facets().iter().filter(|facet| facet.normal.dot(load) < 0.0);
