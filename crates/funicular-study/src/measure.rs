@@ -5,7 +5,7 @@
 
 use funicular::gradient::{GradientError, Gradients};
 use funicular::robot::{Pose, Robot, RobotChange};
-use funicular::statics::Equilibrium;
+use funicular::statics::{Equilibrium, LoadCapacity};
 use serde_json::{Value, json};
 
 /// Result of a robot.
@@ -23,6 +23,8 @@ pub(crate) enum Measure {
     RopeMass,
     /// Minimum stiffness.
     MinStiffness,
+    /// Largest multiple of the required loads.
+    LoadFactor,
     /// Natural frequency, by its number in the ascending list, from 0.
     Frequency(usize),
     /// Entry of the block of modes that share a frequency: first and last mode, then the two modes of the entry, from 0.
@@ -42,6 +44,7 @@ pub(crate) enum MeasureGroup {
     RopeLength,
     RopeMass,
     MinStiffness,
+    LoadFactor,
     Frequencies,
     Damping,
     Response,
@@ -49,13 +52,14 @@ pub(crate) enum MeasureGroup {
 
 impl MeasureGroup {
     /// All groups, in the order of results.
-    pub(crate) const ALL: [Self; 9] = [
+    pub(crate) const ALL: [Self; 10] = [
         Self::Pose,
         Self::Lengths,
         Self::Tensions,
         Self::RopeLength,
         Self::RopeMass,
         Self::MinStiffness,
+        Self::LoadFactor,
         Self::Frequencies,
         Self::Damping,
         Self::Response,
@@ -70,6 +74,7 @@ impl MeasureGroup {
             Self::RopeLength => "rope-length",
             Self::RopeMass => "rope-mass",
             Self::MinStiffness => "stiffness-min",
+            Self::LoadFactor => "load-factor",
             Self::Frequencies => "frequencies",
             Self::Damping => "damping",
             Self::Response => "response",
@@ -90,6 +95,7 @@ impl MeasureGroup {
             Self::RopeLength => vec![Measure::RopeLength],
             Self::RopeMass => vec![Measure::RopeMass],
             Self::MinStiffness => vec![Measure::MinStiffness],
+            Self::LoadFactor => vec![Measure::LoadFactor],
             Self::Frequencies | Self::Damping | Self::Response => Vec::new(),
         }
     }
@@ -150,6 +156,7 @@ impl Measure {
             Self::RopeLength => "length of all ropes".to_owned(),
             Self::RopeMass => "mass of all ropes".to_owned(),
             Self::MinStiffness => "minimum stiffness".to_owned(),
+            Self::LoadFactor => "load factor".to_owned(),
             Self::Frequency(k) => format!("frequency {}", k + 1),
             Self::SharedFrequency { first, last, entry: [i, j] } => {
                 format!("frequencies {} to {}, entry {}, {}", first + 1, last + 1, i + 1, j + 1)
@@ -173,6 +180,7 @@ impl Measure {
             Self::RopeLength => "rope_length_m".to_owned(),
             Self::RopeMass => "rope_mass_kg".to_owned(),
             Self::MinStiffness => "stiffness_min_n_per_m".to_owned(),
+            Self::LoadFactor => "load_factor".to_owned(),
             Self::Frequency(k) => format!("frequency_{}_hz", k + 1),
             Self::SharedFrequency { entry: [i, j], .. } => format!("frequency_{}_{}_hz", i + 1, j + 1),
             Self::Damping(k) => format!("damping_ratio_{}", k + 1),
@@ -193,6 +201,7 @@ impl Measure {
             Self::RopeLength => json!({ "kind": "rope-length" }),
             Self::RopeMass => json!({ "kind": "rope-mass" }),
             Self::MinStiffness => json!({ "kind": "stiffness-min" }),
+            Self::LoadFactor => json!({ "kind": "load-factor" }),
             Self::Frequency(k) => json!({ "kind": "frequency", "mode": k + 1 }),
             Self::SharedFrequency { first, last, entry: [i, j] } => {
                 json!({ "kind": "shared-frequency", "modes": [first + 1, last + 1], "entry": [i + 1, j + 1] })
@@ -211,7 +220,7 @@ impl Measure {
             Self::Tension(..) => "N",
             Self::MinStiffness => "N/m",
             Self::Frequency(_) | Self::SharedFrequency { .. } => "Hz",
-            Self::Damping(_) => "1",
+            Self::LoadFactor | Self::Damping(_) => "1",
             Self::Response(_, ResponsePart::Magnitude) => "dB",
             Self::Response(_, ResponsePart::Phase) => "degrees",
             Self::Response(..) => "",
@@ -261,6 +270,10 @@ impl Measure {
                 Some(lengths().zip(&robot.cables).map(|(l, cable)| l * cable.material.mass_per_length).sum())
             }
             Self::MinStiffness => rest.stability.min_stiffness(),
+            Self::LoadFactor => {
+                let capacity = LoadCapacity::at(robot, &rest.pose, rest.model, None).ok()?;
+                capacity.load_factor_value().ok()
+            }
             Self::Frequency(_) | Self::SharedFrequency { .. } | Self::Damping(_) | Self::Response(..) => None,
         }
     }
@@ -290,6 +303,7 @@ impl Measure {
             Self::RopeLength => Some(Ok(gradients.rope_length())),
             Self::RopeMass => Some(Ok(gradients.rope_mass())),
             Self::MinStiffness => Some(gradients.min_stiffness()),
+            Self::LoadFactor => Some(gradients.load_factor().map(|found| found.gradient)),
             Self::Frequency(_) | Self::SharedFrequency { .. } | Self::Damping(_) | Self::Response(..) => None,
         };
         measures.iter().map(gradient).collect()

@@ -366,6 +366,26 @@ fn sensitivities_are_differences_of_sweeps() {
         assert_eq!(compared, if more["robot"].is_null() { 16 } else { 20 }, "{path}");
     }
 
+    // The load factor needs required loads.
+    let text = format!("{}\n[required]\nforce_n = [150.0, 150.0, 150.0]\n", funicular_robots::COGIRO);
+    let mass = Robot::from_toml(&text).unwrap().platform.mass;
+    let (columns, chunks) = rows_of(&json!({
+        "command": "sweep", "robot": {"text": text}, "pose": [1.0, 0.5, 1.5, 0.0, 0.0, 0.0],
+        "quantities": ["load-factor", "sensitivity:load-factor:platform.mass_kg"],
+        "vary": [{"axis": "platform.mass_kg", "values": [mass - 0.1, mass, mass + 0.1]}],
+    }));
+    let values = |name: &str| -> Vec<f64> {
+        let at = columns.iter().position(|column| column.name == name).unwrap();
+        let value = |chunk: &Chunk| match &chunk.columns[at] {
+            Values::Real(of) => of.iter().map(|value| value.unwrap()).collect::<Vec<_>>(),
+            _ => panic!("{name} is a number"),
+        };
+        chunks.iter().flat_map(value).collect()
+    };
+    let factors = values("load_factor");
+    let (derivative, difference) = (values("load_factor_by_platform.mass_kg")[1], (factors[2] - factors[0]) / 0.2);
+    assert!((derivative - difference).abs() < 1e-6 * difference.abs(), "{derivative} {difference}");
+
     // Units in the columns; a status for poses without derivatives; paths that no number has.
     let request = |quantity: &str| {
         json!({

@@ -11,10 +11,12 @@
 //! robot file is [`Parameters::change`](crate::robot::parameters::Parameters::change).
 
 mod adjoint;
+mod at_limits;
 mod cable_form;
 mod drive_form;
 mod end_form;
 mod length_rates;
+mod load_factor;
 mod parallel_tension;
 mod pullback;
 mod robot_form;
@@ -25,6 +27,7 @@ mod supports;
 mod vibration;
 
 pub use length_rates::LengthRates;
+pub use load_factor::LoadFactorGradient;
 pub use vibration::{DampedGradient, ResponseDerivatives, VibrationGradients};
 
 use crate::cable::CableModel;
@@ -35,7 +38,7 @@ use crate::math::{Vec3, Vec6, symmetric};
 use crate::platform::Coordinates;
 use crate::robot::{Robot, RobotChange};
 use crate::statics::derivatives::{StaticDerivativeError, force_at_anchor, load_of};
-use crate::statics::{Equilibrium, Limit, TensionRule, tangent_stiffness};
+use crate::statics::{Equilibrium, Limit, StaticsError, TensionRule, tangent_stiffness};
 use adjoint::Adjoint;
 use pullback::Pullback;
 use robot_form::{Driven, RobotForm};
@@ -125,6 +128,35 @@ pub enum GradientError {
         cable: String,
         /// Limit at which the tension of the cable is without pressing against it, if that is the reason.
         limit: Option<Limit>,
+    },
+    /// The pose has no load factor.
+    #[error(transparent)]
+    LoadFactor(#[from] StaticsError),
+    /// The load factor is infinite.
+    #[error(
+        "no maximum tension limits the load factor, so that it has no derivatives: give `maximum_tension_n` or \
+         `breaking_load_n`"
+    )]
+    UnlimitedLoadFactor,
+    /// Another load or limit binds on the other side.
+    #[error(
+        "the load factor has different derivatives on both sides of this pose: {}; change the pose a little",
+        one_sided(cable, *limit)
+    )]
+    OneSidedLoadFactor {
+        /// Name of the cable.
+        cable: String,
+        /// Limit at which the tension of the cable is without pressing against it, if that is the reason.
+        limit: Option<Limit>,
+    },
+    /// Supports settle under the tensions at the limit.
+    #[error(
+        "cable \"{cable}\" is on a flexible support: the load factor has derivatives on a rigid frame; leave the \
+         load factor out, or hold the support by a stiff one"
+    )]
+    LoadFactorAndSupports {
+        /// Name of the cable.
+        cable: String,
     },
     /// A minimum tension by default is not differentiated for straight cables.
     #[error(

@@ -59,6 +59,7 @@ mod stiffness; // tangent stiffness and stability
 mod tension_gain; // nearness to a singular pose
 
 pub use capacity::{LoadCapacity, LoadFactor, WrenchClosure, load_factor_bounds, wrench_closure};
+pub(crate) use capacity::{LoadCoefficients, required_wrench};
 pub use closed_form::closed_form_margin;
 pub use drag::{antisymmetric_fraction, drag_effect, drag_stiffness, stiffness_along_coordinates, tangent_with_drag};
 pub use energy::energy;

@@ -54,8 +54,13 @@ fn required_text(held: &RequiredHeld) -> String {
             .map(|bound| format!("; loads inside the set are surely held up to {}", significant(bound, 6))),
     ];
     let bounds: String = bounds.into_iter().flatten().collect();
+    let by = |name: &str, by: Option<[f64; 3]>, unit: &str| {
+        by.map_or_else(String::new, |by| format!("  {name}({}) {unit}\n", vector(&by, 5)))
+    };
+    let by_position = by("by position   ", held.load_factor_by_position_per_m, "1/m");
+    let by_rotation = by("by rotation   ", held.load_factor_by_rotation_per_rad, "1/rad");
     format!(
-        "\nLoad factor {}{bounds}\n  binding load  force ({}) N, moment ({}) N m\n\n\
+        "\nLoad factor {}{bounds}\n{by_position}{by_rotation}  binding load  force ({}) N, moment ({}) N m\n\n\
          Tensions with this multiple of the binding load\n{}\n",
         significant(factor, 6),
         vector(&held.force_n, 2),

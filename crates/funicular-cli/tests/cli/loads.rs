@@ -34,7 +34,41 @@ fn the_binding_load_is_held_just_below_the_load_factor_and_refused_just_above() 
     let (header, rows) = csv(&[&["loads", &robot], &POSE[..], &BOX].concat());
     assert!(header.contains(&"load_factor".to_owned()) && rows.len() == 1, "{header:?}");
     let text = succeed(&[&["loads", &robot], &POSE[..], &BOX].concat());
-    assert!(text.contains("Load factor") && text.contains("binding load"), "{text}");
+    assert!(text.contains("Load factor") && text.contains("binding load") && text.contains("by position"), "{text}");
+}
+
+#[test]
+fn the_load_factor_has_derivatives_by_the_pose_and_by_numbers_of_the_file() {
+    let factor = |x: &str, more: &[&str]| {
+        let found = json(&[&["loads", &robot("cogiro.toml"), "--pose", x], &BOX[..], more].concat());
+        number(&found["required"]["load_factor"])
+    };
+    let required = &loads(&BOX)["required"];
+    let differences = [
+        (&required["load_factor_by_position_per_m"][0], factor("1.001,1,1.5", &[]) - factor("0.999,1,1.5", &[]), 0.002),
+        (
+            &required["load_factor_by_rotation_per_rad"][2],
+            factor("1,1,1.5,0,0,0.1", &[]) - factor("1,1,1.5,0,0,-0.1", &[]),
+            0.2_f64.to_radians(),
+        ),
+    ];
+    for (derivative, change, step) in differences {
+        // Central differences have an error of second order in steps of a thousandth.
+        assert!((number(derivative) - change / step).abs() < 1e-4 * (change / step).abs(), "{derivative} {change}");
+    }
+
+    let set = ["--set", "required.force_n=[150, 150, 150]", "--set", "required.moment_n_m=[30, 30, 30]"];
+    let what = ["--of", "load-factor", "--by", "platform.mass_kg", "--hold", "pose"];
+    let found = json(&[&["gradient", &robot("cogiro.toml")], &POSE[..], &set, &what].concat());
+    let (result, mass) = (&found["results"][0], number(&found["parameters"][0]["value"]));
+    assert_eq!(number(&result["value"]), number(&required["load_factor"]));
+    let [low, high] = [-0.1, 0.1].map(|step| factor("1,1,1.5", &["--mass-kg", &format!("{}", mass + step)]));
+    let (derivative, difference) = (number(&result["derivatives"][0]), (high - low) / 0.2);
+    assert!((derivative - difference).abs() < 1e-5 * difference.abs(), "{derivative} {difference}");
+
+    // Without required loads there is no load factor.
+    let found = json(&[&["gradient", &robot("cogiro.toml")], &POSE[..], &what].concat());
+    assert!(found["refused"][0]["reason"].as_str().unwrap().contains("[required]"), "{found}");
 }
 
 #[test]

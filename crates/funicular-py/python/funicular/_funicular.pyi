@@ -194,8 +194,8 @@ class Analyses:
         Parameters
         ----------
         of
-            Results: pose, lengths, tensions, rope-length, rope-mass, stiffness-min, frequencies, damping, response;
-            separated by commas; frequencies if not given.
+            Results: pose, lengths, tensions, rope-length, rope-mass, stiffness-min, load-factor, frequencies, damping,
+            response; separated by commas; frequencies if not given.
         by
             Paths of the numbers, as `Robot.parameters` lists them; `*` stands for any key, as in `cables.*.anchor_m`,
             and a path to a table or vector for all numbers in it. All numbers if not given.
@@ -1732,8 +1732,8 @@ class Robot(Analyses):
         tolerances
             Tolerances of numbers that are anywhere within ± their tolerance, in the same form.
         of
-            Results: pose, lengths, tensions, rope-length, rope-mass, stiffness-min, frequencies, damping, response;
-            separated by commas; pose, tensions if not given.
+            Results: pose, lengths, tensions, rope-length, rope-mass, stiffness-min, load-factor, frequencies, damping,
+            response; separated by commas; pose, tensions if not given.
         hold
             Quantity that is held while the numbers deviate; with the pose held, the tensions parallel to the chords of
             more cables than degrees of freedom change least, or follow their rule: `lengths` (the unstrained lengths;

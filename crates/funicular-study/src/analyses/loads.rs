@@ -9,8 +9,9 @@ use crate::error::with_warnings;
 use crate::request::LoadsRequest;
 use crate::table::Column;
 use anyhow::{Result, bail};
+use funicular::gradient::LoadFactorGradient;
 use funicular::robot::{Pose, Robot, State};
-use funicular::statics::{self, LoadCapacity, LoadFactor, WrenchClosure};
+use funicular::statics::{self, LoadCapacity, WrenchClosure};
 use funicular::warnings;
 use serde::Serialize;
 
@@ -62,6 +63,12 @@ pub struct RequiredHeld {
     /// Multiple up to which all loads inside the set are held, not only its vertices.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub load_factor_lower_bound: Option<f64>,
+    /// Derivatives of the load factor by a motion of the platform along the axes of the world, and by a turn about them;
+    /// absent where it has none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub load_factor_by_position_per_m: Option<[f64; 3]>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub load_factor_by_rotation_per_rad: Option<[f64; 3]>,
     /// Required load that binds, in addition to the dead load.
     pub force_n: [f64; 3],
     pub moment_n_m: [f64; 3],
@@ -85,7 +92,7 @@ pub fn run(robot: Robot, request: &LoadsRequest) -> Result<Loads> {
     let WrenchClosure { rank, dof, tension_factor } = closure;
     let reason = capacity.dead_load().err().map(ToString::to_string);
     let is_asked = reason.is_none() && !capacity.requires_nothing();
-    let required = if is_asked { Some(RequiredHeld::of(&robot, &capacity.load_factor()?)) } else { None };
+    let required = if is_asked { Some(RequiredHeld::of(&robot, &capacity)?) } else { None };
 
     let finite = |value: Option<f64>| value.filter(|value| value.is_finite());
     Ok(Loads {
@@ -120,18 +127,25 @@ fn pose_of(robot: &Robot, request: &LoadsRequest) -> Result<Pose> {
 }
 
 impl RequiredHeld {
-    fn of(robot: &Robot, factor: &LoadFactor) -> Self {
+    fn of(robot: &Robot, capacity: &LoadCapacity) -> Result<Self> {
+        let (factor, gradient) = match LoadFactorGradient::of(capacity) {
+            Ok(found) => (found.factor, Some(found.gradient)),
+            Err(_) => (capacity.load_factor()?, None),
+        };
         let finite = |value: f64| value.is_finite().then_some(value);
+        let by_pose = gradient.map(|by| [by.position_w, by.rotation_w].map(Into::into));
         let [x, y, z, roll, pitch, yaw] = factor.load.into();
-        Self {
+        Ok(Self {
             held: factor.value >= 1.0,
             load_factor: finite(factor.value),
             load_factor_upper_bound: finite(factor.upper_bound),
             load_factor_lower_bound: factor.lower_bound.and_then(finite),
+            load_factor_by_position_per_m: by_pose.map(|[by_position, _]| by_position),
+            load_factor_by_rotation_per_rad: by_pose.map(|[_, by_rotation]| by_rotation),
             force_n: [x, y, z],
             moment_n_m: [roll, pitch, yaw],
             cables: LoadedRow::all(robot, &factor.cables, &factor.limits),
-        }
+        })
     }
 }
 
@@ -176,6 +190,23 @@ impl Loads {
                 required(|held| held.load_factor_lower_bound),
             ),
         ];
+        let by = |k: usize, of: fn(&RequiredHeld) -> Option<[f64; 3]>| {
+            move |row: &Self| row.required.as_ref().and_then(of).map(|by| by[k])
+        };
+        let names = ["load_factor_by_x_per_m", "load_factor_by_y_per_m", "load_factor_by_z_per_m"];
+        for (k, name) in names.into_iter().enumerate() {
+            let about = "derivative of the load factor by a motion of the platform";
+            columns.push(column(name, "1/m", about, by(k, |held| held.load_factor_by_position_per_m)));
+        }
+        let names = [
+            "load_factor_by_rotation_x_per_rad",
+            "load_factor_by_rotation_y_per_rad",
+            "load_factor_by_rotation_z_per_rad",
+        ];
+        for (k, name) in names.into_iter().enumerate() {
+            let about = "derivative of the load factor by a turn of the platform about an axis of the world";
+            columns.push(column(name, "1/rad", about, by(k, |held| held.load_factor_by_rotation_per_rad)));
+        }
         for (k, name) in ["force_x_n", "force_y_n", "force_z_n"].into_iter().enumerate() {
             let about = "component of the required force that binds";
             columns.push(column(name, "N", about, component(k, |held| held.force_n)));

@@ -13,8 +13,8 @@ declared! {
     pub struct GradientRequest {
         /// Robot file.
         robot: RobotText = RobotText::default() => (Data(shape::robot)).required();
-        /// Results: pose, lengths, tensions, rope-length, rope-mass, stiffness-min, frequencies, damping, response; separated by
-        /// commas.
+        /// Results: pose, lengths, tensions, rope-length, rope-mass, stiffness-min, load-factor, frequencies, damping, response;
+        /// separated by commas.
         of: Vec<String> = frequencies() => (Texts).form("RESULTS");
         /// Numbers of the robot file, by paths that `parameters` lists, separated by commas; * stands for any key, and a path
         /// to a table or vector for all numbers in it.

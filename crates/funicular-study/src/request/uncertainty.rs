@@ -25,8 +25,8 @@ declared! {
         /// Tolerances PATH=VALUE or PATH=PERCENT% of numbers with a uniform distribution within ± their tolerance, separated
         /// by commas.
         tolerances: Vec<String> = Vec::new() => (Sizes).form("TOLERANCES");
-        /// Results: pose, lengths, tensions, rope-length, rope-mass, stiffness-min, frequencies, damping, response; separated by
-        /// commas.
+        /// Results: pose, lengths, tensions, rope-length, rope-mass, stiffness-min, load-factor, frequencies, damping, response;
+        /// separated by commas.
         of: Vec<String> = pose_and_tensions() => (Texts).form("RESULTS");
         /// Quantity that is held while the numbers deviate; with the pose held, the tensions parallel to the chords of more
         /// cables than degrees of freedom change least, or follow their rule.

@@ -12,9 +12,10 @@ use funicular::suggest::nearest;
 use std::fmt::Display;
 
 /// Quantities that can be differentiated, by their names; without a group, the first natural frequency.
-const RESULTS: [(&str, Option<MeasureGroup>); 6] = [
+const RESULTS: [(&str, Option<MeasureGroup>); 7] = [
     ("first-frequency", None),
     of_group(MeasureGroup::MinStiffness),
+    of_group(MeasureGroup::LoadFactor),
     of_group(MeasureGroup::Tensions),
     of_group(MeasureGroup::Lengths),
     of_group(MeasureGroup::RopeLength),

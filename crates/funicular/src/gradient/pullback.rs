@@ -6,6 +6,7 @@
 //! equations (60c) to (60f)).
 
 use super::adjoint::{Adjoint, CableAdjoint, DriveAdjoint};
+use super::at_limits::TensionsAtLimits;
 use super::parallel_tension::ParallelTension;
 use super::rule::RuleFollower;
 use super::scalar::add_real;
@@ -108,7 +109,6 @@ impl<'a> Pullback<'a> {
         }
 
         // Coefficients of the unknowns in the balances of platform and supports, with unit multipliers.
-        let settled = all.settled();
         let of_platform: Vec<Followed> = (0..degrees_of_freedom)
             .map(|k| {
                 let mut scalar = Adjoint::zeros(count);
@@ -124,10 +124,7 @@ impl<'a> Pullback<'a> {
         let tensions = if hold == Hold::Lengths || robot.constraint() == Constraint::Fully {
             None
         } else {
-            let states = equilibrium.cables.iter().zip(&all.cables).enumerate();
-            let tensions = states
-                .map(|(i, (state, partials))| ParallelTension::of(settled, i, state, partials))
-                .collect::<Result<Vec<_>, _>>()?;
+            let tensions = all.parallel_tensions()?;
             let followed = tensions.iter().enumerate().map(|(i, tension)| {
                 let mut scalar = Adjoint::zeros(count);
                 tension.add(&mut scalar.cables[i], 1.0);
@@ -156,6 +153,16 @@ impl<'a> Pullback<'a> {
             DVec::from_iterator(self.cables.len(), gradient.cables.iter().map(|cable| cable.unstrained_length))
         };
         Followed { first, supports: DVec::from_vec(supports) }
+    }
+
+    /// Partial derivatives of each cable.
+    pub(super) fn partials(&self) -> &[CablePartials] {
+        &self.cables
+    }
+
+    /// Parallel tension of each cable.
+    pub(super) fn parallel_tensions(&self) -> Result<Vec<ParallelTension>, GradientError> {
+        parallel_tensions(self.settled(), self.equilibrium, &self.cables)
     }
 
     /// Gradient of the scalar with these coefficients.
@@ -214,7 +221,7 @@ impl<'a> Pullback<'a> {
     }
 
     /// Gradient by coefficients that contain the multipliers of a held pose.
-    fn at_held_pose(&self, total: &Adjoint<f64>) -> RobotChange {
+    pub(super) fn at_held_pose(&self, total: &Adjoint<f64>) -> RobotChange {
         let Pulled { mut gradient, translation_w, rotation_w, .. } = self.pulled(total);
         for (cable, partials) in gradient.cables.iter_mut().zip(&self.cables) {
             // The coefficients of the lengths are zero but for rounding. A stiffer rope has the same effect as a longer
@@ -232,7 +239,7 @@ impl<'a> Pullback<'a> {
     }
 
     /// Adds the coefficients of λ·Φ, the product of a multiplier (moments over ℓ) with the wrench on the platform.
-    fn add_balance(&self, total: &mut Adjoint<f64>, multiplier: &Vec6) {
+    pub(super) fn add_balance(&self, total: &mut Adjoint<f64>, multiplier: &Vec6) {
         let v = Vec3::new(multiplier[0], multiplier[1], multiplier[2]);
         let theta = Vec3::new(multiplier[3], multiplier[4], multiplier[5]) / self.coordinates.ell();
         let rot = &self.equilibrium.pose.rot_wp;
@@ -456,11 +463,7 @@ impl Follower {
                 return Err(StaticDerivativeError::TooFewCables { cables, degrees_of_freedom }.into());
             }
             Constraint::Fully => None,
-            Constraint::Redundantly(_) => {
-                let states = equilibrium.cables.iter().zip(partials).enumerate();
-                let of = |(i, (state, partials))| ParallelTension::of(robot, i, state, partials);
-                Some(states.map(of).collect::<Result<Vec<_>, _>>()?)
-            }
+            Constraint::Redundantly(_) => Some(parallel_tensions(robot, equilibrium, partials)?),
         };
 
         let mut wrenches = DMat::zeros(degrees_of_freedom, cables);
@@ -480,13 +483,23 @@ impl Follower {
 
         let rule = match (rule, &tensions) {
             (Some(rule), Some(tensions)) => {
-                let of_cables = (partials, tensions.as_slice(), &wrenches);
-                Some(Box::new(RuleFollower::new(robot, equilibrium, coordinates, of_cables, rule)?))
+                let at = TensionsAtLimits::new(robot, equilibrium, partials, tensions);
+                Some(Box::new(RuleFollower::new(at, coordinates, &wrenches, rule)?))
             }
             _ => None,
         };
         Ok(Self::Lengths { pseudoinverse, wrenches, tensions, rule })
     }
+}
+
+/// Parallel tension of each cable of a robot on rigid supports.
+fn parallel_tensions(
+    robot: &Robot,
+    equilibrium: &Equilibrium,
+    partials: &[CablePartials],
+) -> Result<Vec<ParallelTension>, GradientError> {
+    let states = equilibrium.cables.iter().zip(partials).enumerate();
+    states.map(|(i, (state, partials))| ParallelTension::of(robot, i, state, partials)).collect()
 }
 
 /// Translation and rotation in one vector.

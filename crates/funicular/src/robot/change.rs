@@ -20,6 +20,36 @@ impl<T: Dot> Dot for Vec<T> {
     }
 }
 
+/// Sum of rates with other ones.
+trait Sum {
+    fn add(&mut self, other: &Self);
+}
+
+impl Sum for f64 {
+    fn add(&mut self, other: &Self) {
+        *self += other;
+    }
+}
+
+impl Sum for Vec3 {
+    fn add(&mut self, other: &Self) {
+        *self += other;
+    }
+}
+
+impl Sum for Mat3 {
+    fn add(&mut self, other: &Self) {
+        *self += other;
+    }
+}
+
+impl<T: Sum + Clone + Default> Sum for Vec<T> {
+    fn add(&mut self, other: &Self) {
+        self.resize(self.len().max(other.len()), T::default());
+        self.iter_mut().zip(other).for_each(|(own, other)| own.add(other));
+    }
+}
+
 /// Declares the rates of change of the numbers of a part of the robot. After the arrow stands the place of the number in
 /// the part; without a place, the number changes in a way of its own.
 macro_rules! numbers {
@@ -37,6 +67,12 @@ macro_rules! numbers {
         impl Dot for $Change {
             fn dot(&self, other: &Self) -> f64 {
                 0.0 $(+ self.$rate.dot(&other.$rate))*
+            }
+        }
+
+        impl Sum for $Change {
+            fn add(&mut self, other: &Self) {
+                $(self.$rate.add(&other.$rate);)*
             }
         }
 
@@ -257,6 +293,11 @@ impl RobotChange {
     /// one of the two is the gradient of the result. Both have the same number of cables.
     pub fn dot(&self, other: &Self) -> f64 {
         Dot::dot(self, other)
+    }
+
+    /// Adds the rates of another change: the gradient of a sum is the sum of the gradients.
+    pub fn add(&mut self, other: &Self) {
+        Sum::add(self, other);
     }
 }
 

@@ -16,8 +16,9 @@ use super::solve::inverse;
 use super::tension::{TensionRule, cables_at, with_weight};
 use super::wrench_set::{AvailableWrenches, BulgeSearch, Facet};
 use crate::math::Vec6;
-use crate::platform::{Coordinates, load_wrench};
+use crate::platform::{Coordinates, load_wrench, wrench_of};
 use crate::robot::{Pose, RequiredLoads, RequiredPayload, Robot};
+pub(crate) use required_set::LoadCoefficients;
 use required_set::RequiredSet;
 use std::borrow::Cow;
 
@@ -42,6 +43,7 @@ const BEYOND: f64 = 1e-6;
 /// # References
 /// docs/theory.md, equations (40f) to (40n).
 pub struct LoadCapacity<'a> {
+    given: &'a Robot,
     /// Robot with the lightest payload as a part of its load.
     loaded: Cow<'a, Robot>,
     pose: Pose,
@@ -84,7 +86,7 @@ impl<'a> LoadCapacity<'a> {
         let available = AvailableWrenches::of(cables, &load, robot.platform.motion, BulgeSearch::Exact);
 
         let required = RequiredSet::of(robot, pose, &robot.required);
-        Ok(Self { loaded, pose: *pose, model, rest, available, required })
+        Ok(Self { given: robot, loaded, pose: *pose, model, rest, available, required })
     }
 
     fn robot(&self) -> &Robot {
@@ -97,6 +99,17 @@ impl<'a> LoadCapacity<'a> {
     /// The reason why the cables do not hold the dead load within their limits.
     pub fn dead_load(&self) -> Result<&Equilibrium, &StaticsError> {
         self.rest.as_ref()
+    }
+
+    /// Robot without the lightest payload.
+    pub(crate) fn given(&self) -> &'a Robot {
+        self.given
+    }
+
+    /// Equilibrium with the dead load and the multiple of the load that binds; `None` for an infinite multiple.
+    pub(crate) fn at_limit(&self, factor: &LoadFactor) -> Option<Equilibrium> {
+        let rest = self.rest.as_ref().ok().filter(|_| factor.value.is_finite())?;
+        Some(Equilibrium { cables: factor.cables.clone(), residual: factor.residual, ..rest.clone() })
     }
 
     /// True if nothing is required but the dead load.
@@ -130,10 +143,24 @@ impl<'a> LoadCapacity<'a> {
 
     /// Load in world axes about the platform origin (N, N m) from its reduced wrench.
     fn unscaled(&self, reduced: &Vec6) -> Vec6 {
-        let coordinates = Coordinates::of(&self.loaded);
-        let scaled = coordinates.expand(reduced);
-        Vec6::from_fn(|i, _| if i < 3 { scaled[i] } else { scaled[i] * coordinates.ell() })
+        unscaled(&self.loaded, reduced)
     }
+}
+
+/// Lightest payload and a multiple of a required load of a robot at a pose: everything on the platform besides its own
+/// weight, load and wind. World axes about the platform origin (N, N m).
+pub(crate) fn required_wrench(robot: &Robot, pose: &Pose, multiple: f64, coefficients: &LoadCoefficients) -> Vec6 {
+    let RequiredPayload { min_mass, center_p, .. } = robot.required.payload;
+    let lightest = wrench_of(&(robot.gravity_w * min_mass), &(pose.rot_wp * center_p));
+    let load = RequiredSet::of(robot, pose, &robot.required).load(coefficients);
+    lightest + unscaled(robot, &load) * multiple
+}
+
+/// Wrench in world axes about the platform origin (N, N m) from its reduced one.
+fn unscaled(robot: &Robot, reduced: &Vec6) -> Vec6 {
+    let coordinates = Coordinates::of(robot);
+    let scaled = coordinates.expand(reduced);
+    Vec6::from_fn(|i, _| if i < 3 { scaled[i] } else { scaled[i] * coordinates.ell() })
 }
 
 /// Robot with the lightest required payload as a part of its load.

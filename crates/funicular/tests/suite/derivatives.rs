@@ -3,6 +3,7 @@
 mod drives;
 mod equal_drives;
 mod kept_shapes;
+mod load_factor;
 mod rule_with_drives;
 mod supports;
 mod tension_rule;

@@ -582,9 +582,10 @@ pub(super) static TABLE: &[Definition] = &[
         name: "sensitivity:RESULT:PATH",
         about: "derivative of a result by a number of the robot file",
         documentation: "`first_frequency_hz_by_PATH`, `stiffness_min_n_per_m_by_PATH`, \
-                        `tension_platform_NAME_n_by_PATH` or `unstrained_length_NAME_m_by_PATH`: derivative of \
-                        `first-frequency`, `stiffness-min`, `tensions` or `lengths` by a number of the robot file, as \
-                        in `sensitivity:first-frequency:platform.mass_kg`, in the unit of the result over that of the \
+                        `load_factor_by_PATH`, `tension_platform_NAME_n_by_PATH` or \
+                        `unstrained_length_NAME_m_by_PATH`: derivative of `first-frequency`, `stiffness-min`, \
+                        `load-factor`, `tensions` or `lengths` by a number of the robot file, as in \
+                        `sensitivity:first-frequency:platform.mass_kg`, in the unit of the result over that of the \
                         number. The lengths are held if the state gives them and with `⟪hold_lengths_of_pose⟫`; \
                         otherwise the pose is held, and the tensions follow their rule",
         takes: ParameterKind::Sensitivity,

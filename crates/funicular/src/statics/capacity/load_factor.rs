@@ -1,6 +1,6 @@
 //! Load factor: the largest multiple of the required loads that the cables hold in every combination.
 
-use super::required_set::RequiredSet;
+use super::required_set::{LoadCoefficients, RequiredSet};
 use super::{LoadCapacity, with_lightest_payload};
 use crate::math::{Vec6, order};
 use crate::platform::{Coordinates, load_size, load_wrench};
@@ -54,6 +54,8 @@ pub struct LoadFactor {
     pub cables: Vec<CableState>,
     /// Scaled residual of the balance with this load.
     pub residual: f64,
+    /// Load that binds, as it follows a change of pose and robot.
+    pub(crate) coefficients: LoadCoefficients,
 }
 
 /// Largest multiple of one load.
@@ -85,18 +87,19 @@ impl LoadCapacity<'_> {
         self.rest.as_ref().map_err(Clone::clone)?;
 
         let lower_bound = self.smallest(&self.required, |facet| facet.inner);
-        let (load, held) = match self.required.vertices() {
-            Some(vertices) => self.worst_vertex(vertices)?,
+        let (coefficients, held) = match self.required.vertices() {
+            Some(vertices) => self.worst_vertex(&vertices)?,
             None => self.worst_of_ball()?,
         };
         Ok(LoadFactor {
             value: held.multiple,
             upper_bound: held.upper_bound,
             lower_bound: lower_bound.map(|lowest| lowest.min(held.multiple)),
-            load: self.unscaled(&load),
+            load: self.unscaled(&self.required.load(&coefficients)),
             limits: held.limits,
             cables: held.cables,
             residual: held.residual,
+            coefficients,
         })
     }
 
@@ -123,51 +126,55 @@ impl LoadCapacity<'_> {
 
     /// Vertex with the smallest multiple. Vertices are taken in the order of their lower bounds, until the bound of the
     /// next one is above the smallest multiple so far.
-    fn worst_vertex(&self, vertices: Vec<Vec6>) -> Result<(Vec6, HeldMultiple), StaticsError> {
+    fn worst_vertex(&self, vertices: &[Vec6]) -> Result<(LoadCoefficients, HeldMultiple), StaticsError> {
         let single = |load: &Vec6| {
             let ratio = |facet: &Facet| facet.inner / -facet.normal.dot(load);
             let opposed = self.available.facets().iter().filter(|facet| facet.normal.dot(load) < 0.0);
             opposed.map(ratio).fold(f64::INFINITY, f64::min)
         };
         let is_bounded = self.smallest(&self.required, |facet| facet.inner).is_some();
-        let mut bounded: Vec<(f64, Vec6)> = (vertices.into_iter().filter(|load| load.norm() > 0.0))
-            .map(|load| (if is_bounded { single(&load) } else { 0.0 }, load))
+        let mut bounded: Vec<(f64, usize)> = (0..vertices.len())
+            .filter(|at| vertices[*at].norm() > 0.0)
+            .map(|at| (if is_bounded { single(&vertices[at]) } else { 0.0 }, at))
             .collect();
         order::sort_ascending(&mut bounded, |(bound, _)| *bound);
 
-        let mut worst: Option<(Vec6, HeldMultiple)> = None;
-        for (bound, load) in bounded {
+        let mut worst: Option<(usize, HeldMultiple)> = None;
+        for (bound, at) in bounded {
             if worst.as_ref().is_some_and(|(_, held)| bound >= held.multiple) {
                 break;
             }
-            let held = self.largest_multiple(&load)?;
+            let held = self.largest_multiple(&vertices[at])?;
             if worst.as_ref().is_none_or(|(_, least)| held.multiple < least.multiple) {
-                worst = Some((load, held));
+                worst = Some((at, held));
             }
         }
-        worst.ok_or(StaticsError::NothingRequired)
+        let (at, held) = worst.ok_or(StaticsError::NothingRequired)?;
+        Ok((self.required.vertex(at), held))
     }
 
     /// Load with the smallest multiple of a set without vertices: the direction in which the cables reach no farther
     /// gives the next load.
-    fn worst_of_ball(&self) -> Result<(Vec6, HeldMultiple), StaticsError> {
+    fn worst_of_ball(&self) -> Result<(LoadCoefficients, HeldMultiple), StaticsError> {
         let ratio = |facet: &Facet| facet.reach / self.required.reach(&-facet.normal);
         let facets = self.available.facets().iter().filter(|facet| self.required.reach(&-facet.normal) > 0.0);
         let first = facets.min_by(|a, b| ratio(a).total_cmp(&ratio(b))).map(|facet| -facet.normal);
         let down = Coordinates::of(self.robot()).reduce(&load_wrench(self.robot(), &self.pose));
-        let mut load = self.required.farthest(&first.unwrap_or(down));
+        let mut at = self.required.farthest(&first.unwrap_or(down));
 
-        let mut worst: Option<(Vec6, HeldMultiple)> = None;
+        let mut worst: Option<(LoadCoefficients, HeldMultiple)> = None;
         for _ in 0..MAX_DIRECTIONS {
+            let load = self.required.load(&at);
             let held = self.largest_multiple(&load)?;
-            let next = self.required.farthest(&-held.direction);
+            let next_at = self.required.farthest(&-held.direction);
+            let next = self.required.load(&next_at);
             if worst.as_ref().is_none_or(|(_, least)| held.multiple < least.multiple) {
-                worst = Some((load, held));
+                worst = Some((at, held));
             }
             if (next - load).norm() <= SAME_LOAD * next.norm() {
                 break;
             }
-            load = next;
+            at = next_at;
         }
         worst.ok_or(StaticsError::NothingRequired)
     }

@@ -14,6 +14,11 @@ pub(super) struct RequiredSet {
     parts: Vec<LoadPart>,
 }
 
+/// Load of a [`RequiredSet`] by the coefficients of the wrenches that span its parts. They stay while these wrenches
+/// change with pose and robot.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct LoadCoefficients(Vec<Vec<f64>>);
+
 /// Convex part of the required loads.
 #[derive(Debug, Clone)]
 enum LoadPart {
@@ -35,18 +40,33 @@ impl LoadPart {
         }
     }
 
-    /// Wrench with the largest component along a direction.
-    fn farthest(&self, n: &Vec6) -> Vec6 {
+    /// Wrenches whose combinations the part consists of.
+    fn generators(&self) -> &[Vec6] {
+        let (Self::Segments(of) | Self::Ball(of) | Self::Points(of)) = self;
+        of
+    }
+
+    /// Coefficients of the wrench with the largest component along a direction.
+    fn farthest(&self, n: &Vec6) -> Vec<f64> {
         match self {
-            Self::Segments(halves) => halves.iter().map(|half| half * n.dot(half).signum()).sum(),
+            Self::Segments(halves) => halves.iter().map(|half| n.dot(half).signum()).collect(),
             Self::Ball(axes) => {
                 let reach = self.reach(n);
-                if reach == 0.0 { Vec6::zeros() } else { axes.iter().map(|axis| axis * (n.dot(axis) / reach)).sum() }
+                axes.iter().map(|axis| if reach == 0.0 { 0.0 } else { n.dot(axis) / reach }).collect()
             }
             Self::Points(points) => {
-                let farther = |a: &&Vec6, b: &&Vec6| n.dot(a).total_cmp(&n.dot(b));
-                points.iter().max_by(farther).copied().unwrap_or_else(Vec6::zeros)
+                let farther = |a: &usize, b: &usize| n.dot(&points[*a]).total_cmp(&n.dot(&points[*b]));
+                self.corner((0..points.len()).max_by(farther).unwrap_or_default())
             }
+        }
+    }
+
+    /// Coefficients of a corner, by its number among [`Self::corners`].
+    fn corner(&self, number: usize) -> Vec<f64> {
+        match self {
+            Self::Segments(halves) => (0..halves.len()).map(|k| sign(number, k)).collect(),
+            Self::Ball(axes) => vec![0.0; axes.len()],
+            Self::Points(points) => (0..points.len()).map(|k| f64::from(u8::from(k == number))).collect(),
         }
     }
 
@@ -96,10 +116,13 @@ impl RequiredSet {
         // Wind on the platform from every horizontal direction.
         let pressure = 0.5 * robot.wind.air_density * required.wind_speed.powi(2) * robot.platform.drag_area;
         let arm_w = pose.rot_wp * robot.platform.center_of_mass_p;
-        let up_w = robot.up_w();
-        let along_w = crate::math::any_normal(&up_w);
-        let level = [along_w, up_w.cross(&along_w)].map(|axis_w| wrench_of(&(axis_w * pressure), &arm_w));
-        set.add(LoadPart::Ball(nonzero(level, &coordinates)));
+        if pressure > 0.0 {
+            // Projections of three axes span the horizontal disk and turn smoothly with gravity.
+            let up_w = robot.up_w();
+            let level = [Vec3::x(), Vec3::y(), Vec3::z()].map(|axis_w| axis_w - up_w * up_w.dot(&axis_w));
+            let wrench = |axis_w: &Vec3| coordinates.reduce(&wrench_of(&(axis_w * pressure), &arm_w));
+            set.add(LoadPart::Ball(level.iter().map(wrench).collect()));
+        }
         set
     }
 
@@ -128,9 +151,27 @@ impl RequiredSet {
         self.parts.iter().map(|part| part.reach(n)).sum::<f64>().max(0.0)
     }
 
-    /// Load with the largest component along a direction.
-    pub(super) fn farthest(&self, n: &Vec6) -> Vec6 {
-        self.parts.iter().map(|part| part.farthest(n)).sum()
+    /// Coefficients of the load with the largest component along a direction.
+    pub(super) fn farthest(&self, n: &Vec6) -> LoadCoefficients {
+        LoadCoefficients(self.parts.iter().map(|part| part.farthest(n)).collect())
+    }
+
+    /// Load with these coefficients.
+    pub(super) fn load(&self, coefficients: &LoadCoefficients) -> Vec6 {
+        let parts = self.parts.iter().zip(&coefficients.0);
+        parts.flat_map(|(part, of)| part.generators().iter().zip(of)).map(|(generator, of)| generator * *of).sum()
+    }
+
+    /// Coefficients of a load, by its number among [`Self::vertices`].
+    pub(super) fn vertex(&self, mut number: usize) -> LoadCoefficients {
+        let mut coefficients: Vec<Vec<f64>> = Vec::with_capacity(self.parts.len());
+        for part in self.parts.iter().rev() {
+            let count = part.corners().map_or(1, |corners| corners.len());
+            coefficients.push(part.corner(number % count));
+            number /= count;
+        }
+        coefficients.reverse();
+        LoadCoefficients(coefficients)
     }
 
     /// Sums of the corners of all parts, which the vertices of the set are among; `None` for a set with a ball, or if
@@ -150,11 +191,13 @@ impl RequiredSet {
 
 /// Corners of the box with these half axes.
 fn corners(halves: &[Vec6]) -> Vec<Vec6> {
-    let signed = |bits: usize| {
-        let sign = |k: usize| if bits & (1 << k) == 0 { -1.0 } else { 1.0 };
-        halves.iter().enumerate().map(|(k, half)| half * sign(k)).sum()
-    };
+    let signed = |number: usize| halves.iter().enumerate().map(|(k, half)| half * sign(number, k)).sum();
     (0..1_usize << halves.len()).map(signed).collect()
+}
+
+/// Sign of the half axis `k` in a corner of a box.
+fn sign(corner: usize, k: usize) -> f64 {
+    if corner & (1 << k) == 0 { -1.0 } else { 1.0 }
 }
 
 /// Axes of a box of six components with these half widths.

@@ -11,7 +11,7 @@ use funicular::statics::{CableState, Equilibrium, StaticModel, TensionRange, Ten
 
 /// Robot over pulleys with upright or inclined axes and to winches, rigid or not; every third cable of some robots has
 /// no pulley, another none of both.
-fn random_case(number: u64) -> RuleCase {
+pub(super) fn random_case(number: u64) -> RuleCase {
     let mut draw = Draw(1000 + number);
     let turned = |draw: &mut Draw, i: usize, around: f64| {
         // The cables pull alternately in both senses about the vertical.
