@@ -142,24 +142,30 @@ fn drives_at_rest_are_those_of_statics() {
     }
 }
 
-/// Robots that are rung: one of each kind of drive.
-const RINGING: [&str; 4] = ["pulley", "inclined pulley with a drum side", "torque on a shaft", "guide wheels"];
+/// Robots that are rung, one of each kind of drive: with the size of the push, the number of cycles and the tolerance. The
+/// robot on supports is eight times as heavy and stiff: a push as small as that of the others would drown in rounding.
+const RINGING: [(&str, f64, f64, f64); 6] = [
+    ("pulley", 1.0, 60.0, 1e-12),
+    ("inclined pulley with a drum side", 1.0, 60.0, 1e-12),
+    ("torque on a shaft", 1.0, 60.0, 1e-12),
+    ("guide wheels", 1.0, 60.0, 1e-12),
+    ("supports, DrumsOnSupports", 300.0, 30.0, 1e-11),
+    ("supports, DrumsOnGround", 300.0, 30.0, 1e-11),
+];
 
 /// A small push rings down at the natural frequencies of the program.
 #[test]
 fn a_small_push_rings_at_the_modes_of_drives() {
     for (name, mut robot, rest) in subjects() {
-        if !RINGING.contains(&name.as_str()) {
-            continue;
-        }
+        let Some((_, size, cycles, tolerance)) = RINGING.into_iter().find(|of| of.0 == name) else { continue };
         for cable in &mut robot.cables {
             cable.material.damping = Damping::Viscous(0.01);
         }
         let dynamics = Dynamics::about(&robot, &rest, Linearisation::default(), 8.0).unwrap();
         let first_hz = modes::below(&dynamics, 8.0).modes[0].frequency_hz;
-        let of = Ring { cycles: 60.0, tolerance: 1e-12, off: 2e-6, part: 0.03, least: 3, books: 1e-4 };
+        let of = Ring { cycles, tolerance, off: 2e-6, part: 0.03, least: 2, books: 1e-4 };
         let (force_w, moment_w) = (Vec3::new(4e-2, 3e-2, 6e-2), Vec3::new(6e-3, 8e-3, 8e-3));
-        rings_at_its_modes(&(robot, rest), first_hz, force_w, moment_w, &of);
+        rings_at_its_modes(&(robot, rest), first_hz, force_w * size, moment_w * size, &of);
     }
 }
 
