@@ -114,7 +114,7 @@ impl<'a> LoadCapacity<'a> {
 
     /// True if the required wind loads the cables.
     pub(crate) fn has_wind_on_cables(&self) -> bool {
-        wind::loads_cables(&self.loaded, self.model)
+        wind_loads_cables(&self.loaded, self.model)
     }
 
     /// Robot without the lightest payload.
@@ -141,7 +141,7 @@ impl<'a> LoadCapacity<'a> {
     /// # References
     /// docs/theory.md, equation (40h).
     pub fn margin(&self) -> Option<f64> {
-        if wind::loads_cables(&self.loaded, self.model) && !self.available.facets().is_empty() {
+        if wind_loads_cables(&self.loaded, self.model) && !self.available.facets().is_empty() {
             return self.margin_in_wind();
         }
         let margins = self.available.facets().iter().map(|facet| facet.outer - self.required.reach(&-facet.normal));
@@ -180,6 +180,14 @@ fn unscaled(robot: &Robot, reduced: &Vec6) -> Vec6 {
     let coordinates = Coordinates::of(robot);
     let scaled = coordinates.expand(reduced);
     Vec6::from_fn(|i, _| if i < 3 { scaled[i] } else { scaled[i] * coordinates.ell() })
+}
+
+/// True if the required wind of a robot changes the loads of its cables.
+fn wind_loads_cables(robot: &Robot, model: StaticModel) -> bool {
+    let has_drag = |width: Option<f64>| width.is_some_and(|width| width > 0.0);
+    model == StaticModel::Catenary
+        && robot.required.wind_speed > 0.0
+        && robot.cables.iter().any(|cable| has_drag(cable.material.drag_width))
 }
 
 /// Robot with the lightest required payload as a part of its load.

@@ -1,7 +1,7 @@
 //! Load factor: the largest multiple of the required loads that the cables hold in every combination.
 
 use super::required_set::{LoadCoefficients, RequiredSet};
-use super::{LoadCapacity, wind, with_lightest_payload};
+use super::{LoadCapacity, wind_loads_cables, with_lightest_payload};
 use crate::math::{Vec3, Vec6, order};
 use crate::platform::{Coordinates, load_size, load_wrench};
 use crate::robot::{Pose, Robot};
@@ -86,7 +86,7 @@ impl LoadCapacity<'_> {
         if self.required.is_empty() {
             return Err(StaticsError::NothingRequired);
         }
-        if wind::loads_cables(self.robot(), self.model) {
+        if wind_loads_cables(self.robot(), self.model) {
             return self.load_factor_in_wind();
         }
         self.rest.as_ref().map_err(Clone::clone)?;
@@ -123,7 +123,7 @@ impl LoadCapacity<'_> {
 
     /// True if the facets give the load factor itself.
     fn is_by_facets(&self) -> bool {
-        self.available.is_straight() && !self.required.is_empty() && !wind::loads_cables(self.robot(), self.model)
+        self.available.is_straight() && !self.required.is_empty() && !wind_loads_cables(self.robot(), self.model)
     }
 
     /// Smallest ratio of the reach of the cables to that of a set of loads over all facets; `None` without facets, or
@@ -317,7 +317,7 @@ fn smallest_ratio(facets: &[Facet], loads: &RequiredSet, reach: impl Fn(&Facet) 
 /// docs/theory.md, equations (40i) and (40k).
 pub fn load_factor_bounds(robot: &Robot, pose: &Pose, model: StaticModel) -> Result<Option<[f64; 2]>, StaticsError> {
     let required = RequiredSet::of(robot, pose, &robot.required);
-    if required.is_empty() || exit_points::depend_on_tensions(robot, model) || wind::loads_cables(robot, model) {
+    if required.is_empty() || exit_points::depend_on_tensions(robot, model) || wind_loads_cables(robot, model) {
         return Ok(None);
     }
     let loaded = with_lightest_payload(robot, pose);

@@ -6,9 +6,8 @@ use super::required_set::RequiredSet;
 use super::{LoadCapacity, LoadFactor};
 use crate::math::{Vec3, any_normal};
 use crate::platform::{Coordinates, wrench_of};
-use crate::robot::{Robot, Wind};
+use crate::robot::Wind;
 use crate::statics::error::StaticsError;
-use crate::statics::model::StaticModel;
 use std::borrow::Cow;
 use std::f64::consts::TAU;
 
@@ -25,14 +24,6 @@ const SAME_MULTIPLE: f64 = 1e-11;
 
 /// Maximum number of pressures tried for one direction, a guard: 3 to 5 are usual.
 const MAX_PRESSURES: usize = 60;
-
-/// True if the required wind of a robot changes the loads of its cables.
-pub(super) fn loads_cables(robot: &Robot, model: StaticModel) -> bool {
-    let has_drag = |width: Option<f64>| width.is_some_and(|width| width > 0.0);
-    model == StaticModel::Catenary
-        && robot.required.wind_speed > 0.0
-        && robot.cables.iter().any(|cable| has_drag(cable.material.drag_width))
-}
 
 impl<'a> LoadCapacity<'a> {
     /// Load factor with the wind on the cables: the least over all directions of the wind.

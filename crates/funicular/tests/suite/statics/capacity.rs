@@ -307,7 +307,6 @@ fn in_the_open(drag_width: f64) -> Robot {
 #[test]
 fn required_wind_on_the_ropes_is_held_just_inside_the_load_factor_and_refused_just_outside() {
     let robot = in_the_open(0.03);
-    let mut refused = 0;
     for pose in poses(3, [2.0, 1.0, 0.4], [0.0, 0.0, 1.4]) {
         let capacity = LoadCapacity::at(&robot, &pose, StaticModel::Catenary, None).unwrap();
         let factor = capacity.load_factor().unwrap();
@@ -320,10 +319,7 @@ fn required_wind_on_the_ropes_is_held_just_inside_the_load_factor_and_refused_ju
         };
         assert!((factor.wind_w.norm() - 20.0).abs() < 1e-12, "{}", factor.wind_w);
         assert!(solve(0.999_999 * factor.value, factor.wind_w, &factor.load).is_ok(), "{}", factor.value);
-        if factor.upper_bound < (1.0 + 1e-7) * factor.value {
-            refused += 1;
-            assert!(solve(1.000_001 * factor.value, factor.wind_w, &factor.load).is_err(), "{}", factor.value);
-        }
+        assert!(solve(1.000_01 * factor.value, factor.wind_w, &factor.load).is_err(), "{}", factor.value);
 
         // Every corner of the box in wind from other directions is held as well.
         let multiple = 0.999_99 * factor.value;
@@ -348,5 +344,4 @@ fn required_wind_on_the_ropes_is_held_just_inside_the_load_factor_and_refused_ju
         assert!((thin / still - 1.0).abs() < 1e-5 && factor.value < still, "{thin} {still}");
         assert!(capacity.margin().unwrap() * (factor.value - 1.0) > 0.0);
     }
-    assert!(refused > 0);
 }
