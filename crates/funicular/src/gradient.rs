@@ -149,6 +149,12 @@ pub enum GradientError {
         /// Limit at which the tension of the cable is without pressing against it, if that is the reason.
         limit: Option<Limit>,
     },
+    /// The required wind bends the cables.
+    #[error(
+        "the required wind acts on the ropes, which have a `drag_coefficient`: the load factor has derivatives with wind on the \
+         platform alone; leave the load factor out, or `wind_speed_m_s` in [required]"
+    )]
+    LoadFactorInWind,
     /// Supports settle under the tensions at the limit.
     #[error(
         "cable \"{cable}\" is on a flexible support: the load factor has derivatives on a rigid frame; leave the \

@@ -59,8 +59,9 @@ fn required_text(held: &RequiredHeld) -> String {
     };
     let by_position = by("by position   ", held.load_factor_by_position_per_m, "1/m");
     let by_rotation = by("by rotation   ", held.load_factor_by_rotation_per_rad, "1/rad");
+    let wind = by("binding wind  ", held.wind_m_s, "m/s");
     format!(
-        "\nLoad factor {}{bounds}\n{by_position}{by_rotation}  binding load  force ({}) N, moment ({}) N m\n\n\
+        "\nLoad factor {}{bounds}\n{by_position}{by_rotation}{wind}  binding load  force ({}) N, moment ({}) N m\n\n\
          Tensions with this multiple of the binding load\n{}\n",
         significant(factor, 6),
         vector(&held.force_n, 2),

@@ -69,6 +69,9 @@ pub struct RequiredHeld {
     pub load_factor_by_position_per_m: Option<[f64; 3]>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub load_factor_by_rotation_per_rad: Option<[f64; 3]>,
+    /// Required wind that binds, at the multiple 1; absent if it does not act on the ropes.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub wind_m_s: Option<[f64; 3]>,
     /// Required load that binds, in addition to the dead load.
     pub force_n: [f64; 3],
     pub moment_n_m: [f64; 3],
@@ -142,6 +145,7 @@ impl RequiredHeld {
             load_factor_lower_bound: factor.lower_bound.and_then(finite),
             load_factor_by_position_per_m: by_pose.map(|[by_position, _]| by_position),
             load_factor_by_rotation_per_rad: by_pose.map(|[_, by_rotation]| by_rotation),
+            wind_m_s: (factor.wind_w.norm() > 0.0).then(|| factor.wind_w.into()),
             force_n: [x, y, z],
             moment_n_m: [roll, pitch, yaw],
             cables: LoadedRow::all(robot, &factor.cables, &factor.limits),

@@ -42,6 +42,7 @@ impl LoadFactorGradient {
     ///
     /// # Errors
     /// [`GradientError::LoadFactor`]; [`GradientError::UnlimitedLoadFactor`]; [`GradientError::LoadFactorAndSupports`];
+    /// [`GradientError::LoadFactorInWind`];
     /// [`GradientError::OneSidedLoadFactor`]; ideal, slack or vertical cables.
     ///
     /// # Example
@@ -66,6 +67,9 @@ impl LoadFactorGradient {
     /// # References
     /// docs/theory.md, equations (60u) and (60v).
     pub fn of(capacity: &LoadCapacity<'_>) -> Result<Self, GradientError> {
+        if capacity.has_wind_on_cables() {
+            return Err(GradientError::LoadFactorInWind);
+        }
         let (robot, factor) = (capacity.given(), capacity.load_factor()?);
         if let Some(cable) = robot.cables.iter().find(|cable| cable.anchor.support.is_some()) {
             return Err(GradientError::LoadFactorAndSupports { cable: cable.name.clone() });

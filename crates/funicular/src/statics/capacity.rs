@@ -3,6 +3,7 @@
 mod closure;
 mod load_factor;
 mod required_set;
+mod wind;
 
 pub use closure::{WrenchClosure, wrench_closure};
 pub use load_factor::{LoadFactor, load_factor_bounds};
@@ -74,6 +75,18 @@ impl<'a> LoadCapacity<'a> {
         let rest = start.map_or_else(|| inverse(&loaded, pose, model), Ok);
         let rest = rest.and_then(|rest| within_limits(&loaded, rest));
 
+        let required = RequiredSet::of(robot, pose, &robot.required);
+        Self::about(robot, loaded, pose, model, (rest, required))
+    }
+
+    /// Capacity about a dead load, for required loads.
+    fn about(
+        given: &'a Robot,
+        loaded: Cow<'a, Robot>,
+        pose: &Pose,
+        model: StaticModel,
+        (rest, required): (Result<Equilibrium, StaticsError>, RequiredSet),
+    ) -> Result<Self, StaticsError> {
         // The wrenches of cables that leave their pulleys as they do under the dead load.
         let held = match &rest {
             Ok(rest) if exit_points::depend_on_tensions(&loaded, model) => {
@@ -82,11 +95,9 @@ impl<'a> LoadCapacity<'a> {
             _ => Cow::Borrowed(&*loaded),
         };
         let cables = cables_at(&held, pose, model, &TensionRule::Lowest)?;
-        let load = Coordinates::of(robot).reduce(&load_wrench(&loaded, pose));
-        let available = AvailableWrenches::of(cables, &load, robot.platform.motion, BulgeSearch::Exact);
-
-        let required = RequiredSet::of(robot, pose, &robot.required);
-        Ok(Self { given: robot, loaded, pose: *pose, model, rest, available, required })
+        let load = Coordinates::of(given).reduce(&load_wrench(&loaded, pose));
+        let available = AvailableWrenches::of(cables, &load, given.platform.motion, BulgeSearch::Exact);
+        Ok(Self { given, loaded, pose: *pose, model, rest, available, required })
     }
 
     fn robot(&self) -> &Robot {
@@ -99,6 +110,11 @@ impl<'a> LoadCapacity<'a> {
     /// The reason why the cables do not hold the dead load within their limits.
     pub fn dead_load(&self) -> Result<&Equilibrium, &StaticsError> {
         self.rest.as_ref()
+    }
+
+    /// True if the required wind loads the cables.
+    pub(crate) fn has_wind_on_cables(&self) -> bool {
+        wind_loads_cables(&self.loaded, self.model)
     }
 
     /// Robot without the lightest payload.
@@ -125,6 +141,9 @@ impl<'a> LoadCapacity<'a> {
     /// # References
     /// docs/theory.md, equation (40h).
     pub fn margin(&self) -> Option<f64> {
+        if wind_loads_cables(&self.loaded, self.model) && !self.available.facets().is_empty() {
+            return self.margin_in_wind();
+        }
         let margins = self.available.facets().iter().map(|facet| facet.outer - self.required.reach(&-facet.normal));
         margins.reduce(f64::min)
     }
@@ -161,6 +180,14 @@ fn unscaled(robot: &Robot, reduced: &Vec6) -> Vec6 {
     let coordinates = Coordinates::of(robot);
     let scaled = coordinates.expand(reduced);
     Vec6::from_fn(|i, _| if i < 3 { scaled[i] } else { scaled[i] * coordinates.ell() })
+}
+
+/// True if the required wind of a robot changes the loads of its cables.
+fn wind_loads_cables(robot: &Robot, model: StaticModel) -> bool {
+    let has_drag = |width: Option<f64>| width.is_some_and(|width| width > 0.0);
+    model == StaticModel::Catenary
+        && robot.required.wind_speed > 0.0
+        && robot.cables.iter().any(|cable| has_drag(cable.material.drag_width))
 }
 
 /// Robot with the lightest required payload as a part of its load.

@@ -96,7 +96,8 @@ pub(super) const REQUIRED: &[Key] = &[
         "wind_speed_m_s = 12.0",
         "m/s",
         Range::NotNegative,
-        "wind from every horizontal direction on the platform, in addition to [wind]; it acts on its `drag_area_m2`",
+        "wind from every horizontal direction, in addition to [wind], on the platform with its `drag_area_m2` and on sagging ropes \
+         with a `drag_coefficient`",
     )
     .or([0.0; 3]),
     Key::numeric(

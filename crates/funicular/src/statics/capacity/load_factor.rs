@@ -1,8 +1,8 @@
 //! Load factor: the largest multiple of the required loads that the cables hold in every combination.
 
 use super::required_set::{LoadCoefficients, RequiredSet};
-use super::{LoadCapacity, with_lightest_payload};
-use crate::math::{Vec6, order};
+use super::{LoadCapacity, wind_loads_cables, with_lightest_payload};
+use crate::math::{Vec3, Vec6, order};
 use crate::platform::{Coordinates, load_size, load_wrench};
 use crate::robot::{Pose, Robot};
 use crate::statics::equilibrium::CableState;
@@ -44,8 +44,10 @@ pub struct LoadFactor {
     /// `value`.
     pub upper_bound: f64,
     /// Multiple up to which the cables hold all of the set, not only its vertices. It differs from `value` only if
-    /// cables sag; `None` if too many cables, supports or pulleys leave it open.
+    /// cables sag; `None` if too many cables, supports, pulleys or wind on the cables leave it open.
     pub lower_bound: Option<f64>,
+    /// Required wind that binds, if it loads the cables, at the multiple 1 [m/s]; otherwise zero.
+    pub wind_w: Vec3,
     /// Load that binds, of the multiple 1, in addition to the dead load, world axes about the platform origin (N, N m).
     pub load: Vec6,
     /// Tensions at their limits, in the order of the file.
@@ -84,6 +86,9 @@ impl LoadCapacity<'_> {
         if self.required.is_empty() {
             return Err(StaticsError::NothingRequired);
         }
+        if wind_loads_cables(self.robot(), self.model) {
+            return self.load_factor_in_wind();
+        }
         self.rest.as_ref().map_err(Clone::clone)?;
 
         let lower_bound = self.smallest(&self.required, |facet| facet.inner);
@@ -99,6 +104,7 @@ impl LoadCapacity<'_> {
             limits: held.limits,
             cables: held.cables,
             residual: held.residual,
+            wind_w: Vec3::zeros(),
             coefficients,
         })
     }
@@ -110,9 +116,14 @@ impl LoadCapacity<'_> {
     pub fn load_factor_value(&self) -> Result<f64, StaticsError> {
         self.rest.as_ref().map_err(Clone::clone)?;
         match self.smallest(&self.required, |facet| facet.inner) {
-            Some(value) if self.available.is_straight() && !self.required.is_empty() => Ok(value),
+            Some(value) if self.is_by_facets() => Ok(value),
             _ => Ok(self.load_factor()?.value),
         }
+    }
+
+    /// True if the facets give the load factor itself.
+    fn is_by_facets(&self) -> bool {
+        self.available.is_straight() && !self.required.is_empty() && !wind_loads_cables(self.robot(), self.model)
     }
 
     /// Smallest ratio of the reach of the cables to that of a set of loads over all facets; `None` without facets, or
@@ -297,7 +308,7 @@ fn smallest_ratio(facets: &[Facet], loads: &RequiredSet, reach: impl Fn(&Facet) 
 /// Bounds of the load factor at a pose from the facets alone, without an equilibrium: it takes a fraction of the time of
 /// [`LoadCapacity::load_factor_value`]. Up to the lower one all required loads are held, and the dead load with them if
 /// it is positive; beyond the upper one, no tensions within the limits hold them. `None` if nothing is required, without
-/// facets, or with exit points that move with the tensions.
+/// facets, with exit points that move with the tensions, or with required wind on the cables.
 ///
 /// # Errors
 /// As [`LoadCapacity::at`].
@@ -306,7 +317,7 @@ fn smallest_ratio(facets: &[Facet], loads: &RequiredSet, reach: impl Fn(&Facet) 
 /// docs/theory.md, equations (40i) and (40k).
 pub fn load_factor_bounds(robot: &Robot, pose: &Pose, model: StaticModel) -> Result<Option<[f64; 2]>, StaticsError> {
     let required = RequiredSet::of(robot, pose, &robot.required);
-    if required.is_empty() || exit_points::depend_on_tensions(robot, model) {
+    if required.is_empty() || exit_points::depend_on_tensions(robot, model) || wind_loads_cables(robot, model) {
         return Ok(None);
     }
     let loaded = with_lightest_payload(robot, pose);

@@ -134,6 +134,11 @@ impl RequiredSet {
         Self { parts: vec![LoadPart::Ball(axes.collect())] }
     }
 
+    /// Adds a load that acts together with all others.
+    pub(super) fn add_fixed(&mut self, load: Vec6) {
+        self.add(LoadPart::Points(vec![load]));
+    }
+
     fn add(&mut self, part: LoadPart) {
         let (LoadPart::Segments(of) | LoadPart::Ball(of) | LoadPart::Points(of)) = &part;
         if !of.is_empty() {

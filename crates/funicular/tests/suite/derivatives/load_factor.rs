@@ -86,15 +86,17 @@ fn cases() -> Vec<LoadCase> {
     add("CoGiRo, all kinds", &cogiro, all_kinds(200.0), &poses, StaticModel::Catenary);
     add("CoGiRo, all kinds", &cogiro, all_kinds(200.0), &poses, StaticModel::Spring);
 
-    // A ball of forces, wind on the platform, and wind of the robot on the cables.
+    // A ball of forces, and wind of the robot on the cables; required wind on the platform and straight cables.
     let limits = TensionLimits { minimum: Some(100.0), maximum: Some(3000.0) };
     let mut ipanema = Robot::from_toml(funicular_robots::IPANEMA2).unwrap().with_tension_limits(limits);
     ipanema.platform.drag_area = 0.8;
     ipanema.cables.iter_mut().for_each(|cable| cable.material.drag_width = Some(0.006));
     let ipanema = ipanema.with_wind(Wind { velocity_w: Vec3::new(8.0, 3.0, 0.5), ..Wind::default() });
-    let ball = RequiredLoads { shape: LoadShape::Ellipsoid, wind_speed: 10.0, ..forces(200.0, 40.0) };
+    let ball = RequiredLoads { shape: LoadShape::Ellipsoid, ..forces(200.0, 40.0) };
+    let windy = RequiredLoads { wind_speed: 10.0, ..ball.clone() };
     let poses = [[1.0, 0.5, 1.2, 2.0, -1.0, 3.0], [-1.5, 0.8, 1.5, 0.0, 4.0, -6.0]];
     add("IPAnema", &ipanema, ball, &poses, StaticModel::Catenary);
+    add("IPAnema, required wind", &ipanema, windy, &poses, StaticModel::Spring);
 
     // Pulleys, winches and wind of random robots.
     for number in 0..12 {
@@ -201,6 +203,11 @@ fn load_factors_without_derivatives_are_refused_with_the_reason() {
     unlimited.required = RequiredLoads { listed: vec![downwards], ..RequiredLoads::default() };
     let message = refused(&unlimited, [0.0, 0.0, 1.5], StaticModel::Catenary);
     assert!(message.contains("no maximum tension"), "{message}");
+    let mut windy = robot.clone();
+    windy.required.wind_speed = 5.0;
+    windy.cables[0].material.drag_width = Some(0.01);
+    let message = refused(&windy, [1.0, 0.5, 1.5], StaticModel::Catenary);
+    assert!(message.contains("required wind"), "{message}");
     let message = refused(&robot, [1.0, 0.5, 1.5], StaticModel::Ideal);
     assert!(message.contains("ideal cables are rigid"), "{message}");
 

@@ -294,3 +294,54 @@ fn bounds_of_the_load_factor_from_facets_alone_enclose_it() {
     let nothing = statics::load_factor_bounds(&cogiro(), &poses(1, [1.0; 3], [0.0; 3])[0], StaticModel::Ideal);
     assert!(nothing.unwrap().is_none());
 }
+
+/// CoGiRo with ropes and a platform that the wind meets.
+fn in_the_open(drag_width: f64) -> Robot {
+    let mut robot = with_box(cogiro(), 60.0, 10.0);
+    robot.required.wind_speed = 20.0;
+    robot.platform.drag_area = 0.5;
+    robot.cables.iter_mut().for_each(|cable| cable.material.drag_width = Some(drag_width));
+    robot
+}
+
+#[test]
+fn required_wind_on_the_ropes_is_held_just_inside_the_load_factor_and_refused_just_outside() {
+    let robot = in_the_open(0.03);
+    for pose in poses(3, [2.0, 1.0, 0.4], [0.0, 0.0, 1.4]) {
+        let capacity = LoadCapacity::at(&robot, &pose, StaticModel::Catenary, None).unwrap();
+        let factor = capacity.load_factor().unwrap();
+        // The steady wind of the file on the ropes; the load that binds has that on the platform.
+        let solve = |multiple: f64, velocity_w: Vec3, load: &Vec6| {
+            let mut windy = bearing(&robot, load, multiple);
+            windy.platform.drag_area = 0.0;
+            windy.wind.velocity_w = velocity_w * multiple.sqrt();
+            statics::inverse(&windy, &pose, StaticModel::Catenary)
+        };
+        assert!((factor.wind_w.norm() - 20.0).abs() < 1e-12, "{}", factor.wind_w);
+        assert!(solve(0.999_999 * factor.value, factor.wind_w, &factor.load).is_ok(), "{}", factor.value);
+        assert!(solve(1.000_01 * factor.value, factor.wind_w, &factor.load).is_err(), "{}", factor.value);
+
+        // Every corner of the box in wind from other directions is held as well.
+        let multiple = 0.999_99 * factor.value;
+        for k in 0..7 {
+            let (sin, cos) = (0.4 + 0.9 * f64::from(k)).sin_cos();
+            let velocity_w = Vec3::new(cos, sin, 0.0) * 20.0;
+            let pressure = 0.5 * robot.wind.air_density * 20.0 * robot.platform.drag_area;
+            let arm_w = pose.rot_wp * robot.platform.center_of_mass_p;
+            let (force_w, corner) = (velocity_w * pressure, box_vertices(60.0, 10.0)[(11 * k as usize) % 64]);
+            let moment_w = arm_w.cross(&force_w);
+            let on_platform = Vec6::new(force_w.x, force_w.y, force_w.z, moment_w.x, moment_w.y, moment_w.z);
+            assert!(solve(multiple, velocity_w, &(corner + on_platform)).is_ok(), "{k}");
+        }
+
+        // One per cent more drag of the ropes is seen, and thin ropes have the load factor without wind on them.
+        let value = |width: f64| {
+            let robot = in_the_open(width);
+            LoadCapacity::at(&robot, &pose, StaticModel::Catenary, None).unwrap().load_factor_value().unwrap()
+        };
+        assert!(value(0.0303) < (1.0 - 1e-5) * factor.value, "{} {}", value(0.0303), factor.value);
+        let (still, thin) = (value(0.0), value(1e-7));
+        assert!((thin / still - 1.0).abs() < 1e-5 && factor.value < still, "{thin} {still}");
+        assert!(capacity.margin().unwrap() * (factor.value - 1.0) > 0.0);
+    }
+}
