@@ -991,7 +991,7 @@ class Robot(Analyses):
         RobotFileError
             The file has no such path, or the value is wrong there.
         """
-    def calibrate(self, /, readings: str | PathLike[str] | Mapping[str, ArrayLike], unknowns: str | Sequence[str] | None = None, *, leave_out: ArrayLike | None = None, hold_anchors: str | Sequence[str] | None = None, frame: str | Sequence[str] | None = None, length_std_m: SupportsFloat | SupportsIndex | None = None, position_std_m: SupportsFloat | SupportsIndex | None = None, tension_std_n: SupportsFloat | SupportsIndex | None = None, prior: Any = None, tension_range_n: ArrayLike | None = None, static_model: StaticModel = "ideal", starts: SupportsIndex | None = None, profile: str | Sequence[str] | None = None, propose: SupportsIndex | None = None, grid: Mapping[str, ArrayLike] | None = None, poses: ArrayLike | None = None, propose_for: str | Sequence[str] | None = None, propose_by: Literal['variances', 'determinant'] = "variances", wanted_std_m: SupportsFloat | SupportsIndex | None = None, tension_rule: TensionRule | None = None, target_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, page: str | PathLike[str] | None = None, figure: str | PathLike[str] | None = None) -> Results:
+    def calibrate(self, /, readings: str | PathLike[str] | Mapping[str, ArrayLike], unknowns: str | Sequence[str] | None = None, *, leave_out: ArrayLike | None = None, hold_anchors: str | Sequence[str] | None = None, frame: str | Sequence[str] | None = None, length_std_m: SupportsFloat | SupportsIndex | None = None, position_std_m: SupportsFloat | SupportsIndex | None = None, rotation_std_deg: SupportsFloat | SupportsIndex | None = None, tension_std_n: SupportsFloat | SupportsIndex | None = None, prior: Any = None, tension_range_n: ArrayLike | None = None, static_model: StaticModel = "ideal", starts: SupportsIndex | None = None, profile: str | Sequence[str] | None = None, propose: SupportsIndex | None = None, grid: Mapping[str, ArrayLike] | None = None, poses: ArrayLike | None = None, propose_for: str | Sequence[str] | None = None, propose_by: Literal['variances', 'determinant'] = "variances", wanted_std_m: SupportsFloat | SupportsIndex | None = None, tension_rule: TensionRule | None = None, target_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, page: str | PathLike[str] | None = None, figure: str | PathLike[str] | None = None) -> Results:
         """
         Calibrates anchors, attachments, offsets and more from readings of lengths at poses that are not known.
 
@@ -1017,6 +1017,9 @@ class Robot(Analyses):
         position_std_m
             Standard deviation of the coordinates x_m, y_m, z_m [m]; with it they are measurements; if not given: they
             only start the search.
+        rotation_std_deg
+            Standard deviation of the angles roll_deg, pitch_deg, yaw_deg [degrees]; with it they are measurements; if
+            not given: they only start the search.
         tension_std_n
             Standard deviation of the measured tensions [N]; 1 if not given.
         prior

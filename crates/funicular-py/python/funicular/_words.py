@@ -19,6 +19,7 @@ Result = Literal[
     "rope-length",
     "rope-mass",
     "stiffness-min",
+    "load-factor",
     "frequencies",
     "damping",
     "response",

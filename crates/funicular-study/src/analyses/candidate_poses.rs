@@ -4,7 +4,7 @@ use crate::at_rest::check_pose;
 use crate::names::suggestion;
 use crate::request::Axis;
 use anyhow::{Result, anyhow, bail};
-use funicular::robot::{Pose, Robot};
+use funicular::robot::{PlatformMotion, Pose, Robot};
 
 /// Names of the axes.
 const AXES: [&str; 6] = ["x", "y", "z", "roll", "pitch", "yaw"];
@@ -77,7 +77,8 @@ fn grid(given: &[Axis]) -> Result<Candidates> {
 }
 
 impl Candidates {
-    /// Poses of the candidates; axes that are not given have the values of `middle`.
+    /// Poses of the candidates; axes that are not given have the values of `middle`, or follow from the plane of a planar
+    /// platform.
     ///
     /// # Errors
     /// A pose that the platform cannot have.
@@ -105,8 +106,16 @@ impl Candidates {
                     .collect();
             }
         }
-        let poses: Vec<Pose> =
-            poses.iter().map(|[x, y, z, roll, pitch, yaw]| Pose::new([*x, *y, *z], [*roll, *pitch, *yaw])).collect();
+        // A planar platform takes the coordinate that the grid leaves out from its plane.
+        let in_plane = |point: [f64; 3]| {
+            let given = [0, 1, 2].map(|k| (!values[k].is_empty()).then_some(point[k]));
+            let PlatformMotion::Planar(plane) = &robot.platform.motion else { return point };
+            plane.point_with(given).map_or(point, Into::into)
+        };
+        let poses: Vec<Pose> = poses
+            .iter()
+            .map(|[x, y, z, roll, pitch, yaw]| Pose::new(in_plane([*x, *y, *z]), [*roll, *pitch, *yaw]))
+            .collect();
         poses.iter().try_for_each(|pose| check_pose(robot, pose))?;
         Ok(poses)
     }

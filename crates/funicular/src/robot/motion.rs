@@ -52,6 +52,10 @@ pub enum OutOfPlane {
 /// counts as in the plane: far above the rounding of angles in degrees, far below any intended deviation.
 const IN_PLANE: f64 = 1e-9;
 
+/// Component of the normal of a plane from which on the plane gives the coordinate along that axis: a millimetre in the
+/// other two is then less than a metre in it.
+const ACROSS: f64 = 1e-3;
+
 impl Plane {
     /// Plane with this normal (of any length), at a distance [m] from the world's origin along it. `None` if the normal
     /// has no direction.
@@ -73,6 +77,21 @@ impl Plane {
     /// Signed distance of a point from the plane, positive along the normal [m].
     pub fn distance(&self, point_w: &Vec3) -> f64 {
         self.normal_w.dot(point_w) - self.offset
+    }
+
+    /// Point in the plane with these coordinates along the world axes [m], of which one may be missing where the plane is
+    /// across its axis; `None` if the plane does not give what is missing.
+    pub fn point_with(&self, given: [Option<f64>; 3]) -> Option<Vec3> {
+        let mut point_w = Vec3::from(given.map(Option::unwrap_or_default));
+        let missing = (0..3).filter(|axis| given[*axis].is_none());
+        match missing.collect::<Vec<_>>()[..] {
+            [] => {}
+            [axis] if self.normal_w[axis].abs() > ACROSS => {
+                point_w[axis] = -self.distance(&point_w) / self.normal_w[axis];
+            }
+            _ => return None,
+        }
+        Some(point_w)
     }
 
     /// Two orthonormal directions in the plane: coordinate axes if the plane contains them.

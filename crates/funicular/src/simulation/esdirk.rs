@@ -61,6 +61,9 @@ const NEWTON_STEPS_OF_OLD_FACTOR: usize = 4;
 /// since it was made, and steps with it go to and fro across the kink, with a contraction of 1. Smooth motion contracts by
 /// 0.1 or less. A change of an older factor that is followed by one so large is taken back.
 const KINK_CONTRACTION: f64 = 0.7;
+/// Step above which a shorter one is tried instead [s]: energy is lost or won where a long step crosses a kink. Strongly damped
+/// ropes go to and fro in steps below 1e-7 s.
+const KINK_STEP: f64 = 1e-6;
 /// Change of the step up to which a factor is kept.
 const FACTOR_CHANGE: f64 = 0.15;
 
@@ -366,6 +369,9 @@ impl Stepper {
                 return Ok(());
             }
             let crosses_kink = follows && self.contraction > KINK_CONTRACTION;
+            if crosses_kink && is_fresh && h > KINK_STEP {
+                break;
+            }
             self.crossed_kink |= crosses_kink;
             if crosses_kink || (round >= NEWTON_STEPS_OF_OLD_FACTOR && !is_fresh) {
                 self.factored = None;

@@ -20,10 +20,6 @@ const MAX_ROWS: usize = 10_000;
 /// a robot is known within a factor of 20, and millimetres are a factor of 1000.
 const OTHER_UNIT: f64 = 20.0;
 
-/// Component of the normal of a plane from which on the plane gives a coordinate that a row does not: a millimetre in
-/// the given ones is then less than a metre in it.
-const ACROSS_PLANE: f64 = 1e-3;
-
 /// Checks a table of readings for a robot.
 ///
 /// # Errors
@@ -146,16 +142,11 @@ fn count(columns: &GappedColumns, lengths: &[LengthColumn]) -> Result<usize, Str
 /// Pose at which a row starts; `None` if a coordinate in which the platform moves is not given.
 fn pose(value: impl Fn(&str) -> Option<f64>, robot: &Robot) -> Result<Option<Pose>, String> {
     let given = [0, 1, 2].map(|axis| value(POSE[axis]));
-    let missing: Vec<usize> = (0..3).filter(|axis| given[*axis].is_none()).collect();
-    let mut position = Vec3::from(given.map(Option::unwrap_or_default));
-    match (&robot.platform.motion, missing.as_slice()) {
-        (_, []) => {}
-        // One coordinate follows from the plane, if it is across it.
-        (PlatformMotion::Planar(plane), [axis]) if plane.normal_w()[*axis].abs() > ACROSS_PLANE => {
-            position[*axis] = -plane.distance(&position) / plane.normal_w()[*axis];
-        }
-        _ => return Ok(None),
-    }
+    let position = match &robot.platform.motion {
+        PlatformMotion::Planar(plane) => plane.point_with(given),
+        _ => given[0].zip(given[1]).zip(given[2]).map(|((x, y), z)| Vec3::new(x, y, z)),
+    };
+    let Some(position) = position else { return Ok(None) };
     let angles = [3, 4, 5].map(|axis| value(POSE[axis]).unwrap_or(0.0));
     let pose = Pose::new(position.into(), angles);
     check_pose(robot, &pose).map_err(|error| error.to_string())?;

@@ -190,3 +190,16 @@ fn measured_poses_calibrate_elastic_cables_without_tensions() {
         assert!((cable.anchor.point_w - truth.anchor.point_w).norm() < 1e-5);
     }
 }
+
+#[test]
+fn a_plane_gives_the_coordinate_that_is_missing() {
+    let leaning = Plane::new(Vec3::new(0.0, -3.0, 4.0), 0.5).unwrap();
+    let point = leaning.point_with([Some(1.0), None, Some(2.0)]).unwrap();
+    // −0.6 y + 0.8 · 2 = 0.5.
+    assert!((point - Vec3::new(1.0, 1.1 / 0.6, 2.0)).norm() < 1e-14, "{point}");
+    // The plane contains the x axis: nothing tells x; two coordinates are too many.
+    assert_eq!(leaning.point_with([None, Some(1.0), Some(2.0)]), None);
+    assert_eq!(leaning.point_with([Some(1.0), None, None]), None);
+    let given = [Some(1.0), Some(2.0), Some(3.0)];
+    assert_eq!(leaning.point_with(given), Some(Vec3::new(1.0, 2.0, 3.0)));
+}
