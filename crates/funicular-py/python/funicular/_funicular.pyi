@@ -1331,7 +1331,7 @@ class Robot(Analyses):
         required_angular_acceleration_rad_s2
             Largest required angular acceleration from rest, both ways about each world axis [rad/s²].
         required_wind_speed_m_s
-            Speed of the required wind from every horizontal direction on the platform [m/s].
+            Speed of the required wind from every horizontal direction, on platform and ropes [m/s].
 
         The other parameters are those of `Robot.equilibrium`.
 
@@ -1391,7 +1391,7 @@ class Robot(Analyses):
         required_angular_acceleration_rad_s2
             Largest required angular acceleration from rest, both ways about each world axis [rad/s²].
         required_wind_speed_m_s
-            Speed of the required wind from every horizontal direction on the platform [m/s].
+            Speed of the required wind from every horizontal direction, on platform and ropes [m/s].
         required_velocity_m_s
             Largest required velocity of the platform origin, both ways along each world axis [m/s].
         required_angular_velocity_rad_s
@@ -1638,7 +1638,7 @@ class Robot(Analyses):
         required_angular_acceleration_rad_s2
             Largest required angular acceleration from rest, both ways about each world axis [rad/s²].
         required_wind_speed_m_s
-            Speed of the required wind from every horizontal direction on the platform [m/s].
+            Speed of the required wind from every horizontal direction, on platform and ropes [m/s].
         required_velocity_m_s
             Largest required velocity of the platform origin, both ways along each world axis [m/s].
         required_angular_velocity_rad_s
@@ -1842,7 +1842,7 @@ class Robot(Analyses):
         required_angular_acceleration_rad_s2
             Largest required angular acceleration from rest, both ways about each world axis [rad/s²].
         required_wind_speed_m_s
-            Speed of the required wind from every horizontal direction on the platform [m/s].
+            Speed of the required wind from every horizontal direction, on platform and ropes [m/s].
         required_velocity_m_s
             Largest required velocity of the platform origin, both ways along each world axis [m/s].
         required_angular_velocity_rad_s

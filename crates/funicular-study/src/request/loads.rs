@@ -32,7 +32,7 @@ declared! {
         required_acceleration_m_s2: Option<[f64; 3]> = None => (Vector).under("Required loads");
         /// Largest required angular acceleration from rest, both ways about each world axis [rad/s²].
         required_angular_acceleration_rad_s2: Option<[f64; 3]> = None => (Vector).under("Required loads");
-        /// Speed of the required wind from every horizontal direction on the platform [m/s].
+        /// Speed of the required wind from every horizontal direction, on platform and ropes [m/s].
         required_wind_speed_m_s: Option<f64> = None => (Number(NotNegative)).under("Required loads");
     }
 }

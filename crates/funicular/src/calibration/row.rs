@@ -30,13 +30,13 @@ impl MeasuredRow {
 /// Standard deviations of the data of all rows, and what is known of the tensions beforehand.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ReadingDeviations {
-    /// Of a reading [m].
+    /// Deviation of a reading [m].
     pub reading: f64,
-    /// Of a measured coordinate of the platform [m].
+    /// Deviation of a measured coordinate of the platform [m].
     pub position: f64,
-    /// Of a measured angle of the platform [rad].
+    /// Deviation of a measured angle of the platform [rad].
     pub angle: f64,
-    /// Of a measured tension [N].
+    /// Deviation of a measured tension [N].
     pub tension: f64,
     /// Tension of elastic cables at the anchor that was not measured, with its standard deviation [N]; `None` if nothing is
     /// known.

@@ -41,6 +41,12 @@ impl Wind {
         across * (0.5 * self.air_density * across.norm())
     }
 
+    /// Drag on a cable per length and drag width [N/m²], as if it were straight along its chord. Coinciding ends have no
+    /// axis; the callers that place cables refuse them.
+    pub(crate) fn drag_along_w(&self, chord_w: &Vec3) -> Vec3 {
+        self.cross_pressure_w(&chord_w.try_normalize(0.0).unwrap_or_else(Vec3::zeros))
+    }
+
     /// Derivative of [`Self::cross_pressure_w`] with respect to the velocity; 3×3, world axes, symmetric [N s/m³].
     pub(crate) fn cross_pressure_by_velocity_w(&self, axis_w: &Vec3) -> Mat3 {
         let normal = Mat3::identity() - axis_w * axis_w.transpose();
@@ -117,9 +123,7 @@ impl Robot {
         }
         let mut total = self.gravity_w * mass + cable.load_per_length_w;
         if drag_width > 0.0 {
-            // Coinciding ends have no axis; the callers that place cables refuse them.
-            let axis = chord_w.try_normalize(0.0).unwrap_or_else(Vec3::zeros);
-            total += self.wind.cross_pressure_w(&axis) * drag_width;
+            total += self.wind.drag_along_w(chord_w) * drag_width;
         }
         let size = total.norm();
         if size > 0.0 { LineLoad { up_w: -total / size, size } } else { LineLoad { up_w: self.up_w(), size } }

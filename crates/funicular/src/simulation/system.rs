@@ -16,7 +16,7 @@ pub(super) const BODY: usize = 6;
 
 /// Jump of a commanded acceleration [m/s²] and of the share of a push from which on it counts as one: far above rounding,
 /// far below gravity.
-const LEAST_JUMP: f64 = 1e-6;
+const MIN_JUMP: f64 = 1e-6;
 
 /// End of a rope at the platform.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -208,9 +208,9 @@ impl System {
         let before = time.next_down();
         let lengths = self.windings.iter().any(|winding| {
             let [before, after] = [before, time].map(|at| winding.at(at));
-            (after.acceleration - before.acceleration).abs() > LEAST_JUMP
+            (after.acceleration - before.acceleration).abs() > MIN_JUMP
         });
-        lengths || self.body.pushes.iter().any(|push| (push.share(time) - push.share(before)).abs() > LEAST_JUMP)
+        lengths || self.body.pushes.iter().any(|push| (push.share(time) - push.share(before)).abs() > MIN_JUMP)
     }
 
     /// True if a winch has a length to follow between two times.

@@ -586,16 +586,22 @@ fn an_encoder_that_counts_down_is_named() {
     assert!(cable == 1 && (chi2 - 4.3091526).abs() < 1e-3, "{cable} {chi2}");
 }
 
+/// Rigid platform on eight elastic, sagging cables.
+fn on_ropes() -> Robot {
+    let mut made = robot("rigid", &RIGID_START, &RIGID_ATTACHMENTS);
+    made.platform.mass = 40.0;
+    for cable in &mut made.cables {
+        cable.material.axial_stiffness = 2e5;
+        cable.material.mass_per_length = 0.05;
+    }
+    made
+}
+
 /// Eight elastic cables around a rigid platform, whose lengths and tensions are those of equilibria with noise.
 #[test]
 fn a_rigid_platform_on_elastic_cables_is_calibrated_with_tensions() {
     let mut draws = Draws(41);
-    let mut truth = robot("rigid", &RIGID_START, &RIGID_ATTACHMENTS);
-    truth.platform.mass = 40.0;
-    for cable in &mut truth.cables {
-        cable.material.axial_stiffness = 2e5;
-        cable.material.mass_per_length = 0.05;
-    }
+    let truth = on_ropes();
     let mut rows = Vec::new();
     while rows.len() < 60 {
         let place = [3.0 + draws.within(1.2), 2.5 + draws.within(1.0), 1.6 + draws.within(0.7)];

@@ -122,9 +122,8 @@ impl<'a> LoadCapacity<'a> {
     fn in_wind(&self, wind: &Wind, multiple: f64) -> Result<LoadCapacity<'a>, StaticsError> {
         let mut loaded = self.loaded.clone().into_owned();
         for cable in &mut loaded.cables {
-            let axis_w = cable.chord_w(&self.pose).try_normalize(0.0).unwrap_or_else(Vec3::zeros);
             let width = cable.material.drag_width.unwrap_or(0.0) * multiple;
-            cable.load_per_length_w += wind.cross_pressure_w(&axis_w) * width;
+            cable.load_per_length_w += wind.drag_along_w(&cable.chord_w(&self.pose)) * width;
         }
         loaded.required.wind_speed = 0.0;
 

@@ -158,12 +158,7 @@ fn a_tracker_fixes_the_frames_of_the_world_and_of_the_platform() {
 #[test]
 fn measured_poses_calibrate_elastic_cables_without_tensions() {
     let mut draws = Draws(47);
-    let mut truth = robot("rigid", &RIGID_START, &RIGID_ATTACHMENTS);
-    truth.platform.mass = 40.0;
-    for cable in &mut truth.cables {
-        cable.material.axial_stiffness = 2e5;
-        cable.material.mass_per_length = 0.05;
-    }
+    let truth = on_ropes();
     let mut rows = Vec::new();
     for pose in rigid_poses(60, 10.0, &mut draws) {
         let lengths: Vec<f64> =
