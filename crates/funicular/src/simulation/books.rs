@@ -38,6 +38,12 @@ impl EnergyBooks {
         self.at_start
     }
 
+    /// Energy that moves now, and that came and went since the start [J]: what an error of the energy is compared with.
+    pub fn moved(&self) -> f64 {
+        let Self { kinetic, winches, loads, payloads, dissipated, .. } = self;
+        kinetic + winches.abs() + loads.abs() + payloads.abs() + dissipated
+    }
+
     /// What the books are off by [J]: energy that only the errors of mesh and steps explain.
     pub fn defect(&self) -> f64 {
         self.total() - self.at_start - self.winches - self.loads - self.payloads + self.dissipated

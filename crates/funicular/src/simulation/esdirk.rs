@@ -61,9 +61,8 @@ const NEWTON_STEPS_OF_OLD_FACTOR: usize = 4;
 /// since it was made, and steps with it go to and fro across the kink, with a contraction of 1. Smooth motion contracts by
 /// 0.1 or less. A change of an older factor that is followed by one so large is taken back.
 const KINK_CONTRACTION: f64 = 0.7;
-/// Step above which a shorter one is tried instead [s]: energy is lost or won where a long step crosses a kink. Strongly damped
-/// ropes go to and fro in steps below 1e-7 s.
-const KINK_STEP: f64 = 1e-6;
+/// Part of a step that failed that is tried next.
+const SHORTER: f64 = 0.4;
 /// Change of the step up to which a factor is kept.
 const FACTOR_CHANGE: f64 = 0.15;
 
@@ -229,15 +228,14 @@ impl Stepper {
         Ok(())
     }
 
-    /// One step of at most `longest` [s], at most to `until`; returns how the motion went in between. What is commanded may
-    /// jump at `until`, not before.
-    pub(super) fn advance(&mut self, until: f64, longest: f64) -> Result<DenseOutput, TooFast> {
+    /// One step, at most to `until`; returns how the motion went in between. What is commanded may jump at `until`, not
+    /// before.
+    pub(super) fn advance(&mut self, until: f64) -> Result<DenseOutput, TooFast> {
         if self.roll_wheels(Rolling::Between) {
             self.accelerate()?;
         }
         loop {
             let left = until - self.time;
-            self.step = self.step.min(longest);
             // The rest is gone in one step, or in two of one length.
             let ends = self.step >= 0.999_999 * left;
             let h = if ends {
@@ -265,13 +263,32 @@ impl Stepper {
                 Err(NotSolved) => {
                     self.counts.rejected += 1;
                     self.factored = None;
-                    self.step = 0.4 * h;
+                    self.step = SHORTER * h;
                 }
             }
             if self.step < LEAST_STEP || self.step.is_nan() {
                 return Err(TooFast { time: self.time });
             }
         }
+    }
+
+    /// Goes back to a time within the last step.
+    pub(super) fn go_back(&mut self, dense: &DenseOutput, time: f64) {
+        self.system.rotation = dense.rotation;
+        dense.at(time, &mut self.now);
+        self.time = time;
+        self.absorb_turn();
+        let lengths = self.system.lengths(time);
+        self.evaluate(&lengths);
+    }
+
+    /// Goes back to the beginning of the last step, to try a shorter one.
+    pub(super) fn take_back(&mut self, dense: &DenseOutput) {
+        self.go_back(dense, dense.from);
+        self.counts.accepted -= 1;
+        self.counts.rejected += 1;
+        self.step = SHORTER * (dense.until - dense.from);
+        self.factored = None;
     }
 
     fn accept(&mut self, h: f64, until: f64, error: f64, ends: bool) -> DenseOutput {
@@ -293,7 +310,6 @@ impl Stepper {
         let dense = DenseOutput::new(time, self.time, rotation, before, self.now.clone());
         self.absorb_turn();
         self.evaluate(&lengths);
-        self.follow_tangents(&lengths, h);
         self.counts.evaluations = self.system.evaluations;
         dense
     }
@@ -369,9 +385,6 @@ impl Stepper {
                 return Ok(());
             }
             let crosses_kink = follows && self.contraction > KINK_CONTRACTION;
-            if crosses_kink && is_fresh && h > KINK_STEP {
-                break;
-            }
             self.crossed_kink |= crosses_kink;
             if crosses_kink || (round >= NEWTON_STEPS_OF_OLD_FACTOR && !is_fresh) {
                 self.factored = None;

@@ -21,8 +21,13 @@ const SLACK: f64 = SlackCable::TENSION;
 /// Parts of a step in which a rope went slack or taut, for its work.
 const KINK_PARTS: usize = 8;
 
-/// Steps of a command of lengths, at least: ropes without mass on a held platform would need none, but their work does.
-const STEPS_OF_COMMAND: f64 = 32.0;
+/// Energy that the books of a step may not explain, over the energy that has moved so far, …
+const MAX_DEFECT: f64 = 1e-4;
+/// … and over the weight times the tolerance, which is enough. Smooth motion leaves less; ropes that go slack or taut within
+/// a step leave more, and so does a command that a long step passes over.
+const SMALL_DEFECT: f64 = 1e-3;
+/// Longest step that may leave more [s]: strongly damped ropes go to and fro in shorter ones.
+const DEFECT_STEP: f64 = 1e-6;
 
 /// One cable at one time.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -278,21 +283,46 @@ impl Simulation {
         let now = self.stepper.time;
         let next = self.breaks.partition_point(|at| *at <= now);
         let until = self.breaks.get(next).copied().unwrap_or(now + 1.0);
-        let since = next.checked_sub(1).map_or(0.0, |before| self.breaks[before]);
-        let is_winding = self.stepper.system.is_winding(now, until);
-        let longest = if is_winding { (until - since) / STEPS_OF_COMMAND } else { f64::INFINITY };
-        let dense = self.stepper.advance(until, longest).map_err(|of| self.too_fast(of.time))?;
+        let dense = self.stepper.advance(until).map_err(|of| self.too_fast(of.time))?;
         if let Some((event, cable, time)) = self.blown(&dense) {
             // Back to the time at which the cable fails.
-            self.rewind(&dense, time);
+            self.stepper.go_back(&dense, time);
             self.book(dense, time);
+            self.follow();
             self.cut(event, cable)?;
             self.fuses.retain(|fuse| fuse.0 != event);
             return self.begin();
         }
-        let until = dense.until;
+        let (until, books, powers) = (dense.until, self.books, self.powers);
         self.book(dense, until);
+        if self.is_too_long(&books) {
+            if let Some((dense, ..)) = self.last.take() {
+                self.stepper.take_back(&dense);
+            }
+            (self.books, self.powers) = (books, powers);
+            return Ok(());
+        }
+        self.follow();
         Ok(())
+    }
+
+    /// True if the last step left an error of the energy that a shorter one would not leave. `before` are the books at
+    /// its beginning.
+    fn is_too_long(&self, before: &EnergyBooks) -> bool {
+        let Some((dense, ..)) = self.last.as_ref() else { return false };
+        let body = &self.stepper.system.body;
+        let least = SMALL_DEFECT * self.settings.tolerance * body.mass * body.gravity_w.norm();
+        let scale = least.max(MAX_DEFECT * self.books.moved());
+        let defect = (self.books.defect() - before.defect()).abs();
+        dense.until - dense.from > DEFECT_STEP && defect > scale
+    }
+
+    /// Follows what depends on whole steps: wheels that roll, and cables that are slack.
+    fn follow(&mut self) {
+        let Some(from) = self.last.as_ref().map(|(dense, ..)| dense.from) else { return };
+        let lengths = self.stepper.system.lengths(self.stepper.time);
+        self.stepper.follow_tangents(&lengths, self.stepper.time - from);
+        self.note_slack(from, &lengths);
     }
 
     /// Powers within a step.
@@ -320,8 +350,6 @@ impl Simulation {
         let halfway = if let [middle] = between[..] { middle } else { halfway_of_mean(&first, &between, &last) };
         let powers = StepPowers { at: [first, halfway, last], duration: until - dense.from };
         self.books = with_work(&self.books, powers.work(1.0));
-        let lengths = self.stepper.system.lengths(self.stepper.time);
-        self.note_slack(dense.from, &lengths);
         self.last = Some((dense, powers, before));
     }
 
@@ -372,19 +400,6 @@ impl Simulation {
         }
         self.needed = needed;
         Some((event, cable, above))
-    }
-
-    /// Takes the stepper back to a time within its last step.
-    fn rewind(&mut self, dense: &DenseOutput, time: f64) {
-        let stepper = &mut self.stepper;
-        stepper.system.rotation = dense.rotation;
-        dense.at(time, &mut stepper.now);
-        let turn = Vec3::from_column_slice(&stepper.now.x[3..BODY]);
-        stepper.system.rotation = stepper.system.rotation_at(&turn);
-        stepper.now.x[3..BODY].fill(0.0);
-        stepper.time = time;
-        let lengths = stepper.system.lengths(time);
-        stepper.evaluate(&lengths);
     }
 
     /// Tensions of a cable at the platform and at its anchor [N].

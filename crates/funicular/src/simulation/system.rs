@@ -213,11 +213,6 @@ impl System {
         lengths || self.body.pushes.iter().any(|push| (push.share(time) - push.share(before)).abs() > MIN_JUMP)
     }
 
-    /// True if a winch has a length to follow between two times.
-    pub(super) fn is_winding(&self, from: f64, until: f64) -> bool {
-        self.windings.iter().any(|winding| winding.is_changing(from, until))
-    }
-
     /// Commanded lengths of all ropes at a time.
     pub(super) fn lengths(&self, time: f64) -> Vec<WoundLength> {
         self.windings.iter().map(|winding| winding.at(time)).collect()

@@ -86,11 +86,6 @@ impl Winding {
         }
     }
 
-    /// True if a change goes on at some time between two times.
-    pub(super) fn is_changing(&self, from: f64, until: f64) -> bool {
-        self.changes.iter().any(|change| change.from < until && change.until > from)
-    }
-
     /// Times at which a change begins or ends [s].
     pub(super) fn breaks(&self) -> impl Iterator<Item = f64> + '_ {
         self.changes.iter().flat_map(|change| [change.from, change.until])

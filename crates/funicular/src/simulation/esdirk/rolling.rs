@@ -22,7 +22,7 @@ pub(super) enum Rolling {
 
 impl Stepper {
     /// Follows how far the ropes leave their wheels off their tangents, without the fast waves of their ends.
-    pub(super) fn follow_tangents(&mut self, lengths: &[WoundLength], duration: f64) {
+    pub(in crate::simulation) fn follow_tangents(&mut self, lengths: &[WoundLength], duration: f64) {
         for (i, given) in lengths.iter().enumerate() {
             if self.system.far_ends[i].as_ref().is_none_or(|far| far.contact.is_none()) {
                 continue;

@@ -108,7 +108,7 @@ fn simulate(index: u64) -> Result<Finished, Refused> {
             return Err(Refused::Wrong(format!("{steps} steps up to {} s", found.time)));
         }
         defect = defect.max(found.energy.defect());
-        scale = scale.max(changed_hands(&found.energy));
+        scale = scale.max(found.energy.moved());
     }
     let defect = defect / scale.max(1e-6 * sample.robot.platform.mass);
     if defect > MAX_DEFECT {
@@ -123,11 +123,6 @@ fn simulate(index: u64) -> Result<Finished, Refused> {
 fn kind(message: &str) -> String {
     let words = message.split_whitespace().filter(|word| !word.contains(|c: char| c.is_ascii_digit()));
     words.take(9).collect::<Vec<_>>().join(" ")
-}
-
-/// Energy that moved, and work that was done [J].
-fn changed_hands(books: &EnergyBooks) -> f64 {
-    books.kinetic + books.winches.abs() + books.loads.abs() + books.payloads.abs() + books.dissipated
 }
 
 fn is_finite(of: &RobotSample) -> bool {
