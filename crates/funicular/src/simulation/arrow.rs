@@ -4,7 +4,7 @@ use super::body::{BodyMotion, halves, joined};
 use super::far_border::FarBorder;
 use super::far_end::FarEnd;
 use super::rope::{Newton, RopeMesh, WoundLength};
-use super::side_by_side::FactorPack;
+use super::side_by_side::{FactorPack, RopesInMotion};
 use super::skyline::{NotPositive, Profile3, Skyline};
 use super::system::{MotionNumbers, RopeEnd, System, six, three};
 use crate::math::{DMat, DVec, Mat3, Mat6, Vec3, inverse6, skew};
@@ -73,14 +73,21 @@ impl Arrow {
         let mut matrix = system.body.matrix(&body, of.mass, of.damping, of.stiffness);
         let mut of_supports = supports_alone(system, of);
         self.supports.by_body.fill(0.0);
-        for (i, given) in lengths.iter().enumerate() {
-            if system.ends[i] != RopeEnd::Gone {
-                let kept = self.factor_rope((system, i), (time, given), m, needed, of)?;
+        let free: Vec<WoundLength> = (0..lengths.len()).map(|i| system.free_length(i, &lengths[i], m)).collect();
+        let packs = self.factor_ropes(system, time, &free, m, of)?;
+        for pack in &packs {
+            for (lane, i) in pack.ropes.iter().copied().enumerate() {
+                let mut kept = Mat6::zeros();
+                kept.fixed_view_mut::<3, 3>(0, 0).copy_from(&pack.complement(&self.factors[i], lane));
+                if let Some(far) = &mut self.borders[i] {
+                    pack.copy(lane, &mut self.factors[i]);
+                    kept += far.factor((system, i), (time, &lengths[i]), m, needed, of, &self.factors[i])?;
+                }
                 let force_w = three(needed, system.offsets[i]);
                 self.add_rope((system, i), &body, &kept, force_w, of, (&mut matrix, &mut of_supports));
             }
         }
-        self.packs = FactorPack::of(&system.ropes, |i| system.ends[i] == RopeEnd::Gone, &self.factors);
+        self.packs = packs;
         if !system.supports.is_empty() {
             self.supports.inverse = of_supports.try_inverse().ok_or(NotPositive)?;
             let lost = self.supports.by_body.transpose() * &self.supports.inverse * &self.supports.by_body;
@@ -90,27 +97,34 @@ impl Arrow {
         Ok(())
     }
 
-    /// Factors the matrix of rope `i` with its far end; the result is what end (first three) and support keep.
-    fn factor_rope(
+    /// Factors of the ropes alone, whose free lengths are `free`.
+    fn factor_ropes(
         &mut self,
-        (system, i): (&System, usize),
-        (time, given): (f64, &WoundLength),
+        system: &System,
+        time: f64,
+        free: &[WoundLength],
         m: &MotionNumbers,
-        needed: &[f64],
         of: Newton,
-    ) -> Result<Mat6, NotPositive> {
-        let (rope, range) = (&system.ropes[i], system.of_rope(i));
-        let (wind, free) = (system.air.on_rope(i, time), system.free_length(i, given, m));
-        let factor = &mut self.factors[i];
-        rope.assemble(&free, &wind, &m.x[range.clone()], &m.v[range], of, factor);
-
-        let mut kept = Mat6::zeros();
-        let mut view = kept.fixed_view_mut::<3, 3>(0, 0);
-        view += factor.factor(system.ends[i] == RopeEnd::Attached)?;
-        if let Some(far) = &mut self.borders[i] {
-            kept += far.factor((system, i), (time, given), m, needed, of, factor)?;
+    ) -> Result<Vec<FactorPack>, NotPositive> {
+        for (factor, end) in self.factors.iter_mut().zip(&system.ends) {
+            factor.keep_end(*end == RopeEnd::Attached);
         }
-        Ok(kept)
+        let on_node = |(i, rope): (usize, &RopeMesh)| rope.on_node(system.air.on_rope(i, time).first(), of);
+        let on_nodes: Vec<f64> = system.ropes.iter().enumerate().map(on_node).collect();
+        let ropes = RopesInMotion {
+            ropes: &system.ropes,
+            offsets: &system.offsets,
+            lengths: free,
+            on_nodes: &on_nodes,
+            motion: [&m.x, &m.v],
+        };
+
+        let mut packs = FactorPack::of(&system.ropes, |i| system.ends[i] == RopeEnd::Gone, &self.factors);
+        for pack in &mut packs {
+            pack.assemble(&self.factors, &ropes, of);
+            pack.factor(&self.factors)?;
+        }
+        Ok(packs)
     }
 
     /// Adds what end and support of rope `i` keep to the matrices of platform and supports. `force_w` is the force that

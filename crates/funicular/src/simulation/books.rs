@@ -58,14 +58,6 @@ pub(super) struct Powers {
     pub(super) dissipation: f64,
 }
 
-impl Powers {
-    /// Sum of powers with weights.
-    pub(super) fn sum(weighted: &[(f64, Self)]) -> Self {
-        let of = |power: fn(&Self) -> f64| weighted.iter().map(|(weight, at)| weight * power(at)).sum();
-        Self { winches: of(|p| p.winches), loads: of(|p| p.loads), dissipation: of(|p| p.dissipation) }
-    }
-}
-
 /// Powers at the ends and in the middle of a step, whose integral is its work.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct StepPowers {

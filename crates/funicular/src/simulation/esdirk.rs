@@ -107,8 +107,6 @@ pub(super) struct Stepper {
     work: MotionNumbers,
     /// Last change of Newton's method.
     change: Vec<f64>,
-    /// True if the last step made a factor anew because a rope went slack or taut.
-    pub(super) crossed_kink: bool,
 }
 
 /// A stage that Newton's method did not solve.
@@ -133,7 +131,6 @@ impl Stepper {
             stages: vec![MotionNumbers::zeros(size); STAGES],
             work: MotionNumbers::zeros(size),
             change: vec![0.0; size],
-            crossed_kink: false,
             system,
         }
     }
@@ -319,7 +316,6 @@ impl Stepper {
         if self.factored.is_none_or(|of| (h / of - 1.0).abs() > FACTOR_CHANGE) {
             self.factored = None;
         }
-        self.crossed_kink = false;
         // Rates of the position are kept in the place of the positions; those of the turn differ from the velocity.
         self.stages[0].v.copy_from_slice(&self.now.v);
         self.stages[0].a.copy_from_slice(&self.now.a);
@@ -385,7 +381,6 @@ impl Stepper {
                 return Ok(());
             }
             let crosses_kink = follows && self.contraction > KINK_CONTRACTION;
-            self.crossed_kink |= crosses_kink;
             if crosses_kink || (round >= NEWTON_STEPS_OF_OLD_FACTOR && !is_fresh) {
                 self.factored = None;
             }

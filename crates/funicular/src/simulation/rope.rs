@@ -4,6 +4,7 @@
 //! changes. Nodes are stored one after the other, three numbers each, with the anchor last.
 
 use super::basis::ElementBasis;
+#[cfg(test)]
 use super::skyline::Skyline;
 use crate::math::{Mat3, Vec3};
 use crate::robot::Wind;
@@ -442,11 +443,18 @@ impl RopeMesh {
         along(self.basis.at_node(self.basis.degree), &x[nodes]) * (self.elements as f64 / length.value)
     }
 
+    /// Factor of each node in the Newton matrix over its length: inertia and the damping of its motion.
+    pub(super) fn on_node(&self, wind: Option<&Wind>, of: Newton) -> f64 {
+        let drag = wind.map_or(0.0, |wind| self.drag_width * wind.air_density * wind.velocity_w.norm());
+        self.mass * of.mass + (self.viscous + drag) * of.damping
+    }
+
     /// Adds the Newton matrix of the rope: the derivative of the needed forces by the velocities of a stage, without the
     /// terms of the winch and the turn of the damping.
     ///
     /// # References
     /// docs/theory.md, equation (97h).
+    #[cfg(test)]
     pub(super) fn assemble(
         &self,
         length: &WoundLength,
@@ -460,8 +468,7 @@ impl RopeMesh {
         let (free, degree) = (self.last(), self.basis.degree);
         let share = length.value / self.elements as f64;
         let per_length = self.elements as f64 / length.value;
-        let drag = winds.first().map_or(0.0, |wind| self.drag_width * wind.air_density * wind.velocity_w.norm());
-        let on_node = self.mass * of.mass + (self.viscous + drag) * of.damping;
+        let on_node = self.on_node(winds.first(), of);
 
         for e in 0..self.elements {
             let nodes = self.of_element(e);

@@ -18,9 +18,6 @@ mod state;
 
 const SLACK: f64 = SlackCable::TENSION;
 
-/// Parts of a step in which a rope went slack or taut, for its work.
-const KINK_PARTS: usize = 8;
-
 /// Energy that the books of a step may not explain, over the energy that has moved so far, …
 const MAX_DEFECT: f64 = 1e-4;
 /// … and over the weight times the tolerance, which is enough. Smooth motion leaves less; ropes that go slack or taut within
@@ -338,16 +335,12 @@ impl Simulation {
     /// Enters a step into the books, up to a time at which the stepper is.
     fn book(&mut self, dense: DenseOutput, until: f64) {
         let before = self.books;
-        let parts = if self.stepper.crossed_kink { KINK_PARTS } else { 2 };
         let first = self.powers;
-        let mut inside = |part: f64| self.powers_at(&dense, dense.from + part * (until - dense.from));
-        let between: Vec<Powers> = (1..parts).map(|k| inside(k as f64 / parts as f64)).collect();
+        let halfway = self.powers_at(&dense, 0.5 * (dense.from + until));
         // Where a push begins or ends, the step knows the power before it, the next one that after it.
         let at_jump = self.stepper.system.jumps_at(until).then(|| self.powers_at(&dense, until.next_down()));
         self.take_energy();
         let last = at_jump.unwrap_or(self.powers);
-        // Powers have kinks there: the middle is that with whose parabola the work is that of many parts.
-        let halfway = if let [middle] = between[..] { middle } else { halfway_of_mean(&first, &between, &last) };
         let powers = StepPowers { at: [first, halfway, last], duration: until - dense.from };
         self.books = with_work(&self.books, powers.work(1.0));
         self.last = Some((dense, powers, before));
@@ -497,16 +490,6 @@ impl Simulation {
 
 fn of_event(faulty: Faulty) -> SimulationError {
     SimulationError::Event { event: faulty.event, fault: faulty.fault }
-}
-
-/// Power in the middle of a parabola through powers at both ends whose mean is that of a step in parts.
-fn halfway_of_mean(first: &Powers, between: &[Powers], last: &Powers) -> Powers {
-    let part = 1.0 / (between.len() + 1) as f64;
-    // The mean by trapezoids, and Simpson's rule solved for the middle.
-    let ends = 0.25 * (3.0 * part - 1.0);
-    let mut weighted = vec![(ends, *first), (ends, *last)];
-    weighted.extend(between.iter().map(|power| (1.5 * part, *power)));
-    Powers::sum(&weighted)
 }
 
 /// Books with the present energy.

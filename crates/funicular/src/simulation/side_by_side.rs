@@ -1,13 +1,16 @@
-//! Ropes of one mesh side by side, one in each lane of the processor's vectors: their inner forces, and the
-//! substitutions of Newton's method. What is done once per factor, per rope or per wind stays in [`RopeMesh`] and
-//! [`Skyline`], which are the oracle of what is here.
+//! Ropes of one mesh side by side, one in each lane of the processor's vectors: their inner forces and the factors of
+//! Newton's method. What is done per rope or per wind stays in [`RopeMesh`]. It and [`Skyline`] are the oracle of what is
+//! here.
+//!
+//! [`Skyline`]: super::skyline::Skyline
+
+mod factor;
+
+pub(super) use factor::{FactorPack, RopesInMotion};
 
 use super::rope::{FOLDED, RopeMesh, WoundLength};
-use super::skyline::Skyline;
-use crate::math::Vec3;
 use crate::math::simd::{LANES, Lanes, Line, Part};
 use pulp::{Arch, Simd, WithSimd};
-use std::array::from_fn;
 
 /// Members of a list in packs of at most as many as there are lanes; those of a pack have one key.
 fn packs<K: PartialEq>(keys: impl Iterator<Item = Option<K>>) -> Vec<Vec<usize>> {
@@ -42,18 +45,38 @@ struct StretchLaw {
     relative_rate: Line,
 }
 
+impl StretchLaw {
+    /// Law of these ropes, without their lengths.
+    fn of(ropes: &[RopeMesh], lanes: &[usize]) -> Self {
+        let mut law = Self::default();
+        for (lane, i) in lanes.iter().enumerate() {
+            law.set_rope(lane, &ropes[*i]);
+        }
+        law
+    }
+
+    fn set_rope(&mut self, lane: usize, rope: &RopeMesh) {
+        self.stiffness[lane] = rope.stiffness;
+        self.damping_time[lane] = rope.damping_time;
+    }
+
+    fn set_length(&mut self, lane: usize, rope: &RopeMesh, length: &WoundLength) {
+        self.per_length[lane] = rope.elements as f64 / length.value;
+        self.relative_rate[lane] = length.rate / length.value;
+    }
+
+    fn is_damped(&self) -> bool {
+        self.damping_time.iter().any(|time| *time > 0.0)
+    }
+}
+
 impl RopePack {
     /// All ropes in packs.
     pub(super) fn of(ropes: &[RopeMesh]) -> Vec<Self> {
         let packs = packs(ropes.iter().map(|rope| Some((rope.elements, rope.basis.degree))));
         let pack = |of: Vec<usize>| {
             let size = ropes[of[0]].size();
-            let mut law = StretchLaw::default();
-            for (lane, i) in of.iter().enumerate() {
-                law.stiffness[lane] = ropes[*i].stiffness;
-                law.damping_time[lane] = ropes[*i].damping_time;
-            }
-            Self { ropes: of, law, x: zeros(size), v: zeros(size), forces: zeros(size) }
+            Self { law: StretchLaw::of(ropes, &of), ropes: of, x: zeros(size), v: zeros(size), forces: zeros(size) }
         };
         packs.into_iter().map(pack).collect()
     }
@@ -69,11 +92,9 @@ impl RopePack {
         out: &mut [f64],
     ) {
         let rope = &ropes[self.ropes[0]];
-        let is_damped = self.law.damping_time.iter().any(|time| *time > 0.0);
+        let is_damped = self.law.is_damped();
         for (lane, i) in self.ropes.iter().enumerate() {
-            let length = &lengths[*i];
-            self.law.per_length[lane] = rope.elements as f64 / length.value;
-            self.law.relative_rate[lane] = length.rate / length.value;
+            self.law.set_length(lane, rope, &lengths[*i]);
             gather(&x[offsets[*i]..], lane, &mut self.x);
             if is_damped {
                 gather(&v[offsets[*i]..], lane, &mut self.v);
@@ -138,7 +159,9 @@ fn of_element<S: Simd>(
 ) {
     for (g, weight) in rope.basis.gauss_weights.iter().enumerate() {
         let slopes = rope.basis.at_gauss(g);
-        let force = part.of_point(law, along(part, slopes, x), v.map(|v| along(part, slopes, v)), *weight);
+        let of = part.stretch(law, along(part, slopes, x), v.map(|v| along(part, slopes, v)));
+        let factor = part.mul(part.mul(of.tension, of.inverse), part.splat(*weight));
+        let force = of.slope.map(|slope| part.mul(slope, factor));
         for (slope, out) in slopes.iter().zip(out.chunks_exact_mut(3)) {
             let slope = part.splat(*slope);
             for (out, force) in out.iter_mut().zip(force) {
@@ -162,19 +185,26 @@ fn along<S: Simd>(part: Part<S>, slopes: &[f64], values: &[Line]) -> [S::f64s; 3
     sums
 }
 
+/// Ropes at one Gauss point.
+struct Stretched<S: Simd> {
+    /// Change of the place per unstrained length.
+    slope: [S::f64s; 3],
+    /// One over the ratio of lengths.
+    inverse: S::f64s,
+    /// Damping time, which fades where a rope folds [s].
+    damping_time: S::f64s,
+    /// Tension [N], not negative.
+    tension: S::f64s,
+}
+
 impl<S: Simd> Part<S> {
-    /// Force of a Gauss point times its weight.
+    /// Stretch at a Gauss point, where the place changes with σ by `slope`, and the velocity by `slope_rate` if the ropes are
+    /// damped.
     ///
     /// # References
     /// docs/theory.md, equations (97a) and (97e).
     #[inline(always)]
-    fn of_point(
-        self,
-        law: &StretchLaw,
-        slope: [S::f64s; 3],
-        slope_rate: Option<[S::f64s; 3]>,
-        weight: f64,
-    ) -> [S::f64s; 3] {
+    fn stretch(self, law: &StretchLaw, slope: [S::f64s; 3], slope_rate: Option<[S::f64s; 3]>) -> Stretched<S> {
         let simd = self.simd;
         let per_length = self.of(&law.per_length);
         let dot = |a: [S::f64s; 3], b: [S::f64s; 3]| self.plus(a[0], b[0], self.plus(a[1], b[1], self.mul(a[2], b[2])));
@@ -183,225 +213,28 @@ impl<S: Simd> Part<S> {
         // A point of the rope that has folded onto itself has no tangent and no tension.
         let inverse = self.inverse(simd.max_f64s(ratio, self.splat(f64::MIN_POSITIVE)));
         let mut strain = simd.sub_f64s(ratio, self.splat(1.0));
+        let mut damping_time = self.splat(0.0);
         if let Some(slope_rate) = slope_rate {
             let along = self.mul(self.mul(dot(slope_rate, slope), per_length), inverse);
             let rate = simd.sub_f64s(along, self.mul(ratio, self.of(&law.relative_rate)));
             let fold = simd.min_f64s(self.mul(ratio, self.splat(1.0 / FOLDED)), self.splat(1.0));
-            let damping_time = self.mul(self.of(&law.damping_time), fold);
+            damping_time = self.mul(self.of(&law.damping_time), fold);
             strain = self.plus(damping_time, rate, strain);
         }
         let tension = simd.max_f64s(self.mul(self.of(&law.stiffness), strain), self.splat(0.0));
-        let factor = self.mul(self.mul(tension, inverse), self.splat(weight));
-        slope.map(|of| self.mul(of, factor))
-    }
-}
-
-/// Factors of up to eight ropes of one mesh, all with a last node that is kept or all without, and their right-hand sides.
-pub(super) struct FactorPack {
-    /// Ropes in the lanes.
-    pub(super) ropes: Vec<usize>,
-    /// Entries of the factors in the order of a [`Skyline`].
-    values: Lanes,
-    /// Right-hand side in the order of the rows.
-    rows: Lanes,
-    /// What the kept last nodes receive of the right-hand side, and then their motion.
-    end: [Line; 3],
-}
-
-impl FactorPack {
-    /// Factored matrices in packs, without those of ropes that are gone.
-    pub(super) fn of(ropes: &[RopeMesh], is_gone: impl Fn(usize) -> bool, factors: &[Skyline]) -> Vec<Self> {
-        let key = |(i, rope): (usize, &RopeMesh)| {
-            (!is_gone(i)).then_some((rope.elements, rope.basis.degree, factors[i].keeps_end()))
-        };
-        let pack = |of: Vec<usize>| {
-            let (entries, rows) = (factors[of[0]].values.len(), factors[of[0]].rows());
-            let (mut values, mut right) = (Lanes::any(entries), Lanes::any(rows));
-            right.fill(Line::ZERO);
-            // Lanes without a rope must not hold numbers that are none.
-            if of.len() < LANES {
-                values.fill(Line::ZERO);
-            }
-            for (lane, i) in of.iter().enumerate() {
-                gather(&factors[*i].values, lane, &mut values);
-            }
-            Self { ropes: of, values, rows: right, end: [Line::ZERO; 3] }
-        };
-        packs(ropes.iter().enumerate().map(key)).into_iter().map(pack).collect()
-    }
-
-    /// Sets the right-hand side of a lane from numbers of nodes, the platform's first.
-    pub(super) fn put(&mut self, lane: usize, nodes: &[f64]) {
-        for (rows, node) in self.rows.rchunks_exact_mut(3).zip(nodes.chunks_exact(3)) {
-            for (row, number) in rows.iter_mut().zip(node) {
-                row[lane] = *number;
-            }
-        }
-    }
-
-    /// Takes the numbers of nodes of a lane out, the platform's first.
-    pub(super) fn take(&self, lane: usize, nodes: &mut [f64]) {
-        for (rows, node) in self.rows.rchunks_exact(3).zip(nodes.chunks_exact_mut(3)) {
-            for (row, number) in rows.iter().zip(node) {
-                *number = -row[lane];
-            }
-        }
-    }
-
-    /// Right-hand side of a lane in the order of the rows.
-    pub(super) fn rows_of(&self, lane: usize, rows: &mut Vec<f64>) {
-        rows.clear();
-        rows.extend(self.rows.iter().map(|line| line[lane]));
-    }
-
-    /// Sets the right-hand side of a lane in the order of the rows.
-    pub(super) fn set_rows(&mut self, lane: usize, rows: &[f64]) {
-        gather(rows, lane, &mut self.rows);
-    }
-
-    /// What the kept last node of a lane has received, or its motion.
-    pub(super) fn received(&self, lane: usize) -> Vec3 {
-        Vec3::from_fn(|axis, _| self.end[axis][lane])
-    }
-
-    /// Sets the motion of the kept last node of a lane.
-    pub(super) fn set_end(&mut self, lane: usize, end: &Vec3) {
-        for axis in 0..3 {
-            self.end[axis][lane] = end[axis];
-        }
-    }
-
-    /// [`Skyline::forward`] of all lanes.
-    pub(super) fn forward(&mut self, factors: &[Skyline]) {
-        Arch::new().dispatch(Forward { shape: &factors[self.ropes[0]], pack: self });
-    }
-
-    /// [`Skyline::backward`] of all lanes.
-    pub(super) fn backward(&mut self, factors: &[Skyline]) {
-        Arch::new().dispatch(Backward { shape: &factors[self.ropes[0]], pack: self });
-    }
-}
-
-struct Forward<'a> {
-    shape: &'a Skyline,
-    pack: &'a mut FactorPack,
-}
-
-impl WithSimd for Forward<'_> {
-    type Output = ();
-
-    #[inline(always)]
-    fn with_simd<S: Simd>(self, simd: S) {
-        let Self { shape, pack } = self;
-        for part in Part::first(simd, pack.ropes.len()) {
-            for node in 0..shape.factored_nodes() {
-                let [first, at @ ..] = shape.node(node);
-                let row = 3 * node;
-                let sums = products(part, &pack.values, at, &pack.rows[first..row]);
-                // The diagonal holds the inverse.
-                let entry = |i: usize, j: usize| part.of(&pack.values[at[i] + row - first + j]);
-                let left: [S::f64s; 3] = from_fn(|i| simd.sub_f64s(part.of(&pack.rows[row + i]), sums[i]));
-                let a = part.mul(left[0], entry(0, 0));
-                let b = part.mul(part.less(left[1], entry(1, 0), a), entry(1, 1));
-                let c = part.less(part.less(left[2], entry(2, 0), a), entry(2, 1), b);
-                let c = part.mul(c, entry(2, 2));
-                for (i, value) in [a, b, c].into_iter().enumerate() {
-                    part.set(&mut pack.rows[row + i], value);
-                }
-            }
-            if shape.keeps_end() {
-                let [first, at @ ..] = shape.node(shape.factored_nodes());
-                let sums = products(part, &pack.values, at, &pack.rows[first..3 * shape.factored_nodes()]);
-                for (end, sum) in pack.end.iter_mut().zip(sums) {
-                    part.set(end, sum);
-                }
-            }
-        }
-    }
-}
-
-struct Backward<'a> {
-    shape: &'a Skyline,
-    pack: &'a mut FactorPack,
-}
-
-impl WithSimd for Backward<'_> {
-    type Output = ();
-
-    #[inline(always)]
-    fn with_simd<S: Simd>(self, simd: S) {
-        let Self { shape, pack } = self;
-        for part in Part::first(simd, pack.ropes.len()) {
-            if shape.keeps_end() {
-                let [first, at @ ..] = shape.node(shape.factored_nodes());
-                let end = from_fn(|i| part.of(&pack.end[i]));
-                take_off(part, &pack.values, at, end, &mut pack.rows[first..3 * shape.factored_nodes()]);
-            }
-            for node in (0..shape.factored_nodes()).rev() {
-                let [first, at @ ..] = shape.node(node);
-                let row = 3 * node;
-                let entry = |i: usize, j: usize| part.of(&pack.values[at[i] + row - first + j]);
-                let right: [S::f64s; 3] = from_fn(|i| part.of(&pack.rows[row + i]));
-                let c = part.mul(right[2], entry(2, 2));
-                let b = part.mul(part.less(right[1], entry(2, 1), c), entry(1, 1));
-                let a = part.less(part.less(right[0], entry(1, 0), b), entry(2, 0), c);
-                let a = part.mul(a, entry(0, 0));
-                for (i, value) in [a, b, c].into_iter().enumerate() {
-                    part.set(&mut pack.rows[row + i], value);
-                }
-                take_off(part, &pack.values, at, [a, b, c], &mut pack.rows[first..row]);
-            }
-        }
-    }
-}
-
-/// Scalar products of the three rows of a node, which begin at `at`, with numbers.
-#[inline(always)]
-fn products<S: Simd>(part: Part<S>, values: &[Line], at: [usize; 3], numbers: &[Line]) -> [S::f64s; 3] {
-    let rows = at.map(|at| &values[at..at + numbers.len()]);
-    // Two sums of each row, so that neither waits for the other.
-    let mut sums = [[part.splat(0.0); 3]; 2];
-    let pairs = numbers.chunks_exact(2);
-    let odd = pairs.remainder();
-    for (k, pair) in pairs.enumerate() {
-        for (s, number) in pair.iter().enumerate() {
-            for i in 0..3 {
-                sums[s][i] = part.plus(part.of(&rows[i][2 * k + s]), part.of(number), sums[s][i]);
-            }
-        }
-    }
-    if let [number] = odd {
-        for i in 0..3 {
-            sums[0][i] = part.plus(part.of(&rows[i][numbers.len() - 1]), part.of(number), sums[0][i]);
-        }
-    }
-    from_fn(|i| part.simd.add_f64s(sums[0][i], sums[1][i]))
-}
-
-/// Takes the three rows of a node, which begin at `at`, times their factors off numbers.
-#[inline(always)]
-fn take_off<S: Simd>(part: Part<S>, values: &[Line], at: [usize; 3], factors: [S::f64s; 3], numbers: &mut [Line]) {
-    let rows = at.map(|at| &values[at..at + numbers.len()]);
-    for (k, number) in numbers.iter_mut().enumerate() {
-        let mut left = part.of(number);
-        for i in 0..3 {
-            left = part.less(left, part.of(&rows[i][k]), factors[i]);
-        }
-        part.set(number, left);
+        Stretched { slope, inverse, damping_time, tension }
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::robot::Wind;
+    use crate::math::Vec3;
     use crate::simulation::basis::ElementBasis;
-    use crate::simulation::rope::Newton;
-    use crate::simulation::skyline::Profile3;
     use std::rc::Rc;
 
     /// Ropes of two meshes, more of one than there are lanes; some are slack in parts, every second one is damped.
-    fn ropes() -> (Vec<RopeMesh>, Vec<WoundLength>, [Vec<f64>; 2], Vec<usize>) {
+    pub(super) fn ropes() -> (Vec<RopeMesh>, Vec<WoundLength>, [Vec<f64>; 2], Vec<usize>) {
         let mut random = fastrand::Rng::with_seed(7);
         let (mut ropes, mut lengths, mut offsets) = (vec![], vec![], vec![]);
         let (mut x, mut v) = (vec![], vec![]);
@@ -432,7 +265,7 @@ mod tests {
         (ropes, lengths, [x, v], offsets)
     }
 
-    fn is_near(found: &[f64], expected: &[f64]) -> bool {
+    pub(super) fn is_near(found: &[f64], expected: &[f64]) -> bool {
         let size = expected.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
         found.iter().zip(expected).all(|(a, b)| (a - b).abs() <= 1e-12 * size)
     }
@@ -452,51 +285,5 @@ mod tests {
         }
         assert!(is_near(&found, &expected));
         assert!(expected.iter().filter(|force| **force != 0.0).count() > found.len() / 2);
-    }
-
-    #[test]
-    fn substitutions_are_those_of_single_ropes() {
-        let (ropes, lengths, [x, v], offsets) = ropes();
-        let (is_free, gone) = (|i: usize| i == 1 || i == 7, 4);
-        let of = Newton { mass: 1e3, damping: 1.0, stiffness: 1e-3 };
-        let factored = |(i, rope): (usize, &RopeMesh)| {
-            let (range, wind) = (offsets[i]..offsets[i] + rope.size(), Wind::default());
-            let mut matrix = Skyline::zeros(Profile3::new(rope.elements, rope.basis.degree));
-            rope.assemble(&lengths[i], &[wind], &x[range.clone()], &v[range], of, &mut matrix);
-            matrix.factor(!is_free(i)).unwrap();
-            matrix
-        };
-        let factors: Vec<Skyline> = ropes.iter().enumerate().map(factored).collect();
-
-        let mut packs = FactorPack::of(&ropes, |i| i == gone, &factors);
-        assert_eq!(packs.iter().map(|pack| pack.ropes.len()).sum::<usize>(), 12);
-        for pack in &mut packs {
-            for lane in 0..pack.ropes.len() {
-                let i = pack.ropes[lane];
-                pack.put(lane, &v[offsets[i]..offsets[i] + ropes[i].size() - 3]);
-            }
-            pack.forward(&factors);
-            let end = Vec3::new(0.1, -0.2, 0.3);
-            let mut received = Vec::new();
-            for lane in 0..pack.ropes.len() {
-                received.push(pack.received(lane));
-                pack.set_end(lane, &end);
-            }
-            pack.backward(&factors);
-
-            for (lane, i) in pack.ropes.iter().copied().enumerate() {
-                let nodes = &v[offsets[i]..offsets[i] + ropes[i].size() - 3];
-                let mut expected: Vec<f64> = nodes.rchunks_exact(3).flatten().copied().collect();
-                let on_end = factors[i].forward(&mut expected);
-                factors[i].backward(&mut expected, &end);
-                let mut found = Vec::new();
-                pack.rows_of(lane, &mut found);
-                assert!(is_near(&found, &expected), "rope {i}");
-                assert_eq!(factors[i].keeps_end(), !is_free(i));
-                if factors[i].keeps_end() {
-                    assert!(is_near(received[lane].as_slice(), on_end.as_slice()), "end of rope {i}");
-                }
-            }
-        }
     }
 }

@@ -1,7 +1,12 @@
 //! Symmetric positive definite matrix of one rope, stored from the first entry of each row to the diagonal, and its
-//! Cholesky factor, which fills no other place.
+//! Cholesky factor, which fills no other place. Ropes are factored side by side ([`FactorPack`]); the factor of a single one
+//! is the oracle of tests.
+//!
+//! [`FactorPack`]: super::side_by_side::FactorPack
 
-use crate::math::{Mat3, Vec3};
+#[cfg(test)]
+use crate::math::Mat3;
+use crate::math::Vec3;
 
 /// Shape of the matrix of a rope: three rows for each node, from the anchor towards the platform, without the anchor.
 #[derive(Debug, Clone)]
@@ -59,14 +64,20 @@ impl Skyline {
         Self { values: vec![0.0; shape.count], shape, factored: 0 }
     }
 
+    /// Leaves the last node as a Schur complement, or not.
+    pub(super) fn keep_end(&mut self, keep: bool) {
+        self.factored = self.rows() - if keep { 3 } else { 0 };
+    }
+
     /// Sets all entries to zero.
+    #[cfg(test)]
     pub(super) fn clear(&mut self) {
         self.values.fill(0.0);
     }
 
     /// Adds a symmetric block between two nodes, counted from the platform; `node` is not beyond `other` from the
     /// platform. `free` is the number of nodes without the anchor.
-    #[inline]
+    #[cfg(test)]
     pub(super) fn add(&mut self, free: usize, node: usize, other: usize, block: &Mat3) {
         let (row, column) = (3 * (free - 1 - node), 3 * (free - 1 - other));
         for i in 0..3 {
@@ -107,10 +118,10 @@ impl Skyline {
     }
 
     /// Cholesky factor in place. With `keep_end` the last node is left as the Schur complement, which is returned.
+    #[cfg(test)]
     pub(super) fn factor(&mut self, keep_end: bool) -> Result<Mat3, NotPositive> {
-        let rows = self.rows();
-        self.factored = if keep_end { rows - 3 } else { rows };
-        for row in 0..rows {
+        self.keep_end(keep_end);
+        for row in 0..self.rows() {
             let first = self.shape.first[row];
             let (before, own) = self.values.split_at_mut(self.shape.start[row]);
             for column in first..row {
@@ -135,6 +146,7 @@ impl Skyline {
     }
 
     /// Schur complement of the last node.
+    #[cfg(test)]
     fn complement(&self) -> Mat3 {
         let mut complement = Mat3::zeros();
         for i in 0..3 {
