@@ -15,13 +15,14 @@ use super::limits::{LimitViolation, TensionRange};
 use super::model::StaticModel;
 use super::solve::inverse;
 use super::tension::{TensionRule, cables_at, with_weight};
-use super::wrench_set::{AvailableWrenches, BulgeSearch, Facet};
+use super::wrench_set::{AvailableWrenches, BulgeSearch, CableAtPose, Facet};
 use crate::math::Vec6;
 use crate::platform::{Coordinates, load_wrench, wrench_of};
 use crate::robot::{Pose, RequiredLoads, RequiredPayload, Robot};
 pub(crate) use required_set::LoadCoefficients;
 use required_set::RequiredSet;
 use std::borrow::Cow;
+use std::sync::OnceLock;
 
 /// Violation of a limit by the dead load, over the tension, that counts as rounding: tensions are found to a millionth.
 const BEYOND: f64 = 1e-6;
@@ -51,7 +52,12 @@ pub struct LoadCapacity<'a> {
     model: StaticModel,
     /// Dead load held within the limits, or the reason why it is not.
     rest: Result<Equilibrium, StaticsError>,
-    available: AvailableWrenches,
+    /// Cables that leave their pulleys as they do under the dead load.
+    cables: Vec<CableAtPose>,
+    /// Dead load, reduced [N].
+    load: Vec6,
+    /// Wrenches of these cables, once they are asked for.
+    available: OnceLock<AvailableWrenches>,
     required: RequiredSet,
 }
 
@@ -96,12 +102,20 @@ impl<'a> LoadCapacity<'a> {
         };
         let cables = cables_at(&held, pose, model, &TensionRule::Lowest)?;
         let load = Coordinates::of(given).reduce(&load_wrench(&loaded, pose));
-        let available = AvailableWrenches::of(cables, &load, given.platform.motion, BulgeSearch::Exact);
-        Ok(Self { given, loaded, pose: *pose, model, rest, available, required })
+        Ok(Self { given, loaded, pose: *pose, model, rest, cables, load, available: OnceLock::new(), required })
     }
 
     fn robot(&self) -> &Robot {
         &self.loaded
+    }
+
+    /// Wrenches that the cables can apply together with the dead load.
+    fn available(&self) -> &AvailableWrenches {
+        self.available.get_or_init(|| self.wrenches(BulgeSearch::Exact))
+    }
+
+    fn wrenches(&self, search: BulgeSearch) -> AvailableWrenches {
+        AvailableWrenches::of(self.cables.clone(), &self.load, self.given.platform.motion, search)
     }
 
     /// Equilibrium with the dead load and the lightest payload.
@@ -141,10 +155,11 @@ impl<'a> LoadCapacity<'a> {
     /// # References
     /// docs/theory.md, equation (40h).
     pub fn margin(&self) -> Option<f64> {
-        if wind_loads_cables(&self.loaded, self.model) && !self.available.facets().is_empty() {
+        let facets = self.available().facets();
+        if wind_loads_cables(&self.loaded, self.model) && !facets.is_empty() {
             return self.margin_in_wind();
         }
-        let margins = self.available.facets().iter().map(|facet| facet.outer - self.required.reach(&-facet.normal));
+        let margins = facets.iter().map(|facet| facet.outer - self.required.reach(&-facet.normal));
         margins.reduce(f64::min)
     }
 
@@ -156,7 +171,7 @@ impl<'a> LoadCapacity<'a> {
     pub fn largest_acceleration(&self) -> Option<f64> {
         let accelerations = RequiredSet::unit_accelerations(&self.loaded, &self.pose);
         let ratio = |facet: &Facet| facet.outer / accelerations.reach(&-facet.normal);
-        let smallest = self.available.facets().iter().map(ratio).reduce(f64::min)?;
+        let smallest = self.available().facets().iter().map(ratio).reduce(f64::min)?;
         (self.rest.is_ok() && smallest >= 0.0).then_some(smallest)
     }
 

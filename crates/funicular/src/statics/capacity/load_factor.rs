@@ -90,12 +90,8 @@ impl LoadCapacity<'_> {
             return self.load_factor_in_wind();
         }
         self.rest.as_ref().map_err(Clone::clone)?;
-
-        let lower_bound = self.smallest(&self.required, |facet| facet.inner);
-        let (coefficients, held) = match self.required.vertices() {
-            Some(vertices) => self.worst_vertex(&vertices)?,
-            None => self.worst_of_ball()?,
-        };
+        let (coefficients, held) = self.worst_load(self.available())?;
+        let lower_bound = self.smallest(self.available(), |facet| facet.inner);
         Ok(LoadFactor {
             value: held.multiple,
             upper_bound: held.upper_bound,
@@ -109,41 +105,56 @@ impl LoadCapacity<'_> {
         })
     }
 
-    /// Value of [`Self::load_factor`] alone, which takes a fraction of the time if cables are straight.
+    /// Load that binds, with its largest multiple.
+    fn worst_load(&self, available: &AvailableWrenches) -> Result<(LoadCoefficients, HeldMultiple), StaticsError> {
+        match self.required.vertices() {
+            Some(vertices) => self.worst_vertex(available, &vertices),
+            None => self.worst_of_ball(available),
+        }
+    }
+
+    /// Value of [`Self::load_factor`] alone, which takes a fraction of the time if cables are straight, and less if they
+    /// sag: bounds of their bends are enough to choose the loads.
     ///
     /// # Errors
     /// As [`Self::load_factor`].
     pub fn load_factor_value(&self) -> Result<f64, StaticsError> {
         self.rest.as_ref().map_err(Clone::clone)?;
-        match self.smallest(&self.required, |facet| facet.inner) {
-            Some(value) if self.is_by_facets() => Ok(value),
-            _ => Ok(self.load_factor()?.value),
+        if self.required.is_empty() {
+            return Err(StaticsError::NothingRequired);
+        }
+        if wind_loads_cables(self.robot(), self.model) {
+            return Ok(self.load_factor_in_wind()?.value);
+        }
+        let available = self.wrenches(BulgeSearch::Bounds);
+        match self.smallest(&available, |facet| facet.inner) {
+            Some(value) if available.is_straight() => Ok(value),
+            _ => Ok(self.worst_load(&available)?.1.multiple),
         }
     }
 
-    /// True if the facets give the load factor itself.
-    fn is_by_facets(&self) -> bool {
-        self.available.is_straight() && !self.required.is_empty() && !wind_loads_cables(self.robot(), self.model)
-    }
-
-    /// Smallest ratio of the reach of the cables to that of a set of loads over all facets; `None` without facets, or
+    /// Smallest ratio of the reach of the cables to that of the required loads over all facets; `None` without facets, or
     /// with exit points that move with the tensions.
-    pub(super) fn smallest(&self, loads: &RequiredSet, reach: impl Fn(&Facet) -> f64) -> Option<f64> {
+    fn smallest(&self, available: &AvailableWrenches, reach: impl Fn(&Facet) -> f64) -> Option<f64> {
         if exit_points::depend_on_tensions(self.robot(), self.model) {
             return None;
         }
-        smallest_ratio(self.available.facets(), loads, reach)
+        smallest_ratio(available.facets(), &self.required, reach)
     }
 
     /// Vertex with the smallest multiple. Vertices are taken in the order of their lower bounds, until the bound of the
     /// next one is above the smallest multiple so far.
-    fn worst_vertex(&self, vertices: &[Vec6]) -> Result<(LoadCoefficients, HeldMultiple), StaticsError> {
+    fn worst_vertex(
+        &self,
+        available: &AvailableWrenches,
+        vertices: &[Vec6],
+    ) -> Result<(LoadCoefficients, HeldMultiple), StaticsError> {
         let single = |load: &Vec6| {
             let ratio = |facet: &Facet| facet.inner / -facet.normal.dot(load);
-            let opposed = self.available.facets().iter().filter(|facet| facet.normal.dot(load) < 0.0);
+            let opposed = available.facets().iter().filter(|facet| facet.normal.dot(load) < 0.0);
             opposed.map(ratio).fold(f64::INFINITY, f64::min)
         };
-        let is_bounded = self.smallest(&self.required, |facet| facet.inner).is_some();
+        let is_bounded = self.smallest(available, |facet| facet.inner).is_some();
         let mut bounded: Vec<(f64, usize)> = (0..vertices.len())
             .filter(|at| vertices[*at].norm() > 0.0)
             .map(|at| (if is_bounded { single(&vertices[at]) } else { 0.0 }, at))
@@ -166,9 +177,9 @@ impl LoadCapacity<'_> {
 
     /// Load with the smallest multiple of a set without vertices: the direction in which the cables reach no farther
     /// gives the next load.
-    fn worst_of_ball(&self) -> Result<(LoadCoefficients, HeldMultiple), StaticsError> {
+    fn worst_of_ball(&self, available: &AvailableWrenches) -> Result<(LoadCoefficients, HeldMultiple), StaticsError> {
         let ratio = |facet: &Facet| facet.reach / self.required.reach(&-facet.normal);
-        let facets = self.available.facets().iter().filter(|facet| self.required.reach(&-facet.normal) > 0.0);
+        let facets = available.facets().iter().filter(|facet| self.required.reach(&-facet.normal) > 0.0);
         let first = facets.min_by(|a, b| ratio(a).total_cmp(&ratio(b))).map(|facet| -facet.normal);
         let down = Coordinates::of(self.robot()).reduce(&load_wrench(self.robot(), &self.pose));
         let mut at = self.required.farthest(&first.unwrap_or(down));
@@ -205,9 +216,9 @@ impl LoadCapacity<'_> {
         let rest = self.rest.as_ref().map_err(Clone::clone)?;
         let mut cables = cables_at(robot, &self.pose, self.model, &TensionRule::Lowest)?;
         start_from(&mut cables, rest);
-        let mut best = self.multiple_from(robot, load, cables.clone())?;
-        let (reaches, _) = reaches_of(&mut cables);
+        let reaches = reaches_of(&cables);
         let set = WrenchSet { reaches: &reaches, motion: robot.platform.motion };
+        let mut best = self.multiple_from(robot, load, cables.clone(), &set)?;
 
         // Another optimum may be higher: begin again from the tensions that reach farthest in the direction of the
         // bound, and if the gap is wide, from others between the limits.
@@ -220,7 +231,7 @@ impl LoadCapacity<'_> {
             for (cable, tau) in cables.iter_mut().zip(start) {
                 cable.set(tau);
             }
-            let Ok(other) = self.multiple_from(robot, load, cables.clone()) else { continue };
+            let Ok(other) = self.multiple_from(robot, load, cables.clone(), &set) else { continue };
             let upper_bound = best.upper_bound.min(other.upper_bound);
             if other.multiple > best.multiple {
                 best = other;
@@ -230,11 +241,13 @@ impl LoadCapacity<'_> {
         Ok(best)
     }
 
+    /// Largest multiple by a search from the tensions of cables, whose ranges are `set`.
     fn multiple_from(
         &self,
         robot: &Robot,
         load: &Vec6,
         cables: Vec<CableAtPose>,
+        set: &WrenchSet<'_>,
     ) -> Result<HeldMultiple, StaticsError> {
         let (pose, size) = (&self.pose, load.norm());
         let unit = load / size;
@@ -246,11 +259,9 @@ impl LoadCapacity<'_> {
         }
 
         // No tensions reach farther in the direction of the multipliers: (40j).
-        let mut cables = search.into_cables_at(&end);
+        let cables = search.into_cables_at(&end);
         let limits = limits_reached(&cables, &end.held_by);
-        let (reaches, held) = reaches_of(&mut cables);
         let direction = end.multipliers;
-        let set = WrenchSet { reaches: &reaches, motion: robot.platform.motion };
         let own = Coordinates::of(robot).reduce(&load_wrench(robot, pose));
         let along = -direction.dot(&unit);
         let upper_bound = if end.unlimited || along <= 0.0 {
@@ -258,9 +269,6 @@ impl LoadCapacity<'_> {
         } else {
             (direction.dot(&own) + set.reach(&direction).0) / (along * size)
         };
-        for (cable, tau) in cables.iter_mut().zip(held) {
-            cable.set(tau);
-        }
 
         if multiple.is_infinite() {
             return Ok(HeldMultiple {
@@ -329,12 +337,12 @@ pub fn load_factor_bounds(robot: &Robot, pose: &Pose, model: StaticModel) -> Res
     Ok(bound(|facet| facet.inner).zip(bound(|facet| facet.outer)).map(|(lower, upper)| [lower, upper]))
 }
 
-/// Ranges of cables, and the tensions τ that they had [N].
-fn reaches_of(cables: &mut [CableAtPose]) -> (Vec<ReachableTensions>, Vec<f64>) {
-    let of = |cable: &mut CableAtPose| {
-        let tau = cable.tau();
+/// Ranges of cables in any state.
+fn reaches_of(cables: &[CableAtPose]) -> Vec<ReachableTensions> {
+    let of = |cable: &CableAtPose| {
+        let mut cable = cable.clone();
         let minimum = cable.at_minimum();
-        (ReachableTensions::of(cable, minimum), tau)
+        ReachableTensions::of(&cable, minimum)
     };
-    cables.iter_mut().map(of).unzip()
+    cables.iter().map(of).collect()
 }
