@@ -31,6 +31,10 @@ const MAX_STEPS: usize = 30;
 /// step and becomes rounding.
 const LAST_STEP: f64 = 1e-8;
 
+/// What a step along both cables leaves of the points [m] that is the last one already: the step times the square of the
+/// angle by which the cables bend along it.
+const LAST_BEND: f64 = 1e-13;
+
 /// The same of a method without curvature, whose error shrinks by a factor only.
 const LAST_STEP_WITHOUT_CURVATURE: f64 = 1e-14;
 
@@ -108,7 +112,7 @@ fn minimum_in(one: &FreeSpan, other: &FreeSpan, pair: &PairOfArcs) -> NearCables
         let own = one.point_with_derivatives(places[0]);
         let others = other.point_with_derivatives(places[1]);
         consider([own.point_w, others.point_w], places);
-        let NewtonStep { by: [ds, dt], is_newtons } = step(&own, &others, places, ranges);
+        let NewtonStep { by: [ds, dt], is_newtons, is_free } = step(&own, &others, places, ranges);
         if !(ds.is_finite() && dt.is_finite()) {
             break;
         }
@@ -116,7 +120,11 @@ fn minimum_in(one: &FreeSpan, other: &FreeSpan, pair: &PairOfArcs) -> NearCables
             [(places[0] + ds).clamp(ranges[0][0], ranges[0][1]), (places[1] + dt).clamp(ranges[1][0], ranges[1][1])];
         let moves = [next[0] - places[0], next[1] - places[1]];
         let moved = moves[0].abs() / one.length + moves[1].abs() / other.length;
-        if moved < if is_newtons { LAST_STEP } else { LAST_STEP_WITHOUT_CURVATURE } {
+        let is_straight = is_free && {
+            let bend = |of: &PointOnSpan, by: f64| of.curvature_w.norm_squared() * by.abs().powi(3);
+            bend(&own, ds) + bend(&others, dt) < LAST_BEND
+        };
+        if is_straight || moved < if is_newtons { LAST_STEP } else { LAST_STEP_WITHOUT_CURVATURE } {
             // So near, the derivatives give the points to rounding.
             consider([own.after(moves[0]), others.after(moves[1])], next);
             best.is_minimum = is_newtons;
@@ -132,6 +140,8 @@ struct NewtonStep {
     by: [f64; 2],
     /// True if it is Newton's, false if it is one without curvature.
     is_newtons: bool,
+    /// True if it is Newton's along both cables, which no end of a range holds.
+    is_free: bool,
 }
 
 /// Newton step of half the squared distance, along free coordinates only: a place at the end of its range stays there
@@ -165,6 +175,8 @@ fn step(own: &PointOnSpan, others: &PointOnSpan, places: [f64; 2], ranges: [[f64
 
     // One of both reaches the end of its range: the other one follows alone.
     let beyond = |k: usize, by: f64| places[k] + by < ranges[k][0] || places[k] + by > ranges[k][1];
+    let are_free = !held(0) && !held(1) && determinant > f64::EPSILON * ss * tt;
+    let is_free = is_definite && are_free && !beyond(0, ds) && !beyond(1, dt);
     if !held(0) && !held(1) {
         if beyond(0, ds) {
             ds = (places[0] + ds).clamp(ranges[0][0], ranges[0][1]) - places[0];
@@ -174,7 +186,7 @@ fn step(own: &PointOnSpan, others: &PointOnSpan, places: [f64; 2], ranges: [[f64
             ds = -(gradient[0] + mixed * dt) / ss;
         }
     }
-    NewtonStep { by: [ds, dt], is_newtons: is_definite }
+    NewtonStep { by: [ds, dt], is_newtons: is_definite, is_free }
 }
 
 /// True if half the squared distance is surely convex over a pair of arcs: its second derivatives are bounded by those of

@@ -5,6 +5,7 @@
 //! which is the last of the step before; L-stable, so that waves that a step does not resolve fade.
 
 mod rolling;
+mod stage;
 mod state;
 
 use super::arrow::Arrow;
@@ -13,6 +14,7 @@ use super::rope::{Newton, WoundLength};
 use super::system::{BODY, MotionNumbers, System, turn_rate};
 use crate::math::Vec3;
 use rolling::Rolling;
+use stage::NotSolved;
 
 /// Number of stages.
 pub(super) const STAGES: usize = 6;
@@ -52,15 +54,6 @@ const FIRST_STEP: f64 = 1e-4;
 const LEAST_STEP: f64 = 2e-8;
 /// Tolerated change of a velocity over that of a position [1/s].
 const VELOCITY_RATE: f64 = 100.0;
-/// Part of the tolerance to which Newton's method solves a stage. At a tenth natural frequencies drift by 5e-6.
-const NEWTON_PART: f64 = 0.03;
-/// Newton steps of a stage; more than this many with one factor are slower than a new factor.
-const NEWTON_STEPS: usize = 10;
-const NEWTON_STEPS_OF_OLD_FACTOR: usize = 4;
-/// Contraction from which on a factor of the present step is made anew at the present place: a rope has gone slack or taut
-/// since it was made, and steps with it go to and fro across the kink, with a contraction of 1. Smooth motion contracts by
-/// 0.1 or less. A change of an older factor that is followed by one so large is taken back.
-const KINK_CONTRACTION: f64 = 0.7;
 /// Part of a step that failed that is tried next.
 const SHORTER: f64 = 0.4;
 /// Change of the step up to which a factor is kept.
@@ -108,9 +101,6 @@ pub(super) struct Stepper {
     /// Last change of Newton's method.
     change: Vec<f64>,
 }
-
-/// A stage that Newton's method did not solve.
-struct NotSolved;
 
 impl Stepper {
     /// Stepper at a motion; accelerations are computed.
@@ -336,68 +326,6 @@ impl Stepper {
         if j == 0 { omega } else { turn_rate(&Vec3::from_column_slice(&self.stages[j].x[3..BODY]), &omega) }
     }
 
-    fn solve_stage(&mut self, stage: usize, h: f64, until: f64) -> Result<(), NotSolved> {
-        let (weights, hg) = (&WEIGHTS[stage], h * GAMMA);
-        // A step that ends where something jumps knows nothing of what comes after it.
-        let time = (self.time + TIMES[stage] * h).min(until.next_down());
-        let lengths = self.system.lengths(time);
-        let turn_base = self.turn_base(weights, stage) * h;
-        let (past, rest) = self.stages.split_at_mut(stage);
-        let current = &mut rest[0];
-        bases(&self.now, past, weights, h, &mut self.work);
-        predict(past, stage, h, &mut current.v);
-
-        let (mut last, mut is_fresh) = (f64::INFINITY, false);
-        for round in 0..NEWTON_STEPS {
-            place(&self.work, &turn_base, hg, current);
-            let body = self.system.body_motion(current);
-            self.system.fill_ends(&body, &lengths, current);
-            self.system.needed(time, &lengths, &body, current, &mut self.needed);
-            if self.factored.is_none() {
-                let of = Newton { mass: 1.0 / hg, damping: 1.0, stiffness: hg };
-                self.counts.factored += 1;
-                self.arrow.factor(&self.system, time, &lengths, current, &self.needed, of).map_err(|_| NotSolved)?;
-                self.factored = Some(h);
-                is_fresh = true;
-            }
-            self.arrow.solve(&self.system, &mut self.needed);
-            let scale = self.factored.map_or(1.0, |of| 2.0 / (1.0 + h / of));
-            for (v, change) in current.v.iter_mut().zip(&self.needed) {
-                *v += scale * change;
-            }
-
-            let weight = hg.max(1.0 / VELOCITY_RATE) * scale / self.tolerance;
-            let size = norm(&self.needed, self.length) * weight;
-            if !size.is_finite() {
-                return Err(NotSolved);
-            }
-            let follows = last.is_finite();
-            if follows {
-                self.contraction = size / last;
-            }
-            let rate = self.contraction.min(0.95);
-            if (follows || size < NEWTON_PART) && self.contraction < 1.0 && rate / (1.0 - rate) * size < NEWTON_PART {
-                place(&self.work, &turn_base, hg, current);
-                return Ok(());
-            }
-            let crosses_kink = follows && self.contraction > KINK_CONTRACTION;
-            if crosses_kink || (round >= NEWTON_STEPS_OF_OLD_FACTOR && !is_fresh) {
-                self.factored = None;
-            }
-            if crosses_kink && !is_fresh {
-                for (v, (change, before)) in current.v.iter_mut().zip(self.needed.iter().zip(&self.change)) {
-                    *v -= scale * (change + before);
-                }
-                last = f64::INFINITY;
-                continue;
-            }
-            last = size;
-            self.change.copy_from_slice(&self.needed);
-        }
-        self.factored = None;
-        Err(NotSolved)
-    }
-
     /// Error of the tried step over the tolerance.
     fn error(&mut self, h: f64) -> f64 {
         let differences: [f64; STAGES] = std::array::from_fn(|j| WEIGHTS[STAGES - 1][j] - EMBEDDED[j]);
@@ -421,56 +349,6 @@ impl Stepper {
         let velocity = norm(of_v, self.length) / VELOCITY_RATE;
         position.max(velocity) * h / self.tolerance
     }
-}
-
-/// Position and velocity that the stages before give, in `x` and `v` of `out`.
-fn bases(now: &MotionNumbers, past: &[MotionNumbers], weights: &[f64; STAGES], h: f64, out: &mut MotionNumbers) {
-    out.x.copy_from_slice(&now.x);
-    out.v.copy_from_slice(&now.v);
-    for (stage, weight) in past.iter().zip(weights) {
-        let weight = weight * h;
-        if weight == 0.0 {
-            continue;
-        }
-        for (sum, value) in out.x.iter_mut().zip(&stage.v) {
-            *sum += weight * value;
-        }
-        for (sum, value) in out.v.iter_mut().zip(&stage.a) {
-            *sum += weight * value;
-        }
-    }
-}
-
-/// First velocity of a stage: on the line through the two stages nearest in time.
-fn predict(past: &[MotionNumbers], stage: usize, h: f64, v: &mut [f64]) {
-    let time = TIMES[stage];
-    if stage == 1 {
-        for ((v, before), a) in v.iter_mut().zip(&past[0].v).zip(&past[0].a) {
-            *v = before + time * h * a;
-        }
-        return;
-    }
-    let mut nearest: Vec<usize> = (0..stage).collect();
-    nearest.sort_by(|a, b| (TIMES[*a] - time).abs().total_cmp(&(TIMES[*b] - time).abs()));
-    let (a, b) = (nearest[0], nearest[1]);
-    let part = (time - TIMES[a]) / (TIMES[b] - TIMES[a]);
-    for ((v, of_a), of_b) in v.iter_mut().zip(&past[a].v).zip(&past[b].v) {
-        *v = of_a + part * (of_b - of_a);
-    }
-}
-
-/// Position and acceleration of a stage from its velocity.
-fn place(base: &MotionNumbers, turn_base: &Vec3, hg: f64, current: &mut MotionNumbers) {
-    for (k, v) in current.v.iter().enumerate() {
-        current.x[k] = base.x[k] + hg * v;
-        current.a[k] = (v - base.v[k]) / hg;
-    }
-    let omega = Vec3::from_column_slice(&current.v[3..BODY]);
-    let mut turn = turn_base + omega * hg;
-    for _ in 0..3 {
-        turn = turn_base + turn_rate(&turn, &omega) * hg;
-    }
-    current.x[3..BODY].copy_from_slice(turn.as_slice());
 }
 
 /// The larger of the root mean squares over the platform and over the nodes of the ropes.

@@ -198,6 +198,18 @@ impl System {
         m.put(self.of_rope(i).end - 3, &exit);
     }
 
+    /// Work of needed forces along a change of all numbers. The ends at the platform are a part of it.
+    pub(super) fn work(&self, needed: &[f64], change: &[f64]) -> f64 {
+        let all =
+            |range: std::ops::Range<usize>| needed[range.clone()].iter().zip(&change[range]).map(|(a, b)| a * b).sum();
+        let at_platform = |i: usize| -> f64 {
+            let from = self.offsets[i];
+            if self.ends[i] == RopeEnd::Attached { all(from..from + 3) } else { 0.0 }
+        };
+        let whole: f64 = all(0..self.size);
+        whole - (0..self.ends.len()).map(at_platform).sum::<f64>()
+    }
+
     /// Motion of the support of a far end.
     fn support_motion(far: &FarEnd, m: &MotionNumbers) -> ExitMotion {
         far.support.map_or([Vec3::zeros(); 3], |support| m.point(Self::of_support(support.index).start))

@@ -477,7 +477,7 @@ mod tests {
         let factored = |(i, rope): (usize, &RopeMesh)| {
             let range = offsets[i]..offsets[i] + rope.size();
             let mut matrix = Skyline::zeros(Profile3::new(rope.elements, rope.basis.degree));
-            rope.assemble(&lengths[i], &[wind.clone()], &x[range.clone()], &v[range], of, &mut matrix);
+            rope.assemble(&lengths[i], &[wind], &x[range.clone()], &v[range], of, &mut matrix);
             let complement = matrix.factor(!is_free(i)).unwrap();
             (matrix, complement)
         };
