@@ -26,10 +26,9 @@ use crate::robot::{Anchor, Cable, Servo, StretchLoss, WinchMode};
 use crate::statics::CableState;
 use crate::statics::derivatives::StaticDerivativeError;
 use std::array::from_fn;
-use sums::{QuadratureElement, ShapeColumns};
+use sums::{GaussRule, QuadratureElement, ShapeColumns};
 use vibrating::{Vibrating, VibratingEnd};
 
-pub(super) use sums::GaussRules;
 pub(super) use vibrating::LossesAt;
 
 /// Natural logarithm of the accuracy of integrals of the tension alone along a cable at rest: 1e-14.
@@ -171,22 +170,21 @@ impl CableForm {
         let pieces = smooth_pieces(catenary, vec![(0.0, catenary.rope().unstrained_length)]);
         let count = |size: f64| (DIGITS_OF_REST / (2.0 * size.ln())).ceil() as usize + 4;
         let sizes: Vec<usize> = pieces.iter().map(|(_, _, size)| count(*size)).collect();
-        Self::on_pieces(state, 0.0, &pieces, &sizes, &mut GaussRules::default(), Inertia::None)
+        Self::on_pieces(state, 0.0, &pieces, &sizes, Inertia::None)
     }
 
     /// Cable that vibrates about its catenary. `winches` is the mode of the winches, `both` both ends of a cable on a
-    /// flexible support; `rules` are shared by the cables.
+    /// flexible support.
     pub(super) fn vibrating(
         cable: &Cable,
         state: &CableState,
         (end, both): (&CatenaryDynamicEnd, Option<&TwoEnded>),
         winches: WinchMode,
-        rules: &mut GaussRules,
     ) -> Result<Self, GradientError> {
         let catenary = hanging(state)?.catenary;
         let pieces = smooth_pieces(&catenary, vec![(0.0, catenary.rope().unstrained_length)]);
         let sizes: Vec<usize> = end.cable.degrees.iter().map(|degree| degree + POINTS_BEYOND_DEGREE).collect();
-        let mut form = Self::on_pieces(state, end.mass_per_length, &pieces, &sizes, rules, Inertia::None)?;
+        let mut form = Self::on_pieces(state, end.mass_per_length, &pieces, &sizes, Inertia::None)?;
 
         // Displacements of these points: those that the cable has kept, or computed again.
         let (m, limit, moving) = (end.mass_per_length, end.cable.limit, end.cable.end.clone());
@@ -235,7 +233,6 @@ impl CableForm {
         mass_per_length: f64,
         pieces: &[(f64, f64, f64)],
         sizes: &[usize],
-        rules: &mut GaussRules,
         inertia: Inertia,
     ) -> Result<Self, GradientError> {
         let hanging = hanging(state)?;
@@ -246,7 +243,7 @@ impl CableForm {
         let mut points: Vec<CablePoint> = Vec::with_capacity(sizes.iter().sum());
         let mut elements = Vec::with_capacity(pieces.len());
         for ((from, to, _), size) in pieces.iter().zip(sizes) {
-            let rule = rules.of_size(*size);
+            let rule = GaussRule::of_size(*size);
             let (center, half) = (0.5 * (from + to), 0.5 * (to - from));
             let first = points.len();
             for (xi, weight) in &rule.points {

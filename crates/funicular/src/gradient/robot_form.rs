@@ -2,7 +2,7 @@
 
 use super::GradientError;
 use super::adjoint::{Adjoint, CableAdjoint};
-use super::cable_form::{CableAt, CableForm, CableMotion, GaussRules};
+use super::cable_form::{CableAt, CableForm, CableMotion};
 use super::drive_form::ControlAt;
 use super::end_form::{EndAtRest, StretchAt};
 use super::scalar::{Field, Vector, add, add_times, cross, dot, symmetric_outer, times, vector};
@@ -103,7 +103,7 @@ impl RobotForm {
             return Err(GradientError::Terms);
         }
 
-        let (mut cables, mut rules) = (Vec::with_capacity(robot.cables.len()), GaussRules::default());
+        let mut cables = Vec::with_capacity(robot.cables.len());
         let mut servos = vec![None; robot.cables.len()];
         for (i, state) in equilibrium.cables.iter().enumerate() {
             let cable = &settled.cables[i];
@@ -116,7 +116,7 @@ impl RobotForm {
                 (CableModel::CatenaryDynamic, Some(end)) => {
                     servos[i] = end.cable.end.as_ref().and_then(MovingEnd::chain).and_then(|chain| chain.motor?.servo);
                     let both = dynamics.supports().and_then(|supports| supports.both_ends(term?));
-                    AnyCable::Catenary(Box::new(CableForm::vibrating(cable, state, (end, both), winches, &mut rules)?))
+                    AnyCable::Catenary(Box::new(CableForm::vibrating(cable, state, (end, both), winches)?))
                 }
                 (CableModel::CatenaryDynamic, _) => {
                     AnyCable::Catenary(Box::new(CableForm::at_rest(&cable.anchor, state, true)?))

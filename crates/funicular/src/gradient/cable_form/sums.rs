@@ -6,6 +6,7 @@ use super::super::scalar::{Field, Vector};
 use crate::cable::catenary_dynamic::Displacements;
 use crate::math::{DMat, legendre};
 use pulp::{Arch, Simd, WithSimd};
+use std::cell::RefCell;
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -60,6 +61,20 @@ pub(super) struct GaussRule {
 }
 
 impl GaussRule {
+    /// Rule with this number of points. A thread makes each once: cables have few sizes, robots along a path the same.
+    pub(super) fn of_size(size: usize) -> Arc<Self> {
+        thread_local! {
+            static KNOWN: RefCell<Vec<Arc<GaussRule>>> = const { RefCell::new(Vec::new()) };
+        }
+        KNOWN.with_borrow_mut(|known| {
+            let of_size = known.iter().find(|rule| rule.points.len() == size).cloned();
+            of_size.unwrap_or_else(|| {
+                known.push(Arc::new(Self::new(size)));
+                Arc::clone(&known[known.len() - 1])
+            })
+        })
+    }
+
     fn new(size: usize) -> Self {
         let points = legendre::gauss(size);
         // Orthonormal polynomials at the points, and their integrals: of P_k it is (P_{k+1} − P_{k−1})/(2k + 1).
@@ -74,22 +89,6 @@ impl GaussRule {
         let inner = primitives * expansion;
         let integrals = DMat::from_fn(size + 1, size, |i, j| if i < size { inner[(i, j)] } else { points[j].1 });
         Self { points, integrals }
-    }
-}
-
-/// Gauss rules, each made once for all cables of a robot.
-#[derive(Default)]
-pub(in super::super) struct GaussRules(Vec<Arc<GaussRule>>);
-
-impl GaussRules {
-    /// Rule with this number of points.
-    pub(super) fn of_size(&mut self, size: usize) -> Arc<GaussRule> {
-        if let Some(known) = self.0.iter().find(|rule| rule.points.len() == size) {
-            return Arc::clone(known);
-        }
-        let rule = Arc::new(GaussRule::new(size));
-        self.0.push(Arc::clone(&rule));
-        rule
     }
 }
 

@@ -90,7 +90,7 @@ impl FactorPack {
     /// [`NotPositive`] if one of the matrices has a pivot that is not positive.
     pub(in crate::simulation) fn factor(&mut self, shapes: &[Skyline]) -> Result<(), NotPositive> {
         let shape = &shapes[self.ropes[0]];
-        Arch::new().dispatch(Factor { shape, pack: self });
+        Arch::new().dispatch(Eliminate { shape, pack: self });
         let is_positive = |pivot: &f64| *pivot > 0.0 && pivot.is_finite();
         let are_positive = (0..shape.factored_nodes()).all(|node| {
             let [first, at @ ..] = shape.node(node);
@@ -278,12 +278,12 @@ fn add_element<S: Simd>(
     }
 }
 
-struct Factor<'a> {
+struct Eliminate<'a> {
     shape: &'a Skyline,
     pack: &'a mut FactorPack,
 }
 
-impl WithSimd for Factor<'_> {
+impl WithSimd for Eliminate<'_> {
     type Output = ();
 
     #[inline(always)]
