@@ -23,6 +23,8 @@ const MAX_DEFECT: f64 = 1e-4;
 /// … and over the weight times the tolerance, which is enough. Smooth motion leaves less; ropes that go slack or taut within
 /// a step leave more, and so does a command that a long step passes over.
 const SMALL_DEFECT: f64 = 1e-3;
+/// Rounding of the energies over their size: at rest and in small motion nothing else is left.
+const ROUNDING: f64 = 1e-12;
 /// Longest step that may leave more [s]: strongly damped ropes go to and fro in shorter ones.
 const DEFECT_STEP: f64 = 1e-6;
 
@@ -309,9 +311,10 @@ impl Simulation {
         let Some((dense, ..)) = self.last.as_ref() else { return false };
         let body = &self.stepper.system.body;
         let least = SMALL_DEFECT * self.settings.tolerance * body.mass * body.gravity_w.norm();
-        let scale = least.max(MAX_DEFECT * self.books.moved());
+        let rounding = ROUNDING * (self.books.strain + self.books.potential.abs());
+        let enough = (MAX_DEFECT * self.books.moved()).max(least).max(rounding);
         let defect = (self.books.defect() - before.defect()).abs();
-        dense.until - dense.from > DEFECT_STEP && defect > scale
+        dense.until - dense.from > DEFECT_STEP && defect > enough
     }
 
     /// Follows what depends on whole steps: wheels that roll, and cables that are slack.
