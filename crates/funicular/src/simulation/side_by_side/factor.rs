@@ -60,10 +60,14 @@ impl FactorPack {
     /// # References
     /// docs/theory.md, equation (97h).
     pub(in crate::simulation) fn assemble(&mut self, shapes: &[Skyline], of: &RopesInMotion, factors: Newton) {
+        self.assemble_by(shapes, of, factors, |of| Arch::new().dispatch(of));
+    }
+
+    fn assemble_by(&mut self, shapes: &[Skyline], of: &RopesInMotion, factors: Newton, run: impl FnOnce(Assemble)) {
         let rope = &of.ropes[self.ropes[0]];
         let mut law = StretchLaw::default();
         let (mut x, mut v, mut on_node) = (zeros(rope.size()), zeros(rope.size()), Line::ZERO);
-        // Lanes without a rope repeat the first one, so that all have a factor.
+        // Lanes without a rope repeat the first one: numbers that are none would be slow.
         for lane in 0..LANES {
             let i = self.ropes.get(lane).copied().unwrap_or(self.ropes[0]);
             law.set_rope(lane, &of.ropes[i]);
@@ -73,15 +77,7 @@ impl FactorPack {
             gather(&of.motion[1][of.offsets[i]..], lane, &mut v);
         }
         let shape = &shapes[self.ropes[0]];
-        Arch::new().dispatch(Assemble {
-            shape,
-            pack: self,
-            rope,
-            law: &law,
-            motion: [&x, &v],
-            on_node: &on_node,
-            factors,
-        });
+        run(Assemble { shape, pack: self, rope, law: &law, motion: [&x, &v], on_node: &on_node, factors });
     }
 
     /// [`Skyline::factor`] of all lanes.
@@ -89,12 +85,17 @@ impl FactorPack {
     /// # Errors
     /// [`NotPositive`] if one of the matrices has a pivot that is not positive.
     pub(in crate::simulation) fn factor(&mut self, shapes: &[Skyline]) -> Result<(), NotPositive> {
+        self.factor_by(shapes, |of| Arch::new().dispatch(of))
+    }
+
+    fn factor_by(&mut self, shapes: &[Skyline], run: impl FnOnce(Eliminate)) -> Result<(), NotPositive> {
         let shape = &shapes[self.ropes[0]];
-        Arch::new().dispatch(Eliminate { shape, pack: self });
+        run(Eliminate { shape, pack: self });
         let is_positive = |pivot: &f64| *pivot > 0.0 && pivot.is_finite();
         let are_positive = (0..shape.factored_nodes()).all(|node| {
             let [first, at @ ..] = shape.node(node);
-            (0..3).all(|i| self.values[at[i] + 3 * node - first + i].iter().all(is_positive))
+            // Registers narrower than the lanes leave lanes without ropes as they were.
+            (0..3).all(|i| self.values[at[i] + 3 * node - first + i][..self.ropes.len()].iter().all(is_positive))
         });
         if are_positive { Ok(()) } else { Err(NotPositive) }
     }
@@ -491,41 +492,49 @@ mod tests {
             motion: [&x, &v],
         };
 
-        let mut packs = FactorPack::of(&ropes, |i| i == gone, &factors);
-        assert_eq!(packs.iter().map(|pack| pack.ropes.len()).sum::<usize>(), 12);
-        for pack in &mut packs {
-            pack.assemble(&factors, &motion, of);
-            pack.factor(&factors).unwrap();
-            for lane in 0..pack.ropes.len() {
-                let i = pack.ropes[lane];
-                let mut factor = factors[i].clone();
-                pack.copy(lane, &mut factor);
-                let whole = if is_free(i) { factor.values.len() } else { factor.node(factor.factored_nodes())[1] };
-                assert!(is_near(&factor.values[..whole], &factors[i].values[..whole]), "factor of rope {i}");
-                let complement = pack.complement(&factor, lane);
-                assert!(is_near(complement.as_slice(), complements[i].as_slice()), "complement of rope {i}");
-                pack.put(lane, &v[offsets[i]..offsets[i] + ropes[i].size() - 3]);
-            }
-            pack.forward(&factors);
-            let end = Vec3::new(0.1, -0.2, 0.3);
-            let mut received = Vec::new();
-            for lane in 0..pack.ropes.len() {
-                received.push(pack.received(lane));
-                pack.set_end(lane, &end);
-            }
-            pack.backward(&factors);
+        // The registers of this machine, and the narrowest ones.
+        for is_narrow in [false, true] {
+            let mut packs = FactorPack::of(&ropes, |i| i == gone, &factors);
+            assert_eq!(packs.iter().map(|pack| pack.ropes.len()).sum::<usize>(), 12);
+            for pack in &mut packs {
+                if is_narrow {
+                    pack.assemble_by(&factors, &motion, of, |of| Simd::vectorize(pulp::Scalar, of));
+                    pack.factor_by(&factors, |of| Simd::vectorize(pulp::Scalar, of)).unwrap();
+                } else {
+                    pack.assemble(&factors, &motion, of);
+                    pack.factor(&factors).unwrap();
+                }
+                for lane in 0..pack.ropes.len() {
+                    let i = pack.ropes[lane];
+                    let mut factor = factors[i].clone();
+                    pack.copy(lane, &mut factor);
+                    let whole = if is_free(i) { factor.values.len() } else { factor.node(factor.factored_nodes())[1] };
+                    assert!(is_near(&factor.values[..whole], &factors[i].values[..whole]), "factor of rope {i}");
+                    let complement = pack.complement(&factor, lane);
+                    assert!(is_near(complement.as_slice(), complements[i].as_slice()), "complement of rope {i}");
+                    pack.put(lane, &v[offsets[i]..offsets[i] + ropes[i].size() - 3]);
+                }
+                pack.forward(&factors);
+                let end = Vec3::new(0.1, -0.2, 0.3);
+                let mut received = Vec::new();
+                for lane in 0..pack.ropes.len() {
+                    received.push(pack.received(lane));
+                    pack.set_end(lane, &end);
+                }
+                pack.backward(&factors);
 
-            for (lane, i) in pack.ropes.iter().copied().enumerate() {
-                let nodes = &v[offsets[i]..offsets[i] + ropes[i].size() - 3];
-                let mut expected: Vec<f64> = nodes.rchunks_exact(3).flatten().copied().collect();
-                let on_end = factors[i].forward(&mut expected);
-                factors[i].backward(&mut expected, &end);
-                let mut found = Vec::new();
-                pack.rows_of(lane, &mut found);
-                assert!(is_near(&found, &expected), "rope {i}");
-                assert_eq!(factors[i].keeps_end(), !is_free(i));
-                if factors[i].keeps_end() {
-                    assert!(is_near(received[lane].as_slice(), on_end.as_slice()), "end of rope {i}");
+                for (lane, i) in pack.ropes.iter().copied().enumerate() {
+                    let nodes = &v[offsets[i]..offsets[i] + ropes[i].size() - 3];
+                    let mut expected: Vec<f64> = nodes.rchunks_exact(3).flatten().copied().collect();
+                    let on_end = factors[i].forward(&mut expected);
+                    factors[i].backward(&mut expected, &end);
+                    let mut found = Vec::new();
+                    pack.rows_of(lane, &mut found);
+                    assert!(is_near(&found, &expected), "rope {i}");
+                    assert_eq!(factors[i].keeps_end(), !is_free(i));
+                    if factors[i].keeps_end() {
+                        assert!(is_near(received[lane].as_slice(), on_end.as_slice()), "end of rope {i}");
+                    }
                 }
             }
         }
