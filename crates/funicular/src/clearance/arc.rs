@@ -120,6 +120,11 @@ impl Arc {
 }
 
 impl ArcBounds {
+    /// Square of the greatest second derivative [1/m²].
+    pub(super) fn bend_squared(&self) -> f64 {
+        self.second[0] * self.second[0] + self.second[1] * self.second[1]
+    }
+
     /// Cosine of the least angle between the lines of two arcs: the angle between their chords, less what the curves turn
     /// from them.
     pub(super) fn greatest_cosine(own: &Self, others: &Self, chords_w: [&Vec3; 2]) -> f64 {

@@ -31,8 +31,8 @@ const MAX_STEPS: usize = 30;
 /// step and becomes rounding.
 const LAST_STEP: f64 = 1e-8;
 
-/// What a step along both cables leaves of the points [m] that is the last one already: the step times the square of the
-/// angle by which the cables bend along it.
+/// What a step along both cables may leave of the points [m] that is the last one already: the step times the square of the
+/// angle by which the cables bend along it at most.
 const LAST_BEND: f64 = 1e-13;
 
 /// The same of a method without curvature, whose error shrinks by a factor only.
@@ -120,10 +120,7 @@ fn minimum_in(one: &FreeSpan, other: &FreeSpan, pair: &PairOfArcs) -> NearCables
             [(places[0] + ds).clamp(ranges[0][0], ranges[0][1]), (places[1] + dt).clamp(ranges[1][0], ranges[1][1])];
         let moves = [next[0] - places[0], next[1] - places[1]];
         let moved = moves[0].abs() / one.length + moves[1].abs() / other.length;
-        let is_straight = is_free && {
-            let bend = |of: &PointOnSpan, by: f64| of.curvature_w.norm_squared() * by.abs().powi(3);
-            bend(&own, ds) + bend(&others, dt) < LAST_BEND
-        };
+        let is_straight = is_free && bends(&pair.arcs, moves).is_some_and(|left| left < LAST_BEND);
         if is_straight || moved < if is_newtons { LAST_STEP } else { LAST_STEP_WITHOUT_CURVATURE } {
             // So near, the derivatives give the points to rounding.
             consider([own.after(moves[0]), others.after(moves[1])], next);
@@ -187,6 +184,12 @@ fn step(own: &PointOnSpan, others: &PointOnSpan, places: [f64; 2], ranges: [[f64
         }
     }
     NewtonStep { by: [ds, dt], is_newtons: is_definite, is_free }
+}
+
+/// Bound of what a step along both arcs leaves of their points by its third power [m]; `None` where an arc has no bounds.
+fn bends([own, others]: &[Arc; 2], moves: [f64; 2]) -> Option<f64> {
+    let bend = |arc: &Arc, by: f64| Some(arc.bounds.as_ref()?.bend_squared() * by.abs().powi(3));
+    Some(bend(own, moves[0])? + bend(others, moves[1])?)
 }
 
 /// True if half the squared distance is surely convex over a pair of arcs: its second derivatives are bounded by those of
