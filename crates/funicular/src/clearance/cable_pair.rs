@@ -27,16 +27,16 @@ pub(super) struct NearCables {
 /// Maximum number of Newton steps, a guard: two to four are usual.
 const MAX_STEPS: usize = 30;
 
-/// Step of a place, over the length of the cable, that is the last one of Newton's method: its error squares from step to
-/// step and becomes rounding.
-const LAST_STEP: f64 = 1e-8;
+/// Maximum last step of Newton's method along a place, over the length of the cable: its error squares from step to step
+/// and becomes rounding.
+const MAX_LAST_STEP: f64 = 1e-8;
 
-/// What a step along both cables may leave of the points [m] that is the last one already: the step times the square of the
-/// angle by which the cables bend along it at most.
-const LAST_BEND: f64 = 1e-13;
+/// Maximum last step of a method without curvature, whose error shrinks by a factor only.
+const MAX_LAST_STEP_WITHOUT_CURVATURE: f64 = 1e-14;
 
-/// The same of a method without curvature, whose error shrinks by a factor only.
-const LAST_STEP_WITHOUT_CURVATURE: f64 = 1e-14;
+/// Maximum error of the points after a last step that both cables go freely [m]. Steps of a millimetre along taut cables
+/// leave 1e-14, steps of a decimetre 1e-8.
+const MAX_POINT_ERROR: f64 = 1e-13;
 
 /// Nearest points of two cables, without ends that are mounted together; `None` if nothing is compared, or if the distance
 /// is surely above `enough`.
@@ -120,8 +120,9 @@ fn minimum_in(one: &FreeSpan, other: &FreeSpan, pair: &PairOfArcs) -> NearCables
             [(places[0] + ds).clamp(ranges[0][0], ranges[0][1]), (places[1] + dt).clamp(ranges[1][0], ranges[1][1])];
         let moves = [next[0] - places[0], next[1] - places[1]];
         let moved = moves[0].abs() / one.length + moves[1].abs() / other.length;
-        let is_straight = is_free && bends(&pair.arcs, moves).is_some_and(|left| left < LAST_BEND);
-        if is_straight || moved < if is_newtons { LAST_STEP } else { LAST_STEP_WITHOUT_CURVATURE } {
+        let largest = if is_newtons { MAX_LAST_STEP } else { MAX_LAST_STEP_WITHOUT_CURVATURE };
+        let is_exact = is_free && point_error(&pair.arcs, moves).is_some_and(|error| error < MAX_POINT_ERROR);
+        if is_exact || moved < largest {
             // So near, the derivatives give the points to rounding.
             consider([own.after(moves[0]), others.after(moves[1])], next);
             best.is_minimum = is_newtons;
@@ -186,10 +187,11 @@ fn step(own: &PointOnSpan, others: &PointOnSpan, places: [f64; 2], ranges: [[f64
     NewtonStep { by: [ds, dt], is_newtons: is_definite, is_free }
 }
 
-/// Bound of what a step along both arcs leaves of their points by its third power [m]; `None` where an arc has no bounds.
-fn bends([own, others]: &[Arc; 2], moves: [f64; 2]) -> Option<f64> {
-    let bend = |arc: &Arc, by: f64| Some(arc.bounds.as_ref()?.bend_squared() * by.abs().powi(3));
-    Some(bend(own, moves[0])? + bend(others, moves[1])?)
+/// Error of the points after a step along both arcs [m]: the step times the square of the angle by which they bend along it
+/// at most. `None` where an arc has no bounds.
+fn point_error([own, others]: &[Arc; 2], moves: [f64; 2]) -> Option<f64> {
+    let error = |arc: &Arc, by: f64| Some(arc.bounds.as_ref()?.bend_squared() * by.abs().powi(3));
+    Some(error(own, moves[0])? + error(others, moves[1])?)
 }
 
 /// True if half the squared distance is surely convex over a pair of arcs: its second derivatives are bounded by those of

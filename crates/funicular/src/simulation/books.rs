@@ -38,7 +38,7 @@ impl EnergyBooks {
         self.at_start
     }
 
-    /// Energy that moves now, and that came and went since the start [J]: what an error of the energy is compared with.
+    /// Energy that moves now, and that came and went since the start [J]: the measure of an error of the energy.
     pub fn moved(&self) -> f64 {
         let Self { kinetic, winches, loads, payloads, dissipated, .. } = self;
         kinetic + winches.abs() + loads.abs() + payloads.abs() + dissipated

@@ -51,7 +51,7 @@ const EMBEDDED: [f64; STAGES] = [
 /// Step after the start and after an event [s].
 const FIRST_STEP: f64 = 1e-4;
 /// Step below which a motion cannot be followed [s]: a tenth of the time in which a wave in steel passes a millimetre.
-const LEAST_STEP: f64 = 2e-8;
+const MIN_STEP: f64 = 2e-8;
 /// Tolerated change of a velocity over that of a position [1/s].
 const VELOCITY_RATE: f64 = 100.0;
 /// Part of a step that failed that is tried next.
@@ -232,7 +232,7 @@ impl Stepper {
             } else {
                 self.step
             };
-            if h < LEAST_STEP && !ends {
+            if h < MIN_STEP && !ends {
                 return Err(TooFast { time: self.time });
             }
             match self.attempt(h, until) {
@@ -253,7 +253,7 @@ impl Stepper {
                     self.step = SHORTER * h;
                 }
             }
-            if self.step < LEAST_STEP || self.step.is_nan() {
+            if self.step < MIN_STEP || self.step.is_nan() {
                 return Err(TooFast { time: self.time });
             }
         }

@@ -20,13 +20,14 @@ const SLACK: f64 = SlackCable::TENSION;
 
 /// Energy that the books of a step may not explain, over the energy that has moved so far, …
 const MAX_DEFECT: f64 = 1e-4;
-/// … and over the weight times the tolerance, which is enough. Smooth motion leaves less; ropes that go slack or taut within
-/// a step leave more, and so does a command that a long step passes over.
-const SMALL_DEFECT: f64 = 1e-3;
-/// Rounding of the energies over their size: at rest and in small motion nothing else is left.
-const ROUNDING: f64 = 1e-12;
-/// Longest step that may leave more [s]: strongly damped ropes go to and fro in shorter ones.
-const DEFECT_STEP: f64 = 1e-6;
+/// … over the weight times the tolerance, …
+const MAX_DEFECT_OF_TOLERANCE: f64 = 1e-3;
+/// … and over the energies themselves, whose rounding is all that is left at rest; the largest of the three counts. Steps
+/// of smooth motion leave less. Ropes that go slack or taut within a step leave more, and so does a command that a long
+/// step passes over.
+const MAX_ROUNDING: f64 = 1e-12;
+/// Maximum step that may leave more [s], a guard against steps that shrink to nothing.
+const MAX_DEFECT_STEP: f64 = 1e-6;
 
 /// One cable at one time.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -310,11 +311,11 @@ impl Simulation {
     fn is_too_long(&self, before: &EnergyBooks) -> bool {
         let Some((dense, ..)) = self.last.as_ref() else { return false };
         let body = &self.stepper.system.body;
-        let least = SMALL_DEFECT * self.settings.tolerance * body.mass * body.gravity_w.norm();
-        let rounding = ROUNDING * (self.books.strain + self.books.potential.abs());
+        let least = MAX_DEFECT_OF_TOLERANCE * self.settings.tolerance * body.mass * body.gravity_w.norm();
+        let rounding = MAX_ROUNDING * (self.books.strain + self.books.potential.abs());
         let enough = (MAX_DEFECT * self.books.moved()).max(least).max(rounding);
         let defect = (self.books.defect() - before.defect()).abs();
-        dense.until - dense.from > DEFECT_STEP && defect > enough
+        dense.until - dense.from > MAX_DEFECT_STEP && defect > enough
     }
 
     /// Follows what depends on whole steps: wheels that roll, and cables that are slack.

@@ -69,26 +69,6 @@ impl Skyline {
         self.factored = self.rows() - if keep { 3 } else { 0 };
     }
 
-    /// Sets all entries to zero.
-    #[cfg(test)]
-    pub(super) fn clear(&mut self) {
-        self.values.fill(0.0);
-    }
-
-    /// Adds a symmetric block between two nodes, counted from the platform; `node` is not beyond `other` from the
-    /// platform. `free` is the number of nodes without the anchor.
-    #[cfg(test)]
-    pub(super) fn add(&mut self, free: usize, node: usize, other: usize, block: &Mat3) {
-        let (row, column) = (3 * (free - 1 - node), 3 * (free - 1 - other));
-        for i in 0..3 {
-            let place = self.shape.start[row + i] + column - self.shape.first[row + i];
-            let width = if node == other { i + 1 } else { 3 };
-            for j in 0..width {
-                self.values[place + j] += block[(i, j)];
-            }
-        }
-    }
-
     /// Number of rows.
     pub(super) fn rows(&self) -> usize {
         self.shape.rows()
@@ -117,8 +97,54 @@ impl Skyline {
         &self.values[start..start + row + 1 - self.shape.first[row]]
     }
 
+    /// `L⁻¹ b` for the factored rows, in place; returns what the last node receives of it, `A₀ᵢ Aᵢᵢ⁻¹ b`, if it is
+    /// kept. `b` is in the order of the rows.
+    pub(super) fn forward(&self, b: &mut [f64]) -> Vec3 {
+        for row in 0..self.factored {
+            let own = self.row(row);
+            let first = self.shape.first[row];
+            let sum = dot(&own[..row - first], &b[first..row]);
+            b[row] = (b[row] - sum) * own[row - first];
+        }
+        if !self.keeps_end() {
+            return Vec3::zeros();
+        }
+        Vec3::from_fn(|i, _| {
+            let (row, first) = (self.factored + i, self.shape.first[self.factored + i]);
+            dot(&self.row(row)[..self.factored - first], &b[first..self.factored])
+        })
+    }
+
+    /// Entries of a column at the kept last node, which become zero; zero if it is not kept.
+    pub(super) fn take_kept(&self, column: &mut [f64]) -> Vec3 {
+        if !self.keeps_end() {
+            return Vec3::zeros();
+        }
+        Vec3::from_fn(|i, _| std::mem::take(&mut column[self.factored + i]))
+    }
+}
+
+#[cfg(test)]
+impl Skyline {
+    /// Sets all entries to zero.
+    pub(super) fn clear(&mut self) {
+        self.values.fill(0.0);
+    }
+
+    /// Adds a symmetric block between two nodes, counted from the platform; `node` is not beyond `other` from the
+    /// platform. `free` is the number of nodes without the anchor.
+    pub(super) fn add(&mut self, free: usize, node: usize, other: usize, block: &Mat3) {
+        let (row, column) = (3 * (free - 1 - node), 3 * (free - 1 - other));
+        for i in 0..3 {
+            let place = self.shape.start[row + i] + column - self.shape.first[row + i];
+            let width = if node == other { i + 1 } else { 3 };
+            for j in 0..width {
+                self.values[place + j] += block[(i, j)];
+            }
+        }
+    }
+
     /// Cholesky factor in place. With `keep_end` the last node is left as the Schur complement, which is returned.
-    #[cfg(test)]
     pub(super) fn factor(&mut self, keep_end: bool) -> Result<Mat3, NotPositive> {
         self.keep_end(keep_end);
         for row in 0..self.rows() {
@@ -146,7 +172,6 @@ impl Skyline {
     }
 
     /// Schur complement of the last node.
-    #[cfg(test)]
     fn complement(&self) -> Mat3 {
         let mut complement = Mat3::zeros();
         for i in 0..3 {
@@ -161,34 +186,7 @@ impl Skyline {
         complement
     }
 
-    /// `L⁻¹ b` for the factored rows, in place; returns what the last node receives of it, `A₀ᵢ Aᵢᵢ⁻¹ b`, if it is
-    /// kept. `b` is in the order of the rows.
-    pub(super) fn forward(&self, b: &mut [f64]) -> Vec3 {
-        for row in 0..self.factored {
-            let own = self.row(row);
-            let first = self.shape.first[row];
-            let sum = dot(&own[..row - first], &b[first..row]);
-            b[row] = (b[row] - sum) * own[row - first];
-        }
-        if !self.keeps_end() {
-            return Vec3::zeros();
-        }
-        Vec3::from_fn(|i, _| {
-            let (row, first) = (self.factored + i, self.shape.first[self.factored + i]);
-            dot(&self.row(row)[..self.factored - first], &b[first..self.factored])
-        })
-    }
-
-    /// Entries of a column at the kept last node, which become zero; zero if it is not kept.
-    pub(super) fn take_kept(&self, column: &mut [f64]) -> Vec3 {
-        if !self.keeps_end() {
-            return Vec3::zeros();
-        }
-        Vec3::from_fn(|i, _| std::mem::take(&mut column[self.factored + i]))
-    }
-
     /// `L⁻ᵀ (b − L₀ᵀ end)` in place, `end` being the motion of the kept last node.
-    #[cfg(test)]
     pub(super) fn backward(&self, b: &mut [f64], end: &Vec3) {
         if self.keeps_end() {
             for i in 0..3 {

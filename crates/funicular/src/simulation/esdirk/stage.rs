@@ -12,12 +12,13 @@ const SMALL_PART: f64 = 0.1 * NEWTON_PART;
 /// Newton steps of a stage; more than this many with one factor are slower than a new factor.
 const NEWTON_STEPS: usize = 10;
 const NEWTON_STEPS_OF_OLD_FACTOR: usize = 4;
-/// Contraction from which on a factor is made anew at the present place: a rope has gone slack or taut since it was made.
-/// Smooth motion contracts by 0.1 or less.
-const KINK_CONTRACTION: f64 = 0.7;
-/// Work along a change of Newton's method that is too much after it, over the work that was missing before it. Such changes
-/// are shortened, or steps would go to and fro across the kinks of strongly damped ropes.
-const OVERSHOT: f64 = 0.5;
+/// Maximum contraction of a factor that is kept; above it a rope has gone slack or taut since it was made. Smooth motion
+/// contracts by 0.1 or less.
+const MAX_CONTRACTION: f64 = 0.7;
+/// Maximum work along a change of Newton's method that is too much after it, over the work that was missing before it.
+/// Larger changes are shortened, or steps would go to and fro across the kinks of strongly damped ropes. Changes
+/// that go to and fro have 1 and more, those that contract 0.2 and less.
+const MAX_OVERSHOOT: f64 = 0.5;
 
 /// A stage that Newton's method did not solve.
 pub(super) struct NotSolved;
@@ -47,7 +48,7 @@ impl Stepper {
             // Ropes went slack or taut on the way: back to where no work is missing and none too much.
             if let Some(missing) = missing.take() {
                 let beyond = self.system.work(&self.needed, &self.change);
-                if beyond > OVERSHOT * missing {
+                if beyond > MAX_OVERSHOOT * missing {
                     add(&mut current.v, -scale * beyond / (missing + beyond), &self.change);
                     self.factored = None;
                     last = f64::INFINITY;
@@ -78,7 +79,7 @@ impl Stepper {
                 place(&self.work, &turn_base, hg, current);
                 return Ok(());
             }
-            let crosses_kink = last.is_finite() && self.contraction > KINK_CONTRACTION;
+            let crosses_kink = last.is_finite() && self.contraction > MAX_CONTRACTION;
             if crosses_kink || (round >= NEWTON_STEPS_OF_OLD_FACTOR && !is_fresh) {
                 self.factored = None;
             }

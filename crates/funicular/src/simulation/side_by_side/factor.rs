@@ -22,7 +22,7 @@ pub(in crate::simulation) struct FactorPack {
     values: Lanes,
     /// Right-hand side in the order of the rows.
     rows: Lanes,
-    /// What the kept last nodes receive of the right-hand side, and then their motion.
+    /// Share of the right-hand side that the kept last nodes receive, and then their motion.
     end: [Line; 3],
 }
 
@@ -63,7 +63,13 @@ impl FactorPack {
         self.assemble_by(shapes, of, factors, |of| Arch::new().dispatch(of));
     }
 
-    fn assemble_by(&mut self, shapes: &[Skyline], of: &RopesInMotion, factors: Newton, run: impl FnOnce(Assemble)) {
+    fn assemble_by(
+        &mut self,
+        shapes: &[Skyline],
+        of: &RopesInMotion,
+        factors: Newton,
+        run: impl FnOnce(OnPack<Assemble>),
+    ) {
         let rope = &of.ropes[self.ropes[0]];
         let mut law = StretchLaw::default();
         let (mut x, mut v, mut on_node) = (zeros(rope.size()), zeros(rope.size()), Line::ZERO);
@@ -77,7 +83,8 @@ impl FactorPack {
             gather(&of.motion[1][of.offsets[i]..], lane, &mut v);
         }
         let shape = &shapes[self.ropes[0]];
-        run(Assemble { shape, pack: self, rope, law: &law, motion: [&x, &v], on_node: &on_node, factors });
+        let work = Assemble { rope, law: &law, motion: [&x, &v], on_node: &on_node, factors };
+        run(OnPack { work, shape, pack: self });
     }
 
     /// [`Skyline::factor`] of all lanes.
@@ -88,9 +95,9 @@ impl FactorPack {
         self.factor_by(shapes, |of| Arch::new().dispatch(of))
     }
 
-    fn factor_by(&mut self, shapes: &[Skyline], run: impl FnOnce(Eliminate)) -> Result<(), NotPositive> {
+    fn factor_by(&mut self, shapes: &[Skyline], run: impl FnOnce(OnPack<Eliminate>)) -> Result<(), NotPositive> {
         let shape = &shapes[self.ropes[0]];
-        run(Eliminate { shape, pack: self });
+        run(OnPack { work: Eliminate, shape, pack: self });
         let is_positive = |pivot: &f64| *pivot > 0.0 && pivot.is_finite();
         let are_positive = (0..shape.factored_nodes()).all(|node| {
             let [first, at @ ..] = shape.node(node);
@@ -146,7 +153,7 @@ impl FactorPack {
         gather(rows, lane, &mut self.rows);
     }
 
-    /// What the kept last node of a lane has received, or its motion.
+    /// Share that the kept last node of a lane has received, or its motion.
     pub(in crate::simulation) fn received(&self, lane: usize) -> Vec3 {
         Vec3::from_fn(|axis, _| self.end[axis][lane])
     }
@@ -160,18 +167,40 @@ impl FactorPack {
 
     /// [`Skyline::forward`] of all lanes.
     pub(in crate::simulation) fn forward(&mut self, shapes: &[Skyline]) {
-        Arch::new().dispatch(Forward { shape: &shapes[self.ropes[0]], pack: self });
+        Arch::new().dispatch(OnPack { work: Forward, shape: &shapes[self.ropes[0]], pack: self });
     }
 
     /// [`Skyline::backward`] of all lanes.
     pub(in crate::simulation) fn backward(&mut self, shapes: &[Skyline]) {
-        Arch::new().dispatch(Backward { shape: &shapes[self.ropes[0]], pack: self });
+        Arch::new().dispatch(OnPack { work: Backward, shape: &shapes[self.ropes[0]], pack: self });
     }
 }
 
-struct Assemble<'a> {
+/// Work on the matrices of a pack, one register of their lanes at a time.
+trait OnRegisters {
+    fn on<S: Simd>(&self, part: Part<S>, shape: &Skyline, pack: &mut FactorPack);
+}
+
+/// Pack with the work to be done on it.
+struct OnPack<'a, W> {
+    work: W,
     shape: &'a Skyline,
     pack: &'a mut FactorPack,
+}
+
+impl<W: OnRegisters> WithSimd for OnPack<'_, W> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) {
+        for part in Part::first(simd, self.pack.ropes.len()) {
+            self.work.on(part, self.shape, self.pack);
+        }
+    }
+}
+
+/// Assembly at a motion.
+struct Assemble<'a> {
     rope: &'a RopeMesh,
     law: &'a StretchLaw,
     motion: [&'a [Line]; 2],
@@ -179,24 +208,20 @@ struct Assemble<'a> {
     factors: Newton,
 }
 
-impl WithSimd for Assemble<'_> {
-    type Output = ();
-
+impl OnRegisters for Assemble<'_> {
     #[inline(always)]
-    fn with_simd<S: Simd>(self, simd: S) {
+    fn on<S: Simd>(&self, part: Part<S>, shape: &Skyline, pack: &mut FactorPack) {
         let (rope, degree) = (self.rope, self.rope.basis.degree);
         let is_damped = self.law.is_damped();
         let mut blocks = zeros(ENTRIES * degree);
-        for part in Part::first(simd, self.pack.ropes.len()) {
-            for e in 0..rope.elements {
-                let nodes = 3 * e * degree..3 * ((e + 1) * degree + 1);
-                let [x, v] = self.motion.map(|of| &of[nodes.clone()]);
-                let v = is_damped.then_some(v);
-                for (g, block) in blocks.chunks_exact_mut(ENTRIES).enumerate() {
-                    part.block_of_point(rope, self.law, self.factors, g, (x, v), block);
-                }
-                add_element(part, rope, e, &blocks, self.on_node, self.shape, &mut self.pack.values);
+        for e in 0..rope.elements {
+            let nodes = 3 * e * degree..3 * ((e + 1) * degree + 1);
+            let [x, v] = self.motion.map(|of| &of[nodes.clone()]);
+            let v = is_damped.then_some(v);
+            for (g, block) in blocks.chunks_exact_mut(ENTRIES).enumerate() {
+                part.block_of_point(rope, self.law, self.factors, g, (x, v), block);
             }
+            add_element(part, rope, e, &blocks, self.on_node, shape, &mut pack.values);
         }
     }
 }
@@ -279,27 +304,19 @@ fn add_element<S: Simd>(
     }
 }
 
-struct Eliminate<'a> {
-    shape: &'a Skyline,
-    pack: &'a mut FactorPack,
-}
+/// Cholesky factor in place.
+struct Eliminate;
 
-impl WithSimd for Eliminate<'_> {
-    type Output = ();
-
+impl OnRegisters for Eliminate {
     #[inline(always)]
-    fn with_simd<S: Simd>(self, simd: S) {
-        let Self { shape, pack } = self;
+    fn on<S: Simd>(&self, part: Part<S>, shape: &Skyline, pack: &mut FactorPack) {
         let values = &mut pack.values;
-        let nodes = shape.rows() / 3;
-        for part in Part::first(simd, pack.ropes.len()) {
-            for node in 0..nodes {
-                let [first, at @ ..] = shape.node(node);
-                for other in first / 3..node {
-                    eliminate(part, values, [first, at[0], at[1], at[2]], other, shape.node(other));
-                }
-                factor_node(part, values, 3 * node - first, at, node < shape.factored_nodes());
+        for node in 0..shape.rows() / 3 {
+            let [first, at @ ..] = shape.node(node);
+            for other in first / 3..node {
+                eliminate(part, values, [first, at[0], at[1], at[2]], other, shape.node(other));
             }
+            factor_node(part, values, 3 * node - first, at, node < shape.factored_nodes());
         }
     }
 }
@@ -353,75 +370,61 @@ fn factor_node<S: Simd>(part: Part<S>, values: &mut [Line], before: usize, at: [
     }
 }
 
-struct Forward<'a> {
-    shape: &'a Skyline,
-    pack: &'a mut FactorPack,
-}
+/// Forward substitution.
+struct Forward;
 
-impl WithSimd for Forward<'_> {
-    type Output = ();
-
+impl OnRegisters for Forward {
     #[inline(always)]
-    fn with_simd<S: Simd>(self, simd: S) {
-        let Self { shape, pack } = self;
-        for part in Part::first(simd, pack.ropes.len()) {
-            for node in 0..shape.factored_nodes() {
-                let [first, at @ ..] = shape.node(node);
-                let row = 3 * node;
-                let sums = products(part, &pack.values, at, &pack.rows[first..row]);
-                // The diagonal holds the inverse.
-                let entry = |i: usize, j: usize| part.of(&pack.values[at[i] + row - first + j]);
-                let left: [S::f64s; 3] = from_fn(|i| simd.sub_f64s(part.of(&pack.rows[row + i]), sums[i]));
-                let a = part.mul(left[0], entry(0, 0));
-                let b = part.mul(part.less(left[1], entry(1, 0), a), entry(1, 1));
-                let c = part.less(part.less(left[2], entry(2, 0), a), entry(2, 1), b);
-                let c = part.mul(c, entry(2, 2));
-                for (i, value) in [a, b, c].into_iter().enumerate() {
-                    part.set(&mut pack.rows[row + i], value);
-                }
+    fn on<S: Simd>(&self, part: Part<S>, shape: &Skyline, pack: &mut FactorPack) {
+        for node in 0..shape.factored_nodes() {
+            let [first, at @ ..] = shape.node(node);
+            let row = 3 * node;
+            let sums = products(part, &pack.values, at, &pack.rows[first..row]);
+            // The diagonal holds the inverse.
+            let entry = |i: usize, j: usize| part.of(&pack.values[at[i] + row - first + j]);
+            let left: [S::f64s; 3] = from_fn(|i| part.simd.sub_f64s(part.of(&pack.rows[row + i]), sums[i]));
+            let a = part.mul(left[0], entry(0, 0));
+            let b = part.mul(part.less(left[1], entry(1, 0), a), entry(1, 1));
+            let c = part.less(part.less(left[2], entry(2, 0), a), entry(2, 1), b);
+            let c = part.mul(c, entry(2, 2));
+            for (i, value) in [a, b, c].into_iter().enumerate() {
+                part.set(&mut pack.rows[row + i], value);
             }
-            if shape.keeps_end() {
-                let [first, at @ ..] = shape.node(shape.factored_nodes());
-                let sums = products(part, &pack.values, at, &pack.rows[first..3 * shape.factored_nodes()]);
-                for (end, sum) in pack.end.iter_mut().zip(sums) {
-                    part.set(end, sum);
-                }
+        }
+        if shape.keeps_end() {
+            let [first, at @ ..] = shape.node(shape.factored_nodes());
+            let sums = products(part, &pack.values, at, &pack.rows[first..3 * shape.factored_nodes()]);
+            for (end, sum) in pack.end.iter_mut().zip(sums) {
+                part.set(end, sum);
             }
         }
     }
 }
 
-struct Backward<'a> {
-    shape: &'a Skyline,
-    pack: &'a mut FactorPack,
-}
+/// Backward substitution.
+struct Backward;
 
-impl WithSimd for Backward<'_> {
-    type Output = ();
-
+impl OnRegisters for Backward {
     #[inline(always)]
-    fn with_simd<S: Simd>(self, simd: S) {
-        let Self { shape, pack } = self;
-        for part in Part::first(simd, pack.ropes.len()) {
-            if shape.keeps_end() {
-                let [first, at @ ..] = shape.node(shape.factored_nodes());
-                let end = from_fn(|i| part.of(&pack.end[i]));
-                take_off(part, &pack.values, at, end, &mut pack.rows[first..3 * shape.factored_nodes()]);
+    fn on<S: Simd>(&self, part: Part<S>, shape: &Skyline, pack: &mut FactorPack) {
+        if shape.keeps_end() {
+            let [first, at @ ..] = shape.node(shape.factored_nodes());
+            let end = from_fn(|i| part.of(&pack.end[i]));
+            take_off(part, &pack.values, at, end, &mut pack.rows[first..3 * shape.factored_nodes()]);
+        }
+        for node in (0..shape.factored_nodes()).rev() {
+            let [first, at @ ..] = shape.node(node);
+            let row = 3 * node;
+            let entry = |i: usize, j: usize| part.of(&pack.values[at[i] + row - first + j]);
+            let right: [S::f64s; 3] = from_fn(|i| part.of(&pack.rows[row + i]));
+            let c = part.mul(right[2], entry(2, 2));
+            let b = part.mul(part.less(right[1], entry(2, 1), c), entry(1, 1));
+            let a = part.less(part.less(right[0], entry(1, 0), b), entry(2, 0), c);
+            let a = part.mul(a, entry(0, 0));
+            for (i, value) in [a, b, c].into_iter().enumerate() {
+                part.set(&mut pack.rows[row + i], value);
             }
-            for node in (0..shape.factored_nodes()).rev() {
-                let [first, at @ ..] = shape.node(node);
-                let row = 3 * node;
-                let entry = |i: usize, j: usize| part.of(&pack.values[at[i] + row - first + j]);
-                let right: [S::f64s; 3] = from_fn(|i| part.of(&pack.rows[row + i]));
-                let c = part.mul(right[2], entry(2, 2));
-                let b = part.mul(part.less(right[1], entry(2, 1), c), entry(1, 1));
-                let a = part.less(part.less(right[0], entry(1, 0), b), entry(2, 0), c);
-                let a = part.mul(a, entry(0, 0));
-                for (i, value) in [a, b, c].into_iter().enumerate() {
-                    part.set(&mut pack.rows[row + i], value);
-                }
-                take_off(part, &pack.values, at, [a, b, c], &mut pack.rows[first..row]);
-            }
+            take_off(part, &pack.values, at, [a, b, c], &mut pack.rows[first..row]);
         }
     }
 }

@@ -113,8 +113,8 @@ impl LoadCapacity<'_> {
         }
     }
 
-    /// Value of [`Self::load_factor`] alone, which takes a fraction of the time if cables are straight, and less if they
-    /// sag: bounds of their bends are enough to choose the loads.
+    /// Value of [`Self::load_factor`] alone, in less time: straight cables have it from the facets, and bounds of the bends
+    /// of sagging ones are enough to choose the loads.
     ///
     /// # Errors
     /// As [`Self::load_factor`].

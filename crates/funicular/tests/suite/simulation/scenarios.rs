@@ -22,7 +22,7 @@ const FEW: std::ops::Range<u64> = 0..12;
 const ONCE_WRONG: [u64; 4] = [378, 416, 753, 939];
 /// Samples of a run.
 const SAMPLES: u32 = 60;
-/// Largest number of steps of a run; the first scenarios need up to 20,000.
+/// Largest number of steps of a run; the first thousand scenarios need up to 200,000.
 const MAX_STEPS: usize = 300_000;
 /// Largest energy that the books cannot explain, over the energies that changed hands: that of steps with a tolerance as
 /// coarse as here; without the power of the mesh in the books it was up to 0.7.
