@@ -5,6 +5,7 @@ mod declared;
 mod files;
 pub(crate) mod values;
 
+use crate::shell;
 use anyhow::{Context, Result};
 use clap::{Arg, ArgAction, ArgMatches, Args, Command, FromArgMatches};
 pub(crate) use files::{
@@ -45,9 +46,14 @@ impl Cli {
         Ok(T::from_arg_matches(&self.matches)?)
     }
 
+    /// Value of an argument, if the command line gives it.
+    pub(crate) fn value<T: Clone + Send + Sync + 'static>(&self, name: &str) -> Option<&T> {
+        self.matches.try_get_one(name).ok().flatten()
+    }
+
     /// Path of the robot file, if the command line names one.
     pub(crate) fn robot_path(&self) -> Option<&PathBuf> {
-        self.matches.try_get_one::<PathBuf>("robot").ok().flatten()
+        self.value("robot")
     }
 
     /// Changes of the robot file.
@@ -94,6 +100,17 @@ pub(crate) fn program() -> Command {
         &["funicular statics robots/cogiro.toml --pose 1,2,1.5 --print-request > request.json\n  \
            funicular request request.json --format json"],
     );
+    let completions = declared::described(
+        shell::completions(),
+        "Completions of commands and options for a shell\n\nThe shell reads the text from a file of its own folder.",
+        &["funicular completions bash > ~/.local/share/bash-completion/completions/funicular"],
+    );
+    let names: Vec<&str> = request::commands().iter().map(|command| command.name).collect();
+    let man = declared::described(
+        shell::man(&names),
+        "Page of the manual, of the program or of one command, in the format of `man`",
+        &["funicular man modes > funicular-modes.1"],
+    );
 
     Command::new("funicular")
         .version(env!("CARGO_PKG_VERSION"))
@@ -102,7 +119,7 @@ pub(crate) fn program() -> Command {
         .about("Statics and vibration of cable-driven parallel robots whose cables sag")
         .long_about(
             "Statics and vibration of cable-driven parallel robots whose cables sag.\n\nAll commands except `new`, \
-             `schema`, `import`, `merge`, `paper`, `plot`, `validate` and `request` read a robot file (TOML). Results \
+             `schema`, `import`, `merge`, `paper`, `plot`, `validate`, `request`, `completions` and `man` read a robot file (TOML). Results \
              go to stdout, warnings and errors to stderr. Units are SI units, and the unit of every value is in its \
              name. Exit codes: 0 done, 1 no solution, 2 bad input, 130 stopped by Ctrl-C or the end of a job.",
         )
@@ -111,7 +128,7 @@ pub(crate) fn program() -> Command {
         .arg_required_else_help(true)
         .arg(print_request)
         .subcommands(request::commands().iter().map(subcommand))
-        .subcommand(run_request)
+        .subcommands([run_request, completions, man])
 }
 
 /// Command with its robot file, the options of its request, and its files.

@@ -39,7 +39,7 @@ mod validate;
 mod workspace;
 
 use crate::args::{Cli, DrawArgs, DrawModesArgs, FileArgs, OutputArgs, PageArgs, RequestArgs, RunArgs};
-use crate::{robot_file, sweep_run};
+use crate::{robot_file, shell, sweep_run};
 use anyhow::Result;
 use funicular_files::Guard;
 use funicular_study::request::{Request, RequestRobot, commands};
@@ -47,6 +47,9 @@ use serde_json::Map;
 
 /// Runs a command, or prints its request.
 pub(crate) fn run(cli: &Cli) -> Result<()> {
+    if shell::printed(cli)? {
+        return Ok(());
+    }
     if cli.name == "request" {
         let args: RequestArgs = cli.files()?;
         return if cli.print_request { request::print(&request::read(&args.file)?) } else { request::run(&args) };

@@ -9,6 +9,7 @@ mod output;
 mod pose_csv;
 mod progress;
 mod robot_file;
+mod shell;
 mod sweep_run;
 mod table;
 

@@ -30,6 +30,7 @@ mod reduce;
 mod request;
 mod results;
 mod settle;
+mod shell;
 mod simulate;
 mod speeds;
 mod statics;

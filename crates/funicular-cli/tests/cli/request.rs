@@ -197,7 +197,7 @@ fn the_request_of_every_command_runs_again() {
     let refused = run_with(&["request", "-", "--matrices", &matrices], &request);
     assert!(refused.status.code() == Some(2) && stderr(&refused).contains("belongs to a request of `reduce`"));
 
-    // `live` and `paper` have tests of their own pages; every other command is in one of the lists.
+    // `live`, `paper`, `completions` and `man` have tests of their own; every other command is in one of the lists.
     let help = succeed(&["--help"]);
     let commands =
         help.split("Commands:").nth(1).unwrap().lines().skip(1).take_while(|line| !line.is_empty()).filter_map(
@@ -209,7 +209,7 @@ fn the_request_of_every_command_runs_again() {
     let tried: Vec<String> = command_lines().iter().map(|line| line[0].clone()).collect();
     let tried: Vec<&str> = tried.iter().map(String::as_str).chain(lines.iter().map(|(words, _)| words[0])).collect();
     let untried: Vec<&str> = commands.filter(|name| !tried.contains(name)).collect();
-    let others = ["request", "help", "live", "paper"];
+    let others = ["request", "help", "live", "paper", "completions", "man"];
     assert!(untried.iter().all(|name| others.contains(name)), "{untried:?}");
 }
 

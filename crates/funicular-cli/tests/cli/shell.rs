@@ -1,0 +1,33 @@
+//! Completions for shells and pages of the manual.
+
+use super::{assert_refused, run, succeed};
+use std::io::Write;
+use std::process::{Command, Stdio};
+
+#[test]
+fn completions_know_every_command_and_bash_reads_them() {
+    let text = succeed(&["completions", "bash"]);
+    for option in ["--below-hz", "--tension-rule", "--readings", "--cable-pieces", "completions"] {
+        assert!(text.contains(option), "{option}");
+    }
+    let mut bash = Command::new("bash").arg("-n").stdin(Stdio::piped()).spawn().unwrap();
+    bash.stdin.take().unwrap().write_all(text.as_bytes()).unwrap();
+    assert!(bash.wait().unwrap().success());
+
+    for shell in ["zsh", "fish", "powershell", "elvish"] {
+        assert!(succeed(&["completions", shell]).contains("below-hz"), "{shell}");
+    }
+    assert_refused(&run(&["completions", "bsh"]), 2, "bash", "");
+    assert_refused(&run(&["completions", "bash", "--print-request"]), 2, "has no request", "");
+}
+
+#[test]
+fn the_manual_has_a_page_of_the_program_and_one_of_each_command() {
+    let program = succeed(&["man"]);
+    assert!(program.contains(".TH funicular 1") && program.contains("robot file"), "{program}");
+
+    let modes = succeed(&["man", "modes"]);
+    assert!(modes.contains(".TH funicular-modes 1") && modes.contains("below\\-hz"), "{modes}");
+    assert!(modes.contains("yuan2014\\-4mm.toml"), "the example is part of the page: {modes}");
+    assert_refused(&run(&["man", "mods"]), 2, "modes", "");
+}
