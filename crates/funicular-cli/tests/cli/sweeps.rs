@@ -117,7 +117,7 @@ fn a_sweep_varies_values_of_the_file_and_a_list_gives_poses() {
     // As editors count, whatever ends the lines.
     for (broken, says) in [
         ("x_m,y_m,z_m\r\n0,0,0.5\r\n0,zero,0.5\r\n", "line 3, column `y_m`"),
-        ("\u{feff}x_m,y_m,z_m\n\n\n0,0,0.5\n\n0,0,0.5,1\n", "line 6: 4 values, but 3 in the first line"),
+        ("\u{feff}x_m,y_m,z_m\n\n\n0,0,0.5\n\n0,0,0.5,1\n", "line 6: 4 values, but 3 in the header"),
         ("x_m,y_m,z_m\r\n\r\n0,,0.5\r\n", "line 3, column `y_m`"),
         ("x_m,y_m,z_m\r0,0,0.5\r0,0,a\r", "line 3, column `z_m`"),
     ] {
