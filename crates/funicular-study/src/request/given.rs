@@ -450,6 +450,54 @@ mod tests {
         assert_eq!(of("statics", &json!({ "mass_kg": 5, "all": false, "pose": [0, 0, 1] })), "");
     }
 
+    /// Number of a key as JSON, in a list where the key has one.
+    fn number_of(kind: &Kind, number: f64) -> Option<Value> {
+        match kind {
+            Kind::Number(_) | Kind::Written(ProgramForm::Positive | ProgramForm::NotNegative) => Some(json!(number)),
+            Kind::Count(_) if number.fract() == 0.0 => Some(json!(number as i64)),
+            Kind::PerCable(_) | Kind::OneOrPerCable(_) => Some(json!([number])),
+            Kind::List(ProgramForm::Positive | ProgramForm::NotNegative)
+            | Kind::Commas(ProgramForm::Positive | ProgramForm::NotNegative) => Some(json!([number])),
+            Kind::Vector => Some(json!([0, number, 0])),
+            Kind::Pose | Kind::Tensor => Some(json!([0, 0, number, 0, 0, 0])),
+            _ => None,
+        }
+    }
+
+    /// Every command, every key with numbers: the program refuses a number as an option if and only if a request refuses
+    /// it, which Python and the page make of their values.
+    #[test]
+    fn every_numeric_option_has_one_range_for_all_front_ends() {
+        let mut compared = 0;
+        for command in commands() {
+            for key in &command.keys {
+                for number in [0.0, -1.0, -0.5, 0.5, 1.5, 1e-13, 1e13, -1e13, 1e300, 3.0] {
+                    let Some(value) = number_of(&key.kind, number) else { continue };
+                    let text = match &value {
+                        Value::Array(items) => items.iter().map(ToString::to_string).collect::<Vec<_>>().join(","),
+                        value => value.to_string(),
+                    };
+                    let program = crate::written::read(key, &text).map(drop);
+                    let request = check_given(command.name, &Object::from_iter([(key.name.to_owned(), value)]));
+                    // A key that needs another one is refused for that reason.
+                    let request = request.map_err(|error| error.to_string());
+                    let request = request.or_else(|why| if why.contains("means nothing") { Ok(()) } else { Err(why) });
+                    let place = format!("{} {} {text}", command.name, key.name);
+                    assert_eq!(program.is_err(), request.is_err(), "{place}: {program:?} {request:?}");
+                    if let (Err(program), Err(request)) = (program, request) {
+                        let reason = request.rsplit_once(": ").map_or(&*request, |(_, reason)| reason);
+                        assert!(
+                            program.contains(reason) || matches!(key.kind, Kind::Count(_)),
+                            "{place}: {program} {request}"
+                        );
+                    }
+                    compared += 1;
+                }
+            }
+        }
+        assert!(compared > 2000, "{compared}");
+    }
+
     #[test]
     fn keys_that_need_or_exclude_each_other_are_refused() {
         assert!(of("clearance", &json!({ "find_way": true })).contains("⟪find_way⟫ means nothing without ⟪move_to⟫"));

@@ -95,8 +95,10 @@ impl<'a> MoorDynModel<'a> {
         };
         let mut losses = MoorDynLosses::default();
         let mut water = None;
-        let mut named = None;
+        // Text before the first section that is known is a description.
+        let (mut named, mut has_begun) = (None, false);
         for (section, row) in sections::rows(&file.text) {
+            has_begun |= section.kind != SectionKind::Other;
             match section.kind {
                 SectionKind::LineTypes => {
                     let read = model.line_type(file, &row, &mut losses)?;
@@ -127,7 +129,7 @@ impl<'a> MoorDynModel<'a> {
                      `at_tension_n`",
                     row.line
                 )),
-                SectionKind::Other if named != Some(section) => {
+                SectionKind::Other if has_begun && named != Some(section) && !section.title.is_empty() => {
                     named = Some(section);
                     model.lost.push(format!("the section `{}` from line {} on", clean(section.title), section.line));
                 }
