@@ -3,7 +3,7 @@
 use crate::errors;
 use anyhow::{Context, Result, anyhow, bail};
 use funicular::robot::{PlatformMotion, Pose, Robot};
-use funicular_formats::csv_lines::line_at;
+use funicular_formats::csv_lines::CsvText;
 use funicular_study::at_rest::refuse_orientation;
 use funicular_study::request::RobotText;
 use funicular_study::written::number;
@@ -26,34 +26,23 @@ pub(crate) fn read_if_given(path: Option<&Path>, robot: &RobotText) -> Result<Op
 fn read(path: &Path, robot: &Robot) -> Result<Vec<[f64; 6]>> {
     let shown = path.display();
     let bytes = fs::read(path).with_context(|| format!("cannot read the poses {shown}"))?;
-    let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(&bytes[..]);
-    let header = reader.headers().with_context(|| format!("cannot read the poses {shown}"))?.clone();
-    let places = places(&header).map_err(|reason| anyhow!("{shown} {reason}"))?;
+    let name = shown.to_string();
+    let text = CsvText::open(&name, &bytes)?;
+    let places = places(&text.header).map_err(|reason| anyhow!("{shown} {reason}"))?;
 
     let is_point_mass = robot.platform.motion == PlatformMotion::PointMass;
     let mut poses = Vec::new();
-    for record in reader.records() {
-        let record = record.map_err(|error| match error.kind() {
-            csv::ErrorKind::UnequalLengths { pos: Some(position), expected_len, len } => anyhow!(
-                "{shown}, line {}: {len} values, but {expected_len} in the first line: give all lines the same columns",
-                line_at(&bytes, position)
-            ),
-            csv::ErrorKind::Utf8 { pos: Some(position), .. } => {
-                anyhow!("{shown}, line {}: the text is not valid UTF-8", line_at(&bytes, position))
-            }
-            _ => anyhow!("cannot read the poses {shown}: {error}"),
-        })?;
-        // Counting lines scans the file, so it is done only when an error reports one.
-        let line = || record.position().map_or(0, |position| line_at(&bytes, position));
+    for record in text.records() {
+        let (line, record) = record?;
         let mut pose = [0.0; 6];
         for ((value, place), column) in pose.iter_mut().zip(places).zip(COLUMNS) {
             let Some(place) = place else { continue };
             *value = number(record.get(place).unwrap_or_default())
-                .map_err(|reason| anyhow!("{shown}, line {}, column `{column}`: {reason}", line()))?;
+                .map_err(|reason| anyhow!("{shown}, line {line}, column `{column}`: {reason}"))?;
         }
         let [x, y, z, roll, pitch, yaw] = pose;
         refuse_orientation(is_point_mass, &Pose::new([x, y, z], [roll, pitch, yaw]))
-            .map_err(|error| anyhow!("{shown}, line {}: {error}", line()))?;
+            .map_err(|error| anyhow!("{shown}, line {line}: {error}"))?;
         poses.push(pose);
     }
 
@@ -65,11 +54,11 @@ fn read(path: &Path, robot: &Robot) -> Result<Vec<[f64; 6]>> {
 }
 
 /// Place of each column. An unknown column is reported, and refused if its name is close to that of a pose column.
-fn places(header: &csv::StringRecord) -> Result<[Option<usize>; 6], String> {
+fn places(header: &[String]) -> Result<[Option<usize>; 6], String> {
     let mut places = [None; 6];
     let mut others = Vec::new();
 
-    for (i, name) in header.iter().map(|name| name.trim_start_matches('\u{feff}')).enumerate() {
+    for (i, name) in header.iter().map(String::as_str).enumerate() {
         if let Some(k) = COLUMNS.iter().position(|column| *column == name) {
             if places[k].replace(i).is_some() {
                 return Err(format!("has the column `{name}` twice: keep one of them"));
@@ -82,9 +71,7 @@ fn places(header: &csv::StringRecord) -> Result<[Option<usize>; 6], String> {
     let all = COLUMNS.join(", ");
     if let Some(missing) = (0..3).find(|&k| places[k].is_none()) {
         let missing = COLUMNS[missing];
-        return Err(format!(
-            "has no column `{missing}`: the first line names, separated by commas, {all}; angles may be left out"
-        ));
+        return Err(format!("has no column `{missing}`: the first line names {all}; angles may be left out"));
     }
 
     let stem = |name: &str| name.split('_').next().unwrap_or_default().to_lowercase();
@@ -109,12 +96,11 @@ mod tests {
 
     #[test]
     fn columns_are_found_in_any_order_and_those_of_a_pose_in_another_unit_refused() {
-        let of = |line: &str| places(&csv::StringRecord::from(line.split(',').collect::<Vec<_>>()));
+        let of = |line: &str| places(&line.split(',').map(str::to_owned).collect::<Vec<_>>());
         assert_eq!(of("t_s,z_m,x_m,y_m,yaw_deg"), Ok([Some(2), Some(3), Some(1), None, None, Some(4)]));
-        assert_eq!(of("\u{feff}x_m,y_m,z_m,x_dot_m_s"), Ok([Some(0), Some(1), Some(2), None, None, None]));
+        assert_eq!(of("x_m,y_m,z_m,x_dot_m_s"), Ok([Some(0), Some(1), Some(2), None, None, None]));
         for (line, says) in [
             ("x_m,y_m", "has no column `z_m`"),
-            ("x_m;y_m;z_m", "separated by commas"),
             ("x_m,y_m,z_m,x_m", "the column `x_m` twice"),
             ("x_m,y_m,z_m,yaw_rad", "has a column `yaw_rad` and no `yaw_deg`"),
             ("x_m,y_m,z_m,Roll", "give the angle in degrees as `roll_deg`"),

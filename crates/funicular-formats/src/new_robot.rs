@@ -416,7 +416,7 @@ mod tests {
             (&(good.to_owned() + "\n3,0,-4,6,0,-1,\n"), "points.csv, line 4, attachment z: a number is missing"),
             (&(good.to_owned() + "3,0,-4,6 m,0,-1,0\n"), "points.csv, line 3, anchor z: `6 m` is not a number"),
             (&(good.to_owned() + "2,0,-4,6,0,-1,0\n"), "points.csv, line 3: a second cable \"2\""),
-            ("1;4,0;4,0;6,0\n", "separate the columns by commas"),
+            ("1;4,0;4,0;6,0\n", "4 values, but at least 6 are needed"),
             (
                 "name,anchor_x,anchor_y,anchor_z,attachment_x,attachment_y,attachement_z\n1,0,0,1,0,0,0\n",
                 "did you mean `attachment_z`?",

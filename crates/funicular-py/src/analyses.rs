@@ -3,6 +3,7 @@
 //! The methods for users are declared in `_equilibrium_methods.py`, which calls those of this file whose names begin with
 //! `_`; their `given` has the keywords of the command.
 
+use crate::answered::PyAnswered;
 use crate::answers;
 use crate::arrays::{Numbers, ResultsObject, Tensor, TextKeyed};
 use crate::equilibrium::PyEquilibrium;
@@ -17,7 +18,6 @@ use funicular_study::analyses;
 use funicular_study::analyses::statics::Extras;
 use funicular_study::request::{Request, State, Tensions};
 use funicular_study::run_at;
-use funicular_study::wording::Words;
 use numpy::Complex64;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -58,21 +58,18 @@ macro_rules! about {
 impl PyAnalyses {
     /// Results of a command, with the keys of the program's JSON.
     #[pyo3(name = "_results")]
-    fn results<'py>(
-        slf: &Bound<'py, Self>,
-        py: Python<'py>,
+    fn results(
+        slf: &Bound<'_, Self>,
+        py: Python<'_>,
         command: &str,
-        given: &Bound<'py, PyDict>,
-    ) -> PyResult<TextKeyed<'py>> {
+        given: &Bound<'_, PyDict>,
+    ) -> PyResult<PyAnswered> {
         let keywords = Keywords::read(command, given, &[])?;
         Self::at(slf, |rest| {
             let request = rest.request(keywords)?;
-            let at_rest = Arc::clone(&rest.at_rest);
-            let found = interruptible_in_steps(py, move |watch| {
-                let found = run_at(&request, &at_rest, watch).map_err(|error| errors::study(&error))?;
-                found.to_json(Words::Python).map_err(|error| errors::study(&error.into()))
-            })??;
-            answers::loaded(py, &found)
+            let (asked, at_rest) = (request.clone(), Arc::clone(&rest.at_rest));
+            let found = interruptible_in_steps(py, move |watch| run_at(&request, &at_rest, watch))?;
+            Ok(PyAnswered::new(asked, found.map_err(|error| errors::study(&error))?))
         })
     }
 

@@ -24,13 +24,12 @@ use std::io::{self, Write};
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
-/// Watch that ends long work at Ctrl-C, and tells a function how far it is.
+/// Watch that ends long work when a handler of a signal raises, as that of Ctrl-C does, and tells a function how far it
+/// is.
 pub(crate) struct CtrlC {
     checked: Instant,
     raised: Option<PyErr>,
     told: Option<ProgressArgument>,
-    /// True if it is this function that raised.
-    failed: bool,
 }
 
 impl CtrlC {
@@ -42,15 +41,22 @@ impl CtrlC {
     }
 
     pub(crate) fn telling(told: Option<ProgressArgument>) -> Self {
-        Self { checked: Instant::now(), raised: None, told, failed: false }
+        Self { checked: Instant::now(), raised: None, told }
     }
 
-    /// Results of work that may have been stopped with a part of them, or the exception that ended it.
+    /// Results of work, or the exception that ended it.
     pub(crate) fn result<T>(self, found: anyhow::Result<T>) -> PyResult<T> {
+        match self.part(found)? {
+            (found, None) => Ok(found),
+            (_, Some(raised)) => Err(raised),
+        }
+    }
+
+    /// Results of work that may have been stopped with a part of them, and the exception that stopped it.
+    pub(crate) fn part<T>(self, found: anyhow::Result<T>) -> PyResult<(T, Option<PyErr>)> {
         match (found, self.raised) {
             (Err(error), raised) => Err(raised.unwrap_or_else(|| errors::study(&error))),
-            (Ok(_), Some(raised)) if self.failed => Err(raised),
-            (Ok(found), _) => Ok(found),
+            (Ok(found), raised) => Ok((found, raised)),
         }
     }
 }
@@ -64,7 +70,6 @@ impl Watch for CtrlC {
         self.raised = check_signals().err();
         if let (Some(ProgressArgument(function)), None) = (&self.told, &self.raised) {
             self.raised = Python::attach(|py| function.call1(py, (done, total)).err());
-            self.failed = self.raised.is_some();
         }
     }
 
@@ -212,6 +217,26 @@ pub(crate) fn plot_page(py: Python<'_>, path: PathBuf, label: String, call: Stri
 #[pyfunction]
 pub(crate) fn merge_parts(py: Python<'_>, parts: Vec<PathBuf>, path: PathBuf) -> PyResult<usize> {
     py.detach(|| merge(&parts, &path)).map_err(|error| errors::files(&error))
+}
+
+/// Tries whether a file can be written, before the work whose result it shall hold.
+#[pyfunction]
+pub(crate) fn try_file(path: PathBuf) -> PyResult<()> {
+    let target = path.canonicalize().unwrap_or_else(|_| path.clone());
+    let tried = if target.is_dir() {
+        Err(io::Error::new(io::ErrorKind::IsADirectory, "it is a folder"))
+    } else if is_regular_or_new(&target) {
+        // The empty file is removed again.
+        TemporaryFile::beside(&target).map(drop)
+    } else {
+        Ok(())
+    };
+    tried.map_err(|error| errors::unwritable(format!("cannot write to {}: {error}", path.display())))
+}
+
+/// Tries the files that are given.
+pub(crate) fn try_files(paths: &[&Option<PathBuf>]) -> PyResult<()> {
+    paths.iter().filter_map(|path| path.as_ref()).try_for_each(|path| try_file(path.clone()))
 }
 
 /// Writes a text to a file, which is complete or absent.

@@ -41,7 +41,7 @@ mod _funicular {
     #[pymodule_export]
     use crate::answers::{
         answer, complete_request, figure_sizes, imported, measurements_of_file, merge_parts, plot_page, source_file,
-        text_of, write_file,
+        text_of, try_file, write_file,
     };
     #[pymodule_export]
     use crate::arrays::{complex_numbers, real_numbers};
@@ -54,7 +54,7 @@ mod _funicular {
     #[pymodule_export]
     use crate::pose::PyPose;
     #[pymodule_export]
-    use crate::reading::{argument, declarations, interval, suggested};
+    use crate::reading::{argument, declarations, interval, number, numbers, suggested};
     #[pymodule_export]
     use crate::robot::{PyRobot, robot_of_source};
     #[pymodule_export]

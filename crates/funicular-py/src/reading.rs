@@ -59,6 +59,8 @@ enum Kind {
     Limits,
     /// Points of the platform by their names.
     Points,
+    /// Lists of events by their kinds, with tables in them.
+    Scenario,
     /// Anything that JSON can hold.
     Any,
 }
@@ -99,7 +101,8 @@ impl Kind {
             },
             request::Kind::OneOrMore(_) => Self::TextOrTexts,
             request::Kind::Data(_) if key.name == "cables" => Self::Texts,
-            request::Kind::Data(_) => Self::Any,
+            request::Kind::Data(_) if key.name == "scenario" => Self::Scenario,
+            request::Kind::Data(_) | request::Kind::ByCable(_) => Self::Any,
         }
     }
 
@@ -142,6 +145,7 @@ impl Kind {
             Self::Axes | Self::Points => "Mapping[str, ArrayLike]",
             Self::Limits => "Mapping[str, SupportsFloat | SupportsIndex]",
             Self::Columns | Self::GappedColumns => "str | PathLike[str] | Mapping[str, ArrayLike]",
+            Self::Scenario => "Mapping[str, Sequence[Mapping[str, Any]]]",
             Self::Sizes | Self::Any => "Any",
         }
     }
@@ -280,6 +284,7 @@ fn of_kind(kind: Kind, name: &str, value: &Bound<'_, PyAny>, cables: &[String]) 
         Kind::Sizes => json!(sizes(name, value)?),
         Kind::Limits => limits(name, value)?,
         Kind::Points => points(name, value)?,
+        Kind::Scenario => scenario(name, value)?,
         Kind::Any => any(name, value, 0)?,
     })
 }
@@ -315,6 +320,22 @@ fn bounds(name: &str, value: &Bound<'_, PyAny>) -> PyResult<[f64; 2]> {
     Ok([low, high])
 }
 
+/// Reads one number; `name` stands in errors. For functions of the package that are written in Python.
+#[pyfunction]
+pub(crate) fn number(name: &str, value: &Bound<'_, PyAny>) -> PyResult<f64> {
+    let Ok::<Number, Infallible>(number) = value.extract();
+    number.finite(name)
+}
+
+/// Reads a row of numbers; `name` stands in errors. For functions of the package that are written in Python.
+#[pyfunction]
+pub(crate) fn numbers(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Vec<f64>> {
+    let Ok::<Numbers, Infallible>(numbers) = value.extract();
+    let row = numbers.row(name)?;
+    checked(name, &row)?;
+    Ok(row)
+}
+
 /// Reads minimum and maximum of an interval; `name` stands in errors. For functions of the package that are written in
 /// Python.
 #[pyfunction]
@@ -325,8 +346,7 @@ pub(crate) fn interval(name: &str, value: &Bound<'_, PyAny>) -> PyResult<(f64, f
 
 /// Texts `PATH=VALUE` of a mapping, a series or texts.
 pub(crate) fn sizes(name: &str, given: &Bound<'_, PyAny>) -> PyResult<Vec<String>> {
-    let is_series = !given.hasattr("columns")? && given.hasattr("index")? && given.hasattr("items")?;
-    if given.cast::<PyMapping>().is_ok() || is_series {
+    if given.cast::<PyMapping>().is_ok() || is_series(given)? {
         let pair = |item: PyResult<Bound<'_, PyAny>>| {
             let (path, size): (Bound<'_, PyAny>, Bound<'_, PyAny>) = item?.extract()?;
             let Ok(path) = path.extract::<String>() else {
@@ -382,6 +402,49 @@ fn points(name: &str, given: &Bound<'_, PyAny>) -> PyResult<Json> {
         Ok(json!({ "name": key, "point_m": place }))
     };
     given.call_method0("items")?.try_iter()?.map(point).collect()
+}
+
+/// Lists of events by their kinds. A table in an event is read as any table; the study checks everything else.
+fn scenario(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Json> {
+    let Ok(kinds) = value.cast::<PyMapping>() else { return any(name, value, 0) };
+    let mut all = Map::new();
+    for item in kinds.items()?.iter() {
+        let (kind, events): (Bound<'_, PyAny>, Bound<'_, PyAny>) = item.extract()?;
+        let kind: String = kind.extract().map_err(|_| Unusable::value(&kind, "keys are text").named(name))?;
+        let place = format!("{name}.{kind}");
+        let is_list = events.is_instance_of::<PyList>() || events.is_instance_of::<PyTuple>();
+        let read = if is_list {
+            let each = events.try_iter()?.enumerate().map(|(i, event)| self::event(&format!("{place}[{i}]"), &event?));
+            each.collect::<PyResult<Json>>()?
+        } else {
+            any(&place, &events, 1)?
+        };
+        all.insert(kind, read);
+    }
+    Ok(all.into())
+}
+
+/// Keys of one event.
+fn event(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Json> {
+    let Ok(keys) = value.cast::<PyMapping>() else { return any(name, value, 2) };
+    let mut all = Map::new();
+    for item in keys.items()?.iter() {
+        let (key, of_key): (Bound<'_, PyAny>, Bound<'_, PyAny>) = item.extract()?;
+        let key: String = key.extract().map_err(|_| Unusable::value(&key, "keys are text").named(name))?;
+        let place = format!("{name}.{key}");
+        let read = match &*key {
+            "table" => of_kind(Kind::Columns, &place, &of_key, &[])?,
+            _ if is_series(&of_key)? => any(&place, &of_key.call_method0("to_dict")?, 3)?,
+            _ => any(&place, &of_key, 3)?,
+        };
+        all.insert(key, read);
+    }
+    Ok(all.into())
+}
+
+/// True for a series of pandas, which has names for its values as a mapping has.
+fn is_series(value: &Bound<'_, PyAny>) -> PyResult<bool> {
+    Ok(!value.hasattr("columns")? && value.hasattr("index")? && value.hasattr("items")?)
 }
 
 /// Columns of a file, of a mapping or of a data frame.

@@ -135,6 +135,7 @@ pub(crate) fn export(
     path: PathBuf,
     request: ExportRequest,
 ) -> PyResult<Vec<String>> {
+    answers::try_file(path.clone())?;
     let at_rest = Arc::clone(&of.at_rest);
     let exported = interruptible(py, move || {
         export::refuse(&request)?;
@@ -159,6 +160,7 @@ pub(crate) fn write_frf(
     of: &FrfRequest,
 ) -> PyResult<Vec<String>> {
     refuse_other_ending(&path)?;
+    answers::try_file(path.clone())?;
     let (frequencies, _) = hz.frequencies()?;
 
     let (warnings, bytes) = py.detach(|| {
@@ -180,6 +182,7 @@ pub(crate) fn write_modes(
     request: ModesRequest,
 ) -> PyResult<Vec<String>> {
     refuse_other_ending(&path)?;
+    answers::try_file(path.clone())?;
     let at_rest = Arc::clone(&of.at_rest);
     let found = interruptible(py, move || analyses::modes::about(&at_rest, &request))?;
     let found = found.map_err(|error| errors::study(&error))?;

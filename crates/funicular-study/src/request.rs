@@ -7,11 +7,13 @@
 mod calibrate;
 mod design;
 mod files;
+mod given;
 mod gradient;
 mod grids;
 mod identify;
 mod json_text;
 pub mod key;
+mod library_words;
 mod loads;
 mod pages;
 mod parts;
@@ -29,6 +31,8 @@ mod workspace;
 pub use calibrate::{CalibrateRequest, PriorValue};
 pub use design::{ChangeValue, DesignRequest};
 pub use files::{ExportRequest, ImportRequest, NewRequest, SchemaRequest};
+pub use given::check_given;
+pub(crate) use given::{check_scenario, read};
 pub use gradient::{GradientRequest, frequencies};
 pub use grids::{EachPoint, MapRequest, MergeRequest, PlotRequest, PointOptions, SweepRequest};
 pub use identify::{Experiment, FitValue, IdentifyRequest};
@@ -69,7 +73,6 @@ use crate::names::suggestion;
 use crate::signals::{Input, Output};
 use crate::values::{fraction, not_negative, positive};
 use anyhow::{anyhow, bail};
-use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 use std::sync::LazyLock;
@@ -195,8 +198,9 @@ impl Request {
     /// Text that is not JSON, a key that is there twice, another schema, an unknown command or key, or a value of the
     /// wrong type.
     pub fn from_json(text: &str) -> Result<Self, Error> {
-        let value =
-            json_text::value(text.as_bytes()).map_err(|error| anyhow!("the request is not valid JSON: {error}"))?;
+        let value = json_text::value(text.as_bytes()).map_err(|error| {
+            anyhow!("the request is not valid JSON: {}", library_words::of_form(&error.to_string()))
+        })?;
         Self::from_value(value)
     }
 
@@ -216,21 +220,21 @@ impl Request {
 
         // A key with `null` counts as a key that is absent.
         given.retain(|_, value| !value.is_null());
-        let request: Self = parsed(&given).map_err(|error| anyhow!("the request cannot be read: {error}"))?;
-        let keys = commands().iter().find(|info| info.name == request.command()).map_or(&[][..], |info| &info.keys);
+        let command = command_of(&given).map_err(|error| anyhow!("the request cannot be read: {error}"))?;
+        let keys = &command.keys;
         if let Some(unknown) =
             given.keys().find(|name| *name != "command" && !keys.iter().any(|key| key.name == **name))
         {
             let all = commands().iter().flat_map(|command| &command.keys);
             let nearest = suggestion(unknown, &all.map(|key| key.name.to_owned()).collect::<Vec<_>>());
-            return Err(anyhow!("a request of `{}` has no key `{unknown}`{nearest}", request.command()).into());
+            return Err(anyhow!("a request of `{}` has no key `{unknown}`{nearest}", command.name).into());
         }
         if let Some(missing) = keys.iter().find(|key| key.required && !given.contains_key(key.name)) {
-            return Err(anyhow!("the request cannot be read: missing field `{}`", missing.name).into());
+            return Err(anyhow!("a request of `{}` needs ⟪{}⟫", command.name, missing.name).into());
         }
-        identify::check_keys(&given, &keys_of(&request).map_err(anyhow::Error::from)?)?;
+        check_given(command.name, &given)?;
 
-        Ok(request)
+        Ok(given::read(Value::Object(given)).map_err(|error| anyhow!("the request cannot be read: {error}"))?)
     }
 
     /// Request as JSON, with its schema. A key without a default is absent if it was not given.
@@ -261,14 +265,15 @@ pub fn keys_of(group: &impl Serialize) -> serde_json::Result<Map<String, Value>>
     serde_json::from_value(serde_json::to_value(group)?).map(without_null)
 }
 
-/// Request read by serde. A missing command is reported separately, because serde's message for it is hard to read.
-fn parsed<T: DeserializeOwned>(given: &Map<String, Value>) -> anyhow::Result<T> {
+/// Command that a request names.
+fn command_of(given: &Map<String, Value>) -> anyhow::Result<&'static CommandInfo> {
     let Some(command) = given.get("command") else { bail!("it has no `command`") };
-    let names: Vec<String> = commands().iter().map(|command| command.name.to_owned()).collect();
-    if let Some(name) = command.as_str().filter(|name| !names.iter().any(|known| known == name)) {
-        bail!("there is no command `{name}`{}", suggestion(name, &names));
-    }
-    Ok(serde_json::from_value(Value::Object(given.clone()))?)
+    let Some(name) = command.as_str() else { bail!("its `command` is {command}: give the name of a command") };
+    let found = commands().iter().find(|info| info.name == name);
+    found.ok_or_else(|| {
+        let names: Vec<String> = commands().iter().map(|command| command.name.to_owned()).collect();
+        anyhow!("there is no command `{name}`{}", suggestion(name, &names))
+    })
 }
 
 /// Reads the name of an input signal.

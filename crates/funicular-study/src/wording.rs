@@ -61,7 +61,85 @@ pub fn worded(text: &str, words: Words) -> String {
 /// Message, warning or note for a front end: names of options as the front end writes them, and text of the user that
 /// can neither act on a terminal nor fill it. Every message leaves the program through this function.
 pub fn told(text: &str, words: Words) -> String {
-    shown(&worded(text, words))
+    shown(&with_rounded_numbers(&worded(text, words)))
+}
+
+/// Number of significant digits from which on a number counts as computed. Nobody writes so many digits by hand, and a
+/// number of double precision has 15 to 17.
+const MIN_COMPUTED_DIGITS: usize = 12;
+
+/// Number of zeros behind the point from which on a number is written with an exponent.
+const MIN_ZEROS: usize = 8;
+
+/// Number of digits of a whole number from which on it is written with an exponent.
+const MIN_WHOLE_DIGITS: usize = 16;
+
+/// Text whose computed numbers have seven digits, and whose tiny and huge ones an exponent. Quoted text, which is the
+/// user's, and lines of files in a frame stay as they are.
+fn with_rounded_numbers(text: &str) -> String {
+    let is_of_file = |line: &str| line.trim_start_matches(|c: char| c == ' ' || c.is_ascii_digit()).starts_with('|');
+    let lines = text.split('\n').map(|line| if is_of_file(line) { line.to_owned() } else { rounded_line(line) });
+    lines.collect::<Vec<_>>().join("\n")
+}
+
+fn rounded_line(line: &str) -> String {
+    let mut out = String::with_capacity(line.len());
+    let mut quote = None;
+    let mut rest = line;
+    while let Some(first) = rest.chars().next() {
+        match quote {
+            Some(open) if first == open => quote = None,
+            None if matches!(first, '`' | '"') => quote = Some(first),
+            _ => {}
+        }
+        let before = out.chars().next_back();
+        let begins =
+            quote.is_none() && !before.is_some_and(|c| c.is_alphanumeric() || matches!(c, '.' | '_' | '/' | '\\'));
+        let length = if begins { number_at(rest) } else { 0 };
+        if length == 0 {
+            out.push(first);
+            rest = &rest[first.len_utf8()..];
+            continue;
+        }
+        out.push_str(&rounded_number(&rest[..length]));
+        rest = &rest[length..];
+    }
+    out
+}
+
+/// Length of the number with which a text begins; 0 without one.
+fn number_at(text: &str) -> usize {
+    let digits = |from: usize| text[from..].bytes().take_while(u8::is_ascii_digit).count();
+    let sign = usize::from(text.starts_with('-'));
+    let mut end = sign + digits(sign);
+    if end == sign {
+        return 0;
+    }
+    if text[end..].starts_with('.') && digits(end + 1) > 0 {
+        end += 1 + digits(end + 1);
+    }
+    if text[end..].starts_with('e') {
+        let of_exponent = end + 1 + usize::from(text[end + 1..].starts_with('-'));
+        end = if digits(of_exponent) > 0 { of_exponent + digits(of_exponent) } else { end };
+    }
+    let goes_on = text[end..].starts_with(|c: char| c.is_alphanumeric() || matches!(c, '_' | '/' | '\\'));
+    if goes_on { 0 } else { end }
+}
+
+fn rounded_number(text: &str) -> String {
+    let (mantissa, exponent) =
+        text.split_once('e').map_or((text, None), |(mantissa, exponent)| (mantissa, Some(exponent)));
+    let (whole, decimals) = mantissa.trim_start_matches('-').split_once('.').unwrap_or((mantissa, ""));
+    let all = whole.trim_start_matches('-').to_owned() + decimals;
+    let significant = all.trim_start_matches('0').len();
+    let zeros = if whole == "0" { decimals.len() - decimals.trim_start_matches('0').len() } else { 0 };
+    let is_computed = (!decimals.is_empty() && significant >= MIN_COMPUTED_DIGITS) || zeros >= MIN_ZEROS;
+    let is_huge = exponent.is_none() && whole.len() >= MIN_WHOLE_DIGITS;
+    let value = text.parse::<f64>().ok().filter(|_| is_computed || is_huge);
+    let Some(value) = value.and_then(|value| format!("{value:.6e}").parse::<f64>().ok()) else {
+        return text.to_owned();
+    };
+    if value == 0.0 || (1e-4..1e9).contains(&value.abs()) { format!("{value}") } else { format!("{value:e}") }
 }
 
 /// Warnings that explain an error: values of the robot that are likely slips. [`message`] writes them below the error.
@@ -127,6 +205,26 @@ pub fn option(key: &str, words: Words) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn computed_numbers_are_rounded_and_what_the_user_wrote_stays() {
+        for (text, expected) in [
+            ("it needs -2417.3281937462 N, 0.1 m", "it needs -2417.328 N, 0.1 m"),
+            (&format!("{} is negative", -1e-300), "-1e-300 is negative"),
+            (&format!("at most {} are possible", 1e22), "at most 1e22 are possible"),
+            ("the error is 9.714451465470e-17.", "the error is 9.714451e-17."),
+            ("(0.30000000000000004, -0.0000000001)", "(0.3, -1e-10)"),
+            ("`0.30000000000000004` and \"a 1.2345678901234\"", "`0.30000000000000004` and \"a 1.2345678901234\""),
+            ("12 | mass_kg = 1.23456789012345\n   |           ^", "12 | mass_kg = 1.23456789012345\n   |           ^"),
+            (
+                "/tmp/1.2345678901234/a, v1.2345678901234, 1.2345678901234x",
+                "/tmp/1.2345678901234/a, v1.2345678901234, 1.2345678901234x",
+            ),
+            ("123456789012 rows, 20261128, 1e-300, 0.000012", "123456789012 rows, 20261128, 1e-300, 0.000012"),
+        ] {
+            assert_eq!(told(text, Words::Json), expected);
+        }
+    }
 
     #[test]
     fn an_error_of_the_core_is_told_with_the_option_that_helps() {

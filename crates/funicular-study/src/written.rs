@@ -29,6 +29,7 @@ pub fn read(key: &Key, text: &str) -> Result<Value, String> {
         | Kind::Poses
         | Kind::Columns
         | Kind::GappedColumns
+        | Kind::ByCable(_)
         | Kind::Data(_) => Ok(text.into()),
         Kind::Written(form) | Kind::List(form) | Kind::OneOrMore(form) | Kind::Commas(form) => read_form(*form, text),
     }

@@ -146,7 +146,7 @@ impl Printed for Workspace {
         line("reaches from", &format!("({}) m to ({}) m", vector(&low, 4), vector(&high, 4)));
         if let Some(plane) = &self.plane {
             line("parts", &plane.parts.to_string());
-            line("holes", &plane.holes.to_string());
+            line("holes", &if plane.holes == 0 { "none".to_owned() } else { plane.holes.to_string() });
         } else {
             line("parts", &pieces_text(&self.parts));
             line("holes", &pieces_text(&self.holes));

@@ -200,7 +200,7 @@ fn measurements_that_cannot_be_are_refused_in_one_line() {
     for (text, says) in [
         ("", "is empty: give a header"),
         ("frequency,a_re,a_im\n1,2,3\n", "its columns are `frequency`, `a_re`, `a_im`"),
-        ("frequency_hz;a_re;a_im\n1;0,2;0,3\n", "separated by semicolons"),
+        ("frequency_hz;a_re;a_im\n1;0,2;x\n", "`x` is not a number"),
         ("frequency_hz,a_re,a_im\n1,2,3\n2,,3\n", "line 3: `a_re` is missing"),
         ("frequency_hz,a_re,a_im\n2,2,3\n1,2,3\n", "the frequencies must ascend, and 1 Hz follows 2 Hz"),
         ("frequency_hz,a_re,a_im\n-1,2,3\n1,2,3\n", "-1 is negative"),

@@ -224,6 +224,31 @@ Line     LineType  UnstrLen  NumSegs   NodeAnch  NodeFair  Flags/Outputs
 ";
 
 #[test]
+fn sections_of_a_moordyn_file_that_are_not_read_are_named_with_their_line() {
+    let text = fs::read_to_string(example("tripod.txt")).unwrap();
+    let header = "---------------------- OPTIONS";
+    let sections = "---- FAILURE ----\nFailID Point Lines FailTime FailTen\n() () () (s) (N)\n1 2 1 40 0\n\
+                    ---- CONTROL ----\nChannelID Lines\n() ()\n1 2,3\n2 4\n---- HEATING ----\nID Power\n() (W)\n1 5\n";
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.txt");
+    let at = text.find(header).unwrap();
+    let line = text[..at].lines().count();
+    fs::write(&path, [&text[..at], sections, &text[at..]].concat()).unwrap();
+    let out = folder.path().join("a.toml");
+    let output = run(&["import", path.to_str().unwrap(), "-o", out.to_str().unwrap()]);
+    let told = stderr(&output);
+    for says in [
+        format!("the failure of line {} of the file: in a scenario of `simulate` it is a [[cut]]", line + 4),
+        format!("the section `CONTROL` from line {} on", line + 5),
+        format!("the section `HEATING` from line {} on", line + 10),
+    ] {
+        assert_eq!(told.matches(&says).count(), 1, "{says}: {told}");
+    }
+    // The description above the first section is none.
+    assert!(!told.contains("MoorDyn Input File"), "{told}");
+}
+
+#[test]
 fn both_layouts_of_moordyn_describe_one_robot() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("weight.txt");

@@ -117,7 +117,7 @@ fn a_sweep_varies_values_of_the_file_and_a_list_gives_poses() {
     // As editors count, whatever ends the lines.
     for (broken, says) in [
         ("x_m,y_m,z_m\r\n0,0,0.5\r\n0,zero,0.5\r\n", "line 3, column `y_m`"),
-        ("\u{feff}x_m,y_m,z_m\n\n\n0,0,0.5\n\n0,0,0.5,1\n", "line 6: 4 values, but 3 in the first line"),
+        ("\u{feff}x_m,y_m,z_m\n\n\n0,0,0.5\n\n0,0,0.5,1\n", "line 6: 4 values, but 3 in the header"),
         ("x_m,y_m,z_m\r\n\r\n0,,0.5\r\n", "line 3, column `y_m`"),
         ("x_m,y_m,z_m\r0,0,0.5\r0,0,a\r", "line 3, column `z_m`"),
     ] {
@@ -126,6 +126,31 @@ fn a_sweep_varies_values_of_the_file_and_a_list_gives_poses() {
     }
     fs::write(&path, "x_m,y_m,z_m\n").unwrap();
     assert!(stderr(&run(&poses)).contains("has a header and no poses"));
+}
+
+#[test]
+fn a_list_of_poses_is_read_as_spreadsheets_write_it() {
+    let folder = tempfile::tempdir().unwrap();
+    let rows_of = |text: &str| {
+        let path = folder.path().join("poses.csv");
+        fs::write(&path, text).unwrap();
+        run(&["map", "ROBOT", "--poses", path.to_str().unwrap(), "--format", "csv"])
+    };
+    let text_of = |output: &std::process::Output| {
+        assert!(output.status.success(), "{}", stderr(output));
+        String::from_utf8(output.stdout.clone()).unwrap()
+    };
+    let plain = text_of(&rows_of("x_m,y_m,z_m\n0.25,0,0.5\n0,0.1,0.6\n"));
+    for same in [
+        "x_m;y_m;z_m\r\n0,25;0;0,5\r\n0;0,1;0,6\r\n",
+        "x_m\ty_m\tz_m\n0.25\t0\t0.5\n0\t0.1\t0.6\n",
+        "sep=;\nx_m;y_m;z_m\n0.25;0;0.5\n0;0.1;0.6\n",
+        "# three columns\n,x_m,y_m,z_m\n0,0.25,0,0.5\n1,0,0.1,0.6\n",
+    ] {
+        assert_eq!(text_of(&rows_of(same)), plain, "{same:?}");
+    }
+    let told = stderr(&rows_of("0.25,0,0.5\n0,0.1,0.6\n"));
+    assert!(told.contains("the first line has no names, only numbers"), "{told}");
 }
 
 #[test]

@@ -77,11 +77,6 @@ fn frequency_column(path: &str, header: &[String]) -> Result<usize> {
     if let Some(place) = header.iter().position(|name| name == FREQUENCY) {
         return Ok(place);
     }
-    if header.len() == 1 && header[0].contains(';') {
-        bail!(
-            "{path}: its columns are separated by semicolons: separate them by commas, and write points for decimals"
-        );
-    }
     bail!(
         "{path} has no column `{FREQUENCY}`, with which a table of measurements begins; its columns are {}",
         header.iter().take(MAX_NAMED).map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ")

@@ -1,7 +1,7 @@
 //! Table of the points of cables in CSV.
 
 use super::{LengthUnit, NewMotion};
-use crate::csv_lines::line_at;
+use crate::csv_lines::{TableForm, line_at};
 use anyhow::{Result, anyhow, bail};
 use funicular::math::Vec3;
 use funicular_study::names::{Named, suggestion};
@@ -31,15 +31,16 @@ const NAME: &str = "name";
 /// The file, the line, the column and the value.
 pub(super) fn read(csv: &SourceFile, unit: Option<LengthUnit>, motion: NewMotion) -> Result<Vec<CablePoints>> {
     let (shown, bytes) = (csv.name(), csv.text.as_bytes());
-    let mut reader =
-        csv::ReaderBuilder::new().has_headers(false).flexible(true).trim(csv::Trim::All).from_reader(bytes);
+    let form = TableForm::of(bytes);
+    let (mut reader, bytes) = form.reader(bytes, csv::ReaderBuilder::new().has_headers(false).flexible(true));
 
     let mut layout: Option<(Columns, usize)> = None;
     let mut cables: Vec<CablePoints> = Vec::new();
     for record in reader.records() {
         let record = record.map_err(|error| anyhow!("{shown}: {error}"))?;
-        let line = record.position().map_or(1, |position| line_at(bytes, position));
-        let cells: Vec<&str> = record.iter().map(|cell| cell.trim_start_matches('\u{feff}').trim()).collect();
+        let line = record.position().map_or(1, |position| line_at(bytes, position)) + form.lines_before();
+        let cells: Vec<_> = record.iter().map(|cell| form.cell(cell.trim_start_matches('\u{feff}').trim())).collect();
+        let cells: Vec<&str> = cells.iter().map(AsRef::as_ref).collect();
         if cells.iter().all(|cell| cell.is_empty() || cell.starts_with('#')) {
             continue;
         }
@@ -115,9 +116,6 @@ impl Columns {
     /// Columns from the first line, and true if this line is a header.
     fn of_first_line(cells: &[&str], unit: Option<LengthUnit>, motion: NewMotion) -> Result<(Self, bool), String> {
         let needed = if motion == NewMotion::PointMass { 3 } else { 6 };
-        if cells.iter().any(|cell| cell.contains([';', '\t'])) {
-            return Err("separate the columns by commas, and write numbers with a point".to_owned());
-        }
         let is_name = |cell: &&str| cell.chars().any(|c| c.is_ascii_alphabetic()) && number(cell).is_err();
         // A name and numbers with units have letters too, but only a header has nothing else.
         if cells.len() > 1 && cells.iter().all(is_name) {

@@ -2,6 +2,7 @@
 
 import json
 import math
+import warnings
 from typing import Any
 
 import numpy as np
@@ -116,31 +117,158 @@ def _modes(of: Modes) -> Any:
 
 @_show.dataset.register
 def _results(of: Results) -> Any:
-    along = next((key for key in _ALONG if np.ndim(of.get(key, 0)) == 1), None)
-    variables: dict[str, Any] = {}
-    attrs: dict[str, Any] = {"title": str(of.get("robot", "")), "source": f"funicular {of.get('command', '')}".strip()}
-
-    def add(name: str, dims: tuple[str, ...], values: list[Any], unit: str) -> None:
-        array = _texts(values) if all(isinstance(value, str) for value in values) else np.array(values)
-        variables[name] = (dims, array, _attributes(unit))
-
+    made = _Dataset(of)
     for key, value in of.items():
-        listed = list(value) if isinstance(value, list | np.ndarray) else []
-        if listed and isinstance(listed[0], dict):
-            # Rows: one variable per column. Responses have their own names, since they are the result itself.
-            prefix, dim = ("", "response") if key == "responses" else (f"{key}_", key)
-            for column in listed[0]:
-                cells = [row.get(column) for row in listed]
-                if all(isinstance(cell, str | int | float) for cell in cells):
-                    add(prefix + column, (dim,), cells, _unit(column))
-                elif along is not None and all(np.shape(cell) == np.shape(of[along]) for cell in cells if not isinstance(cell, dict)):
-                    add(prefix + column, (dim, along), cells, "")
-        elif listed and along is not None and np.shape(value) == np.shape(of[along]):
-            add(key, (along,), listed, _unit(key) or str(of.get("unit", "")) * (key in ("real", "imag", "magnitude")))
-        elif isinstance(value, str | int | float) and key not in ("schema", "command", "robot"):
-            attrs[key] = int(value) if isinstance(value, bool) else value
-        elif listed and np.array(listed).dtype.kind in "if":
-            attrs[key] = np.ravel(np.array(listed))
-    if not variables:
+        made.put_key(key, value)
+    if not made.variables:
         raise InputError(f"the results of {of.get('command', 'this command')} hold no rows: read their keys")
-    return _xarray().Dataset(variables, attrs=attrs)
+    if made.left_out:
+        warnings.warn(
+            f"the dataset leaves out {', '.join(made.left_out)}: these values fit into no array; read them by their keys",
+            UserWarning,
+            stacklevel=3,
+        )
+    coords = {dim: of_dim for dim, of_dim in made.coords.items() if any(dim in along for along, *_ in made.variables.values())}
+    return _xarray().Dataset(made.variables, coords, made.attrs)
+
+
+# Labels of the components of vectors, by the end of their key and their number.
+_COMPONENTS = {
+    ("quaternion_wxyz", 4): ("quaternion", ("w", "x", "y", "z")),
+    ("roll_pitch_yaw_deg", 3): ("angle", ("roll", "pitch", "yaw")),
+    ("interval_95", 2): ("bound", ("minimum", "maximum")),
+    ("range", 2): ("bound", ("minimum", "maximum")),
+    ("interval", 2): ("bound", ("minimum", "maximum")),
+}
+# Words in the keys of values that belong to the axes x, y, z, and in those of values that belong to cables.
+_VECTORS = ("position", "velocity", "acceleration", "force", "moment", "point", "center", "direction", "rotation", "translation")
+_OF_CABLES = ("tension", "length", "cable", "slack", "torque", "power", "winch", "limit", "rate", "speed")
+
+
+class _Dataset:
+    """Variables of a dataset, made of the keys of results."""
+
+    def __init__(self, of: Results) -> None:
+        self.variables: dict[str, Any] = {}
+        self.coords: dict[str, Any] = {}
+        self.attrs: dict[str, Any] = {"title": str(of.get("robot", "")), "source": f"funicular {of.get('command', '')}".strip()}
+        self.left_out: list[str] = []
+        self._unit = str(of.get("unit", ""))
+        along = next((key for key in _ALONG if np.ndim(of.get(key, 0)) == 1), None)
+        self._along = None if along is None else (along, len(of[along]))
+        self._cables = _names_of_cables(of)
+
+    def put_key(self, key: str, value: Any) -> None:
+        """Adds the value of a key of the results."""
+        listed = list(value) if isinstance(value, list | np.ndarray) else []
+        if key in ("schema", "command", "robot") or value is None:
+            return
+        if isinstance(value, (str, int, float)):
+            self.attrs[key] = int(value) if isinstance(value, bool) else value
+        elif key == "warnings":
+            self.attrs[key] = "\n".join(map(str, value))
+        elif listed and all(isinstance(row, dict) for row in listed):
+            dim, labels = self._dim_of_rows(key, listed)
+            if labels is not None:
+                self.coords[dim] = labels
+            # Responses and rows are the result itself, and their columns have no other name.
+            prefix = "" if key in ("responses", "rows") else f"{key}_"
+            for column in _keys(listed):
+                self._put(prefix + column, (dim,), [row.get(column) for row in listed], column)
+        else:
+            self._put(key, (), [value], key)
+
+    def _dim_of_rows(self, key: str, rows: list[Any]) -> tuple[str, Any]:
+        """Dimension of a list of rows, with its labels."""
+        if key == "responses":
+            return "response", None
+        if key == "rows" and "time" not in self.coords and all(isinstance(row.get("t_s"), (int, float)) for row in rows):
+            return "time", ("time", np.array([row["t_s"] for row in rows]), _attributes("s"))
+        if self._cables and [row.get("cable", row.get("name")) for row in rows] == self._cables:
+            return "cable", _texts(self._cables)
+        return ("row" if key == "rows" else key), None
+
+    def _dim_of_components(self, name: str, key: str, count: int, dims: tuple[str, ...]) -> str:
+        """Dimension of the numbers of a list."""
+        if self._along is not None and count == self._along[1] and dims in ((), ("response",)):
+            return self._along[0]
+        for (end, number), (dim, labels) in _COMPONENTS.items():
+            if key.endswith(end) and number == count:
+                self.coords[dim] = _texts(labels)
+                return dim
+        is_vector = count == 3 and any(word in key for word in _VECTORS)
+        of_cables = self._cables and count == len(self._cables) and any(word in key for word in _OF_CABLES)
+        if of_cables and not (is_vector and not key.startswith(_OF_CABLES)):
+            self.coords["cable"] = _texts(self._cables)
+            return "cable"
+        if is_vector:
+            self.coords["axis"] = _texts("xyz")
+            return "axis"
+        return f"{name}_{count}"
+
+    def _put(self, name: str, dims: tuple[str, ...], cells: list[Any], key: str, shape: tuple[int, ...] | None = None) -> None:
+        """Adds the cells of a variable over its dimensions, or the variables of what the cells hold."""
+        shape = (len(cells),) if shape is None and dims else shape or ()
+        filled = [cell for cell in cells if cell is not None]
+        if not filled:
+            return
+        if all(isinstance(cell, dict) for cell in filled):
+            for inner in _keys(filled):
+                self._put(f"{name}_{inner}", dims, [None if cell is None else cell.get(inner) for cell in cells], inner, shape)
+        elif all(isinstance(cell, (list, tuple, np.ndarray)) for cell in filled):
+            self._put_lists(name, dims, cells, key, shape)
+        elif all(np.iscomplexobj(cell) for cell in filled):
+            for part in ("real", "imag"):
+                self._put(f"{name}_{part}", dims, [None if cell is None else getattr(cell, part) for cell in cells], key, shape)
+        elif all(isinstance(cell, (str, bool, int, float, np.generic)) for cell in filled):
+            self._add(name, dims, _array(cells).reshape(shape), key)
+        else:
+            self.left_out.append(f"`{name}`")
+
+    def _put_lists(self, name: str, dims: tuple[str, ...], cells: list[Any], key: str, shape: tuple[int, ...]) -> None:
+        counts = {len(cell) for cell in cells if cell is not None}
+        if counts == {0}:
+            return
+        if len(counts) > 1:
+            self.left_out.append(f"`{name}`")
+            return
+        count = counts.pop()
+        inner = [item for cell in cells for item in ([None] * count if cell is None else list(cell))]
+        dim = self._dim_of_components(name, key, count, dims)
+        if dim in dims:
+            dim = f"{name}_{count}"
+        # A matrix has two dimensions of one length.
+        dim = f"{dim}_{len(dims)}" if dim in dims else dim
+        self._put(name, (*dims, dim), inner, key, (*shape, count))
+
+    def _add(self, name: str, dims: tuple[str, ...], values: Any, key: str) -> None:
+        unit = _unit(key) or self._unit * (key in ("real", "imag", "magnitude"))
+        while name in self.variables or name in dims and len(dims) > 1:
+            name += "_values"
+        self.variables[name] = (dims, values, _attributes(unit))
+
+
+def _keys(rows: list[Any]) -> list[str]:
+    """Keys of all rows, in their order."""
+    return list(dict.fromkeys(key for row in rows for key in row))
+
+
+def _array(cells: list[Any]) -> Any:
+    """Array of numbers, truth values or texts. Numbers that are missing are NaN, texts empty."""
+    filled = [cell for cell in cells if cell is not None]
+    if any(isinstance(cell, str) for cell in filled):
+        return _texts(cells)
+    if len(filled) < len(cells):
+        return np.array([np.nan if cell is None else float(cell) for cell in cells])
+    return np.array(cells)
+
+
+def _names_of_cables(of: Results) -> list[str]:
+    """Names of the cables in their order, if the results have a list of all of them."""
+    for rows, key in ((of.get("cables"), "name"), (of.get("cables"), "cable"), (of.get("peaks"), "cable")):
+        if not isinstance(rows, list):
+            continue
+        names = [row.get(key) if isinstance(row, dict) else row for row in rows]
+        if names and all(isinstance(name, str) for name in names) and len(set(names)) == len(names):
+            return names
+    return []

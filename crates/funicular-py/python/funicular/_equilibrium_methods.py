@@ -11,7 +11,7 @@ from funicular import _results
 from funicular._declared import REST, Given, declared
 from funicular._funicular import Analyses, Robot
 from funicular._live import Live, live as live_page
-from funicular._pages import Page, page
+from funicular._pages import Page, page, try_page
 from funicular._reading import File
 from funicular._results import Modes, ReducedModel, Results, StateSpaceModel
 
@@ -148,7 +148,7 @@ def settle(of: Any, given: Given) -> Results:
     ----------
     docs/theory.md, equations (46f) to (46n).
     """
-    return _results.results(of._results("settle", given))
+    return _results.of_answered(of._results("settle", given))
 
 
 @declared(Analyses, "gust", positional=("output",), headings=REST, others=_AS_MODES)
@@ -167,7 +167,7 @@ def gust(of: Any, given: Given) -> Results:
     ----------
     docs/theory.md, equations (49f) to (49q).
     """
-    return _results.results(of._results("gust", given))
+    return _results.of_answered(of._results("gust", given))
 
 
 @declared(Analyses, "compare", positional=("below_hz",), headings=REST, others=_AS_MODES)
@@ -179,7 +179,7 @@ def compare(of: Any, given: Given) -> Results:
     -------
     The keys of the program's JSON; lists of numbers are arrays.
     """
-    return _results.results(of._results("compare", given))
+    return _results.of_answered(of._results("compare", given))
 
 
 @declared(Analyses, "gradient", positional=("of",), headings=REST, others=_AS_MODES)
@@ -215,7 +215,7 @@ def gradient(of: Any, given: Given) -> Results:
     NoSolutionError
         A cable is slack, or the equilibrium indifferent: it has no derivatives.
     """
-    return _results.results(of._results("gradient", given))
+    return _results.of_answered(of._results("gradient", given))
 
 
 @declared(Analyses, "cable", positional=("name", "hz"), headings=REST, without=_RANGE, others=_AS_MODES)
@@ -381,6 +381,7 @@ def live(of: Any, given: Given, path: File | None = None) -> Live:
     InputError
         The package was built without the page.
     """
+    try_page(path)
     return live_page(of._live(given), path)
 
 
@@ -393,5 +394,6 @@ def report(of: Any, given: Given, path: File | None = None) -> Page:
     path
         File to which the page is also written.
     """
+    try_page(path)
     html, warnings = of._report(given)
     return page(html, warnings, path)

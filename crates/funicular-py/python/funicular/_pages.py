@@ -9,7 +9,7 @@ from typing import Any
 
 from funicular import _show
 from funicular._errors import InputError
-from funicular._funicular import Answered, write_file
+from funicular._funicular import Answered, try_file, write_file
 from funicular._results import ArrayFields, with_arrays
 
 
@@ -45,6 +45,12 @@ def page(html: str, warnings: list[str], path: str | PathLike[str] | None = None
     if path is not None:
         made.write(path)
     return made
+
+
+def try_page(path: str | PathLike[str] | None) -> None:
+    """Tries the file of a page before the work for it."""
+    if path is not None:
+        try_file(Path(path))
 
 
 def page_of_result(answered: Answered, path: str | PathLike[str] | None) -> Page:

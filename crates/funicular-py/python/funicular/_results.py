@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from funicular import _show
 from funicular._errors import InputError, needs
-from funicular._funicular import answer, matlab_file, write_unit
+from funicular._funicular import Answered, answer, matlab_file, write_unit
 from funicular._reading import read
 
 
@@ -44,16 +44,41 @@ class Results(dict[str, Any]):
     def _repr_html_(self) -> str:
         return _show.html(self)
 
+    _answered: Answered | None = None
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, dict) and _same(dict(self), dict(other))
+
+    def __ne__(self, other: object) -> bool:
+        return not self == other
+
+    __hash__ = None  # type: ignore[assignment]
+
     def to_dict(self) -> dict[str, Any]:
         """Returns a plain dictionary."""
         return dict(self)
 
-    def to_xarray(self) -> Any:
-        """Makes a dataset of xarray of the rows, with units as attributes; xarray has to be installed.
+    def to_pandas(self) -> Any:
+        """Makes a table of pandas with the rows and columns of the program's CSV, and their units in `attrs`; pandas has
+        to be installed.
 
-        Responses have the dimension `frequency_hz`, several of them `response` too, and are the variables `real` and
-        `imag`, because NetCDF has no complex numbers. Other lists of rows, such as `history` of `settle`, have a dimension
-        of their own name. Single values are attributes.
+        Results from a pickle are computed again for it.
+
+        Raises
+        ------
+        InputError
+            The results have no table in the program.
+        """
+        return _show.table(self)
+
+    def to_xarray(self) -> Any:
+        """Makes a dataset of xarray with every number of the results, and units as attributes; xarray has to be installed.
+
+        Rows over time have the dimension `time`, those of all cables `cable`, and vectors `axis`, each with its labels.
+        Responses have the dimension `frequency_hz`, several of them `response` too. Other lists of rows, such as `history`
+        of `settle`, have a dimension of their own name. Complex numbers are two variables that end in `real` and `imag`,
+        because NetCDF has no complex numbers. A value that a row does not have is NaN. Single values are attributes.
+        Values that fit into no array, such as lists of different lengths, are left out, and a `UserWarning` names them.
 
         Raises
         ------
@@ -66,6 +91,13 @@ class Results(dict[str, Any]):
 def results(found: dict[str, Any]) -> Results:
     """Results with arrays in place of lists of numbers."""
     return Results(with_arrays(found))
+
+
+def of_answered(answered: Answered) -> Results:
+    """Results with arrays, which the compiled half holds with their request: their table follows from it."""
+    found = results(json.loads(answered.json()))
+    found._answered = answered
+    return found
 
 
 def _are_numbers(values: list[Any]) -> bool:
@@ -111,6 +143,12 @@ def _lock(value: Any) -> None:
 def _same(a: Any, b: Any) -> bool:
     if isinstance(a, np.ndarray) and isinstance(b, np.ndarray):
         return a.shape == b.shape and a.dtype == b.dtype and np.array_equal(a, b, equal_nan=a.dtype.kind in "fc")
+    if isinstance(a, np.ndarray) or isinstance(b, np.ndarray):
+        return False
+    if isinstance(a, dict) and isinstance(b, dict):
+        return a.keys() == b.keys() and all(_same(value, b[key]) for key, value in a.items())
+    if isinstance(a, (list, tuple)) and type(a) is type(b):
+        return len(a) == len(b) and all(map(_same, a, b))
     return bool(a == b)
 
 

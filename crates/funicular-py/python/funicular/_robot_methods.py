@@ -14,7 +14,7 @@ from funicular import _results
 from funicular._declared import STATE, Given, declared
 from funicular._design import Designed, designed
 from funicular._errors import InputError
-from funicular._funicular import Equilibrium, Robot
+from funicular._funicular import Equilibrium, Robot, number, numbers
 from funicular._identify import Identified, identified
 from funicular._reading import File, keywords, with_state
 from funicular._results import Equilibria, Results
@@ -96,7 +96,7 @@ def payload(of: Any, given: Given) -> Results:
     StaticsError
         No payload is held at this pose.
     """
-    return _results.results(of._answer("payload", given))
+    return _results.of_answered(of._answer("payload", given))
 
 
 @declared(Robot, "loads", positional=("pose", "static_model"), others=_AS_REST)
@@ -116,7 +116,7 @@ def loads(of: Any, given: Given) -> Results:
     StaticsError
         The robot has no such pose, or no load factor was found.
     """
-    return _results.results(of._answer("loads", given))
+    return _results.of_answered(of._answer("loads", given))
 
 
 @declared(Robot, "speeds", positional=("pose", "static_model"), others=_AS_REST)
@@ -134,7 +134,7 @@ def speeds(of: Any, given: Given) -> Results:
     StaticsError
         The robot has no such equilibrium, or its lengths have no rates there.
     """
-    return _results.results(of._answer("speeds", given))
+    return _results.of_answered(of._answer("speeds", given))
 
 
 @declared(Robot, "trajectory", positional=("path", "move_to", "pose"), without=("path",), others=_AS_REST)
@@ -167,19 +167,35 @@ def trajectory(
         path = _sampled(path, given)
     if path is not None:
         given["path"] = path
-    return _results.results(of._trajectory(given, page))
+    return _results.of_answered(of._trajectory(given, page))
+
+
+# Maximum number of rows of a function of the time.
+_MAX_ROWS = 1_000_000
 
 
 def _sampled(path: Callable[[float], ArrayLike], given: Given) -> dict[str, ArrayLike]:
     """Columns of a path that is a function of the time."""
-    duration, step = given.pop("duration_s", None), given.get("sample_time_s")
-    if not duration or not step or duration < 0 or step < 0:
-        raise InputError("a path that is a function needs its duration_s and the sample_time_s of its rows, both above zero")
+    if given.get("duration_s") is None or given.get("sample_time_s") is None:
+        raise InputError("a path that is a function needs its `duration_s` and the `sample_time_s` of its rows")
+    duration, step = number("duration_s", given.pop("duration_s")), number("sample_time_s", given["sample_time_s"])
+    if not duration > 0 or not step > 0 or duration / step > _MAX_ROWS:
+        raise InputError(
+            f"a path that is a function has the `duration_s` {duration:g} s and the `sample_time_s` {step:g} s: give both "
+            f"above zero, with at most {_MAX_ROWS} rows"
+        )
     times = linspace(0.0, duration, max(int(ceil(duration / step)), 1) + 1)
-    rows = [asarray(path(float(time)), dtype=float).ravel() for time in times]
+    called = f"path: {getattr(path, '__name__', 'the function')}"
+    rows: list[list[float]] = []
+    for time in times:
+        row = numbers(f"{called}({time:g})", path(float(time)))
+        if len(row) not in (3, 6) or (rows and len(row) != len(rows[0])):
+            raise InputError(
+                f"`{called}({time:g})` has {len(row)} numbers: the function of a path has to return x, y, z [m] or x, y, z, "
+                "roll, pitch, yaw [m, degrees], the same at all times"
+            )
+        rows.append(row)
     count = len(rows[0])
-    if count not in (3, 6) or any(len(row) != count for row in rows):
-        raise InputError("the function of a path has to return x, y, z [m] or x, y, z, roll, pitch, yaw [m, degrees]")
     names = ("x_m", "y_m", "z_m", "roll_deg", "pitch_deg", "yaw_deg")[:count]
     return {"t_s": times, **dict(zip(names, asarray(rows).T, strict=True))}
 
@@ -226,6 +242,9 @@ def simulate(
         An event cannot happen, or the robot has a part that is not simulated.
     NoSolutionError
         The start is not a stable equilibrium.
+    KeyboardInterrupt
+        Ctrl-C stopped the run; any exception that another handler of signals raises arrives as well. Its attribute
+        `partial_results` has the `Results` until then.
 
     References
     ----------
@@ -233,7 +252,7 @@ def simulate(
     """
     if "scenario" in given:
         given["scenario"] = _tabled(given["scenario"])
-    return _results.results(of._simulate(given, page, figure, animation, progress))
+    return _results.of_answered(of._simulate(given, page, figure, animation, progress))
 
 
 # Time between the rows of a function [s], and least number of its parts. Between the rows lies a cubic spline: it is right
@@ -241,30 +260,47 @@ def simulate(
 _TABLE_STEP_S = 0.01
 _MIN_PARTS = 100
 
+# Maximum duration of a function [s]: its table has then a million rows.
+_MAX_TABLE_S = 10_000
+
 
 def _tabled(scenario: Any) -> Any:
     """The scenario with tables in the place of functions of the time."""
     if not isinstance(scenario, Mapping) or not isinstance(scenario.get("lengths"), (list, tuple)):
         return scenario
 
-    def event(number: int, of: Any) -> Any:
+    def event(place: int, of: Any) -> Any:
         if not isinstance(of, Mapping) or not callable(of.get("table")):
             return of
+        function = of["table"]
+        name = f"scenario.lengths[{place}]"
         rest = {key: value for key, value in of.items() if key not in ("table", "duration_s")}
-        duration = of.get("duration_s")
-        if not isinstance(duration, (int, float)) or not duration > 0:
-            raise InputError(f"event {number} of `lengths`: a table that is a function needs `duration_s`, above zero")
+        if of.get("duration_s") is None:
+            raise InputError(f"`{name}`: a table that is a function needs `duration_s`")
+        duration = number(f"{name}.duration_s", of["duration_s"])
+        if not 0 < duration <= _MAX_TABLE_S:
+            raise InputError(f"`{name}.duration_s` is {duration:g} s: give more than 0, at most {_MAX_TABLE_S} s")
+
         times = linspace(0.0, duration, max(int(ceil(duration / _TABLE_STEP_S)), _MIN_PARTS) + 1)
-        rows = [of["table"](float(time)) for time in times]
-        if not all(isinstance(row, Mapping) and row.keys() == rows[0].keys() for row in rows):
-            raise InputError(
-                f"event {number} of `lengths`: the function has to return a mapping with the same columns at all times, "
-                "such as x_m, y_m and z_m"
-            )
-        columns = {name: asarray([row[name] for row in rows], dtype=float) for name in rows[0]}
+        called = f"{name}.table: {getattr(function, '__name__', 'the function')}"
+        columns: dict[str, list[float]] = {}
+        for time in times:
+            row = function(float(time))
+            if not isinstance(row, Mapping) or not all(isinstance(key, str) for key in row):
+                raise InputError(
+                    f"`{called}({time:g})` is of type {type(row).__name__}: it has to return a mapping from columns to "
+                    "numbers, such as x_m, y_m and z_m"
+                )
+            if columns and row.keys() != columns.keys():
+                raise InputError(
+                    f"`{called}({time:g})` has the columns {', '.join(row)}, and before it had {', '.join(columns)}: it has "
+                    "to return the same columns at all times"
+                )
+            for key, value in row.items():
+                columns.setdefault(key, []).append(number(f'{called}({time:g})["{key}"]', value))
         return {**rest, "table": {"t_s": times, **columns}}
 
-    return {**scenario, "lengths": [event(k, of) for k, of in enumerate(scenario["lengths"], 1)]}
+    return {**scenario, "lengths": [event(k, of) for k, of in enumerate(scenario["lengths"])]}
 
 
 @declared(Robot, "clearance", positional=("pose", "static_model"), others=_AS_REST)
@@ -282,7 +318,7 @@ def clearance(of: Any, given: Given) -> Results:
     StaticsError
         The robot has no such equilibrium.
     """
-    return _results.results(of._answer("clearance", given))
+    return _results.of_answered(of._answer("clearance", given))
 
 
 @declared(
@@ -346,7 +382,7 @@ def workspace(
     if compare is not None:
         given = {**given, "compare": {"text": compare.to_toml()}}
     files = [surface] if isinstance(surface, (str, PathLike)) else list(surface)
-    return _results.results(of._workspace(given, files, page, threads, progress))
+    return _results.of_answered(of._workspace(given, files, page, threads, progress))
 
 
 @declared(Robot, "pose-error", positional=("mass_kg",), others=_AS_REST)
@@ -363,7 +399,7 @@ def pose_error(of: Any, given: Given) -> Results:
     -------
     The keys of the program's JSON: `points` with one entry for each mass.
     """
-    return _results.results(of._answer("pose-error", given))
+    return _results.of_answered(of._answer("pose-error", given))
 
 
 @declared(Robot, "identify", positional=("fit", "experiments"), state=True, others=_AS_BOTH)
@@ -436,7 +472,7 @@ def calibrate(of: Any, given: Given, page: File | None = None, figure: File | No
     """
     if given.get("prior") is not None:
         given = {**given, **keywords("calibrate", {"prior": given["prior"]}, of.cable_names)}
-    return _results.results(of._calibrate(given, page, figure))
+    return _results.of_answered(of._calibrate(given, page, figure))
 
 
 @declared(Robot, "design", positional=("change",), without=("lengths_m", "hold_lengths_of_pose"), others=_AS_BOTH)

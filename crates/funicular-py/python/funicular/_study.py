@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from funicular._errors import InputError
 from funicular._funicular import (
+    Answered,
     Pose,
     Robot,
     SweepPlan,
@@ -25,7 +26,7 @@ from funicular._funicular import (
 )
 from funicular._live import live
 from funicular._hints import hinted
-from funicular._pages import Page, page
+from funicular._pages import Page, page, try_page
 from funicular._reading import File, keywords, read
 from funicular._results import Results
 from funicular._sweeps import Sweep
@@ -156,8 +157,13 @@ def run(request: Mapping[str, Any] | str) -> Any:
             return Sweep.read(full["file"]).plot()
         case "merge":
             raise InputError("`merge` writes a file: call `funicular.merge(parts, path)`")
-        case _:
+        case "validate":
             return Results(json.loads(answer(text)))
+        case _:
+            answered = Answered(text)
+            found = Results(json.loads(answered.json()))
+            found._answered = answered
+            return found
 
 
 @hinted
@@ -321,6 +327,7 @@ def paper(path: File | None = None) -> Page:
 
     With `path` the page is also written to a file.
     """
+    try_page(path)
     text = json.dumps({"command": "paper"})
     return page(*text_of(text, f"funicular.paper({'' if path is None else repr(str(path))})"), path)
 

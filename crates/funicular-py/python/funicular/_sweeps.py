@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from funicular import _show
 from funicular._errors import InputError, needs
 from funicular._funicular import Robot, SweepTable, plot_page
-from funicular._pages import Page, page
+from funicular._pages import Page, page, try_page
 
 
 class _LazyColumns(Mapping[str, NDArray[Any]]):
@@ -196,6 +196,7 @@ class Sweep:
 
         With `path` the page is also written to a file.
         """
+        try_page(path)
         call = f"funicular.Sweep.read({str(self.file or 'rows.parquet')!r}).plot({str(path)!r})"
         if self.file is not None and self.file.suffix.lower() == ".parquet":
             return page(*plot_page(self.file, str(self.file), call), path)

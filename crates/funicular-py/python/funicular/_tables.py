@@ -5,10 +5,10 @@ from typing import Any
 import numpy as np
 
 from funicular import _show
-from funicular._errors import needs
-from funicular._funicular import Equilibrium
+from funicular._errors import InputError, needs
+from funicular._funicular import Answered, Equilibrium
 from funicular._pages import Answer
-from funicular._results import Equilibria, Modes
+from funicular._results import Equilibria, Modes, Results
 from funicular._sweeps import Sweep
 
 _MOTIONS = ("x", "y", "z", "rx_per_m", "ry_per_m", "rz_per_m")
@@ -98,7 +98,19 @@ def _equilibria(of: Equilibria) -> Any:
 
 @_show.table.register
 def _answer(of: Answer) -> Any:
-    columns = of._answered.table()
+    return _columns(of._answered)
+
+
+@_show.table.register
+def _results(of: Results) -> Any:
+    if of._answered is None:
+        raise InputError(f"the results of {of.get('command', 'this command')} have no table: read their keys")
+    return _columns(of._answered)
+
+
+def _columns(answered: Answered) -> Any:
+    """Columns of the program's CSV."""
+    columns = answered.table()
     table = _pandas().DataFrame({name: values for name, _, values in columns})
     table.attrs["units"] = {name: unit for name, unit, _ in columns if unit}
     return table

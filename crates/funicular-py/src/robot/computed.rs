@@ -3,7 +3,7 @@
 use super::PyRobot;
 use crate::answered::PyAnswered;
 use crate::answers::{self, CtrlC};
-use crate::arrays::{Count, Numbers, TextKeyed};
+use crate::arrays::{Count, Numbers};
 use crate::batch::{self, Equilibria, States};
 use crate::equilibrium::PyEquilibrium;
 use crate::errors;
@@ -58,15 +58,14 @@ impl PyRobot {
 
     /// Results of a command, with the keys of the program's JSON.
     #[pyo3(name = "_answer")]
-    fn answer<'py>(&self, py: Python<'py>, command: &str, given: &Bound<'py, PyDict>) -> PyResult<TextKeyed<'py>> {
+    fn answer(&self, py: Python<'_>, command: &str, given: &Bound<'_, PyDict>) -> PyResult<PyAnswered> {
         let request = self.request_of(command, given)?;
         let found = py.detach(|| {
             let mut watch = CtrlC::new();
             let found = run_on(&request, Some((*self.robot).clone()), &mut watch);
-            let found = watch.result(found)?;
-            found.to_json(Words::Python).map_err(|error| errors::study(&error.into()))
+            watch.result(found)
         })?;
-        answers::loaded(py, &found)
+        Ok(PyAnswered::new(request, found))
     }
 
     /// Rows of `map` or `sweep`.
@@ -118,18 +117,13 @@ impl PyRobot {
 
     /// Motion along a path, whose page goes to a file.
     #[pyo3(name = "_trajectory")]
-    fn trajectory<'py>(
-        &self,
-        py: Python<'py>,
-        given: &Bound<'py, PyDict>,
-        page: Option<PathBuf>,
-    ) -> PyResult<TextKeyed<'py>> {
-        let Request::Trajectory(request) = self.request_of("trajectory", given)? else {
-            unreachable!("the request is of trajectory")
-        };
+    fn trajectory(&self, py: Python<'_>, given: &Bound<'_, PyDict>, page: Option<PathBuf>) -> PyResult<PyAnswered> {
+        let asked = self.request_of("trajectory", given)?;
+        let Request::Trajectory(request) = &asked else { unreachable!("the request is of trajectory") };
+        answers::try_files(&[&page])?;
         let found = py.detach(|| {
             let mut watch = CtrlC::new();
-            let found = trajectory::run((*self.robot).clone(), &request, &mut watch);
+            let found = trajectory::run((*self.robot).clone(), request, &mut watch);
             watch.result(found)
         })?;
         if let Some(path) = page {
@@ -138,20 +132,21 @@ impl PyRobot {
             let page = page.map_err(|error| errors::study(&error))?;
             answers::write_bytes(path, worded(&page, Words::Python).as_bytes())?;
         }
-        answers::plain(py, &found)
+        Ok(PyAnswered::new(asked, Results::Trajectory(found)))
     }
 
     /// Calibration, whose page and figure go to files.
     #[pyo3(name = "_calibrate")]
-    fn calibrate<'py>(
+    fn calibrate(
         &self,
-        py: Python<'py>,
-        given: &Bound<'py, PyDict>,
+        py: Python<'_>,
+        given: &Bound<'_, PyDict>,
         page: Option<PathBuf>,
         figure: Option<PathBuf>,
-    ) -> PyResult<TextKeyed<'py>> {
+    ) -> PyResult<PyAnswered> {
         let request = self.request_of("calibrate", given)?;
         let is_svg = figure.as_deref().map(figure_is_svg).transpose()?;
+        answers::try_files(&[&page, &figure])?;
         let found = py.detach(|| {
             let mut watch = CtrlC::new();
             let found = run_on(&request, Some((*self.robot).clone()), &mut watch);
@@ -167,33 +162,35 @@ impl PyRobot {
                 write_figure(&figures::of_calibration(found), path, is_svg)?;
             }
         }
-        let text = found.to_json(Words::Python).map_err(|error| errors::study(&error.into()))?;
-        answers::loaded(py, &text)
+        Ok(PyAnswered::new(request, found))
     }
 
     /// Simulation, whose page, figure and animation go to files.
     #[pyo3(name = "_simulate")]
-    fn simulate<'py>(
+    fn simulate(
         &self,
-        py: Python<'py>,
-        given: &Bound<'py, PyDict>,
+        py: Python<'_>,
+        given: &Bound<'_, PyDict>,
         page: Option<PathBuf>,
         figure: Option<PathBuf>,
         animation: Option<PathBuf>,
         progress: Option<ProgressArgument>,
-    ) -> PyResult<TextKeyed<'py>> {
-        let Request::Simulate(request) = self.request_of("simulate", given)? else {
-            unreachable!("the request is of simulate")
-        };
+    ) -> PyResult<PyAnswered> {
+        let asked = self.request_of("simulate", given)?;
+        let Request::Simulate(request) = &asked else { unreachable!("the request is of simulate") };
         let is_svg = figure.as_deref().map(figure_is_svg).transpose()?;
         if let Some(path) = animation.as_deref().filter(|path| !figure_is_svg(path).unwrap_or_default()) {
             return Err(errors::input(format!("`animation` {}: the file ends in .svg", path.display())));
         }
-        let found = py.detach(|| {
+        answers::try_files(&[&page, &figure, &animation])?;
+        let (found, raised) = py.detach(|| {
             let mut watch = CtrlC::telling(progress);
-            let found = simulate::run((*self.robot).clone(), &request, &mut watch);
-            watch.result(found)
+            let found = simulate::run((*self.robot).clone(), request, &mut watch);
+            watch.part(found)
         })?;
+        if let Some(raised) = raised {
+            return Err(with_part(py, raised, PyAnswered::new(asked, Results::Simulate(Box::new(found)))));
+        }
         if let Some(path) = page {
             let call = format!("robot.simulate(…, page={:?})", path.display().to_string());
             let page = pages::simulate::page(&found, call).map_err(|error| errors::study(&error))?;
@@ -205,26 +202,27 @@ impl PyRobot {
         if let Some(path) = animation {
             answers::write_bytes(path, figures::animation_of_simulation(&found).as_bytes())?;
         }
-        answers::plain(py, &found)
+        Ok(PyAnswered::new(asked, Results::Simulate(Box::new(found))))
     }
 
     /// Workspace, found on all threads, with calls of `progress`; its surface goes to files.
     #[pyo3(name = "_workspace")]
-    fn workspace<'py>(
+    fn workspace(
         &self,
-        py: Python<'py>,
-        given: &Bound<'py, PyDict>,
+        py: Python<'_>,
+        given: &Bound<'_, PyDict>,
         surfaces: Vec<PathBuf>,
         page: Option<PathBuf>,
         threads: Option<Threads>,
         progress: Option<ProgressArgument>,
-    ) -> PyResult<TextKeyed<'py>> {
-        let Request::Workspace(request) = self.request_of("workspace", given)? else {
-            unreachable!("the request is of workspace")
-        };
+    ) -> PyResult<PyAnswered> {
+        let asked = self.request_of("workspace", given)?;
+        let Request::Workspace(request) = &asked else { unreachable!("the request is of workspace") };
         let formats: Vec<(SurfaceFormat, PathBuf)> =
             surfaces.into_iter().map(|path| Ok((surface_format(&path)?, path))).collect::<PyResult<_>>()?;
-        let study = WorkspaceStudy::new((*self.robot).clone(), &request).map_err(|error| errors::study(&error))?;
+        answers::try_files(&[&page])?;
+        formats.iter().try_for_each(|(_, path)| answers::try_file(path.clone()))?;
+        let study = WorkspaceStudy::new((*self.robot).clone(), request).map_err(|error| errors::study(&error))?;
         let found = workspace_of(py, study, threads, progress)?;
         for (format, path) in formats {
             let bytes = surface::of_workspace(&found, format).map_err(|error| errors::study(&error))?;
@@ -236,8 +234,19 @@ impl PyRobot {
             let page = page.map_err(|error| errors::study(&error))?;
             answers::write_bytes(path, worded(&page, Words::Python).as_bytes())?;
         }
-        answers::plain(py, &found)
+        Ok(PyAnswered::new(asked, Results::Workspace(Box::new(found))))
     }
+}
+
+/// Exception that stopped work, with the results that are there as its attribute `partial_results`.
+fn with_part(py: Python<'_>, raised: PyErr, part: PyAnswered) -> PyErr {
+    let attach = || {
+        let results = py.import("funicular._results")?.call_method1("of_answered", (part,))?;
+        raised.value(py).setattr("partial_results", results)
+    };
+    // An exception whose class has no room for attributes is raised without the results.
+    let _: PyResult<()> = attach();
+    raised
 }
 
 /// Writes a figure with its usual size.

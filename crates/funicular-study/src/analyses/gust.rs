@@ -80,7 +80,7 @@ pub struct GustRow {
     /// Standard deviation of that excursion.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub peak_deviation: Option<f64>,
-    /// Probability that the tension falls to zero within the duration; tensions alone.
+    /// Probability that the tension falls to zero within the duration, 0 below 1e-12; tensions alone.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub slack_probability: Option<f64>,
     /// Part of the variance nearest to each mode of `modes`, in their order.
@@ -260,6 +260,14 @@ fn motions(robot: &Robot) -> Vec<String> {
     }
 }
 
+/// Probability below which a cable counts as never slack: no wind is known to be normally distributed so far out.
+const MIN_PROBABILITY: f64 = 1e-12;
+
+/// Probability without digits that mean nothing.
+fn possible(probability: f64) -> f64 {
+    if probability < MIN_PROBABILITY { 0.0 } else { probability }
+}
+
 /// Refuses a slack cable, which linear motion does not know.
 fn refuse_slack(AtRest { robot, equilibrium, .. }: &AtRest) -> Result<()> {
     let slack = (0..robot.cables.len()).find(|i| equilibrium.cables[*i].is_slack());
@@ -308,7 +316,7 @@ fn row(
         rate_hz,
         peak: factor.map(|factor| factor.mean * rms),
         peak_deviation: factor.map(|factor| factor.deviation * rms),
-        slack_probability: mean.map(|mean| gust::slack_probability(mean, rms, rate_hz, duration)),
+        slack_probability: mean.map(|mean| possible(gust::slack_probability(mean, rms, rate_hz, duration))),
         share_by_mode: spectra.by_mode[k].iter().map(|part| share(*part, moments.variance)).collect(),
         density: spectra.densities.iter().map(|of| of.total[k]).collect(),
         slow_density: spectra.densities.iter().map(|of| of.quasi_static[k]).take_while(|of| of.is_finite()).collect(),

@@ -407,10 +407,10 @@ fn warnings(
     }
     if let Some(QuasiStatic { motion_hz, cable_hz }) = quasi_static.filter(|of| of.motion_hz > DOUBTFUL * of.cable_hz) {
         found.push(format!(
-            "95 % of the motion lie below {} Hz, above {DOUBTFUL} of the first frequency of a cable, {} Hz: cables that \
-             hang as at rest are in doubt",
-            significant(*motion_hz, 3),
-            significant(*cable_hz, 3)
+            "a cable swings at {} Hz, and the motion has parts up to {} Hz: it is faster than cables that hang as at rest \
+             allow; repeat it with `simulate`",
+            significant(*cable_hz, 3),
+            significant(*motion_hz, 3)
         ));
     }
     let by_differences = samples.motions.iter().filter_map(|motion| motion.no_exact_rates.as_ref());

@@ -1,13 +1,12 @@
 //! Request of `identify`: measurements in one or several states, and the values to find.
 
-use super::commands;
 use super::json_text;
 use super::key::declared;
 use super::parts::{Axis, Model, Pose, RobotText, State, Tensions};
+use super::{given, library_words};
 use crate::measurements::{MeasuredFrequency, MeasuredResponse};
 use funicular::math::chosen_rows::RowCriterion;
 use serde::{Deserialize, Serialize};
-use serde_json::{Map, Value};
 
 /// Number of starts of the search if none is given.
 const DEFAULT_STARTS: usize = 10;
@@ -101,13 +100,10 @@ impl IdentifyRequest {
     /// # Errors
     /// Bytes that are not JSON, a key that is there twice, no list, an unknown key, or a value of the wrong type.
     pub fn experiments_from_json(bytes: &[u8]) -> anyhow::Result<Vec<Experiment>> {
-        let given = json_text::value(bytes).map_err(|error| anyhow::anyhow!("it is not valid JSON: {error}"))?;
-        let experiments: Vec<Experiment> = serde_json::from_value(given.clone())
-            .map_err(|error| anyhow::anyhow!("it is not a list of experiments: {error}"))?;
-        let understood = serde_json::to_value(&experiments)?;
-        let as_key = |list: Value| Map::from_iter([("experiments".to_owned(), list)]);
-        check_keys(&as_key(given), &as_key(understood))?;
-        Ok(experiments)
+        let given = json_text::value(bytes)
+            .map_err(|error| anyhow::anyhow!("it is not valid JSON: {}", library_words::of_form(&error.to_string())))?;
+        given::check_experiments(&given)?;
+        given::read(given)
     }
 }
 
@@ -176,36 +172,5 @@ declared! {
         /// State and loads.
         #[serde(flatten)]
         state: State = State::default() => group;
-    }
-}
-
-/// Checks that experiments have no unknown key. Fields that are spread over groups cannot refuse one themselves.
-///
-/// # Errors
-/// A key that no experiment has.
-pub(super) fn check_keys(given: &Map<String, Value>, understood: &Map<String, Value>) -> anyhow::Result<()> {
-    let (Some(Value::Array(given)), Some(Value::Array(understood))) =
-        (given.get("experiments"), understood.get("experiments"))
-    else {
-        return Ok(());
-    };
-    let unknown = given.iter().zip(understood).find_map(|pair| {
-        let (Value::Object(given), Value::Object(understood)) = pair else { return None };
-        given.iter().find(|(key, value)| !understood.contains_key(*key) && !is_empty(value)).map(|(key, _)| key)
-    });
-    let Some(unknown) = unknown else { return Ok(()) };
-
-    let is_of_requests = commands().iter().flat_map(|command| &command.keys).any(|key| key.name == unknown);
-    let place = if is_of_requests { "; it is a key of requests and stands beside `experiments`" } else { "" };
-    anyhow::bail!("an experiment has no key `{unknown}`{place}")
-}
-
-/// True for a value that is not written again because it is empty.
-fn is_empty(value: &Value) -> bool {
-    match value {
-        Value::Null => true,
-        Value::Array(items) => items.is_empty(),
-        Value::String(text) => text.is_empty(),
-        _ => false,
     }
 }

@@ -123,6 +123,8 @@ pub enum Kind {
     Columns,
     /// The same with gaps: null, in the file an empty cell.
     GappedColumns,
+    /// Numbers by the names of cables.
+    ByCable(Range),
     /// Value that the program writes in a form of its own.
     Written(ProgramForm),
     /// List of such values; the option can be given several times.
@@ -231,7 +233,10 @@ impl Key {
             self.default = default.cloned().unwrap_or_default();
         }
         if self.option.is_empty()
-            && !matches!(self.kind, Kind::Data(_) | Kind::Poses | Kind::Columns | Kind::GappedColumns)
+            && !matches!(
+                self.kind,
+                Kind::Data(_) | Kind::Poses | Kind::Columns | Kind::GappedColumns | Kind::ByCable(_)
+            )
         {
             self.option = name.replace('_', "-");
         }

@@ -1,6 +1,7 @@
 //! JSON Schema of requests, made from the declaration of their keys.
 
 use super::key::{Declared, Key, Kind, ProgramForm, Range};
+use super::simulate::event_kinds;
 use super::{CommandInfo, Experiment, SCHEMA, commands};
 use crate::wording::{Words, worded};
 use serde_json::{Map, Value, json};
@@ -64,6 +65,7 @@ fn of_kind(kind: &Kind) -> Value {
         Kind::Poses => poses(),
         Kind::Columns => columns(),
         Kind::GappedColumns => gapped_columns(),
+        Kind::ByCable(range) => json!({ "type": "object", "additionalProperties": number(*range) }),
         Kind::Written(form) => of_form(*form),
         Kind::List(form) => list(&of_form(*form)),
         Kind::OneOrMore(form) | Kind::Commas(form) => {
@@ -189,10 +191,14 @@ fn point() -> Value {
     object(&["name", "point_m"], &json!({ "name": text(), "point_m": numbers(Range::Finite, Some(3)) }))
 }
 
-/// Events of a simulation. Their keys are checked when they are read.
+/// Events of a simulation.
 pub(super) fn scenario() -> Value {
-    let kinds = ["release", "pick", "lengths", "tension", "stop", "push", "cut"];
-    let lists: Map<String, Value> = kinds.into_iter().map(|kind| (kind.to_owned(), objects())).collect();
+    let event = |keys: &[Key]| {
+        let required: Vec<&str> = keys.iter().filter(|key| key.required).map(|key| key.name).collect();
+        object(&required, &properties_of(keys).into())
+    };
+    let lists: Map<String, Value> =
+        event_kinds().iter().map(|(kind, keys)| ((*kind).to_owned(), list(&event(keys)))).collect();
     json!({ "type": "object", "properties": lists, "additionalProperties": false })
 }
 

@@ -1,6 +1,6 @@
 //! Request of a simulation in time, and its scenario of events.
 
-use super::key::declared;
+use super::key::{Declared, Key, declared};
 use super::parts::{NumberColumns, RobotText, State, Tensions};
 use funicular::simulation::{ElementMesh, SimulationSettings};
 use serde::{Deserialize, Serialize};
@@ -97,109 +97,118 @@ pub struct Scenario {
     pub cut: Vec<CutEvent>,
 }
 
-/// The platform lets a payload go.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct ReleaseEvent {
-    /// Time [s].
-    pub at_s: f64,
-    /// Mass of the payload [kg], a part of the platform's mass.
-    pub mass_kg: f64,
-    /// Its place, platform frame [m]; the centre of mass if not given.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub point_m: Option<[f64; 3]>,
+declared! {
+    /// The platform lets a payload go.
+    pub struct ReleaseEvent {
+        /// Time [s].
+        at_s: f64 = 0.0 => (Number(Finite)).required();
+        /// Mass of the payload [kg], a part of the platform's mass.
+        mass_kg: f64 = 0.0 => (Number(Finite)).required();
+        /// Its place, platform frame [m]; the centre of mass if not given.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        point_m: Option<[f64; 3]> = None => (Vector);
+    }
 }
 
-/// The platform takes a payload up.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct PickEvent {
-    /// Time [s].
-    pub at_s: f64,
-    /// Mass of the payload [kg].
-    pub mass_kg: f64,
-    /// Its place, platform frame [m]; the centre of mass if not given.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub point_m: Option<[f64; 3]>,
-    /// Its velocity before, world axes [m/s]; it moves with the platform if not given.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub velocity_m_s: Option<[f64; 3]>,
+declared! {
+    /// The platform takes a payload up.
+    pub struct PickEvent {
+        /// Time [s].
+        at_s: f64 = 0.0 => (Number(Finite)).required();
+        /// Mass of the payload [kg].
+        mass_kg: f64 = 0.0 => (Number(Finite)).required();
+        /// Its place, platform frame [m]; the centre of mass if not given.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        point_m: Option<[f64; 3]> = None => (Vector);
+        /// Its velocity before, world axes [m/s]; it moves with the platform if not given.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        velocity_m_s: Option<[f64; 3]> = None => (Vector);
+    }
 }
 
-/// Winches change unstrained lengths: by `change_m` within `duration_s`, or by a table over time.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct LengthsEvent {
-    /// Beginning [s].
-    pub at_s: f64,
-    /// Duration of the change [s].
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub duration_s: Option<f64>,
-    /// Change of each cable [m], by its name; other winches stay at rest.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub change_m: Option<BTreeMap<String, f64>>,
-    /// Table with t_s from the beginning on, and unstrained_length_NAME_m of every cable, or poses.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub table: Option<NumberColumns>,
+declared! {
+    /// Winches change unstrained lengths: by `change_m` within `duration_s`, or by a table over time.
+    pub struct LengthsEvent {
+        /// Beginning [s].
+        at_s: f64 = 0.0 => (Number(Finite)).required();
+        /// Duration of the change [s].
+        #[serde(skip_serializing_if = "Option::is_none")]
+        duration_s: Option<f64> = None => (Number(Finite));
+        /// Change of each cable [m], by its name; other winches stay at rest.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        change_m: Option<BTreeMap<String, f64>> = None => (ByCable(Finite));
+        /// Table with t_s from the beginning on, and unstrained_length_NAME_m of every cable, or poses.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        table: Option<NumberColumns> = None => (Columns);
+    }
 }
 
-/// Winches hold tensions by their torque from now on, instead of lengths.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct TensionEvent {
-    /// Beginning [s].
-    pub at_s: f64,
-    /// Time within which the tension goes from the present one to the given one [s].
-    pub duration_s: f64,
-    /// Tension at the drum of each cable by its name [N].
-    pub tension_n: BTreeMap<String, f64>,
+declared! {
+    /// Winches hold tensions by their torque from now on, instead of lengths.
+    pub struct TensionEvent {
+        /// Beginning [s].
+        at_s: f64 = 0.0 => (Number(Finite)).required();
+        /// Time within which the tension goes from the present one to the given one [s].
+        duration_s: f64 = 0.0 => (Number(Finite)).required();
+        /// Tension at the drum of each cable by its name [N].
+        tension_n: BTreeMap<String, f64> = BTreeMap::new() => (ByCable(Finite)).required();
+    }
 }
 
-/// Brakes bring winches to rest.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct StopEvent {
-    /// Beginning [s].
-    pub at_s: f64,
-    /// Time until the winches stand [s].
-    pub duration_s: f64,
-    /// Names of the cables whose winches brake; all if not given.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub cables: Option<Vec<String>>,
+declared! {
+    /// Brakes bring winches to rest.
+    pub struct StopEvent {
+        /// Beginning [s].
+        at_s: f64 = 0.0 => (Number(Finite)).required();
+        /// Time until the winches stand [s].
+        duration_s: f64 = 0.0 => (Number(Finite)).required();
+        /// Names of the cables whose winches brake; all if not given.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        cables: Option<Vec<String>> = None => (Texts);
+    }
 }
 
-/// Force and moment on the platform for a while.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct PushEvent {
-    /// Beginning [s].
-    pub at_s: f64,
-    /// Duration [s].
-    pub duration_s: f64,
-    /// Time in which it grows at the beginning and fades at the end [s].
-    #[serde(default)]
-    pub rise_s: f64,
-    /// Force, world axes [N].
-    #[serde(default)]
-    pub force_n: [f64; 3],
-    /// Moment, world axes [N m].
-    #[serde(default)]
-    pub moment_n_m: [f64; 3],
-    /// Point at which the force acts, platform frame [m].
-    #[serde(default)]
-    pub point_m: [f64; 3],
+declared! {
+    /// Force and moment on the platform for a while.
+    pub struct PushEvent {
+        /// Beginning [s].
+        at_s: f64 = 0.0 => (Number(Finite)).required();
+        /// Duration [s].
+        duration_s: f64 = 0.0 => (Number(Finite)).required();
+        /// Time in which it grows at the beginning and fades at the end [s].
+        rise_s: f64 = 0.0 => (Number(Finite));
+        /// Force, world axes [N].
+        force_n: [f64; 3] = [0.0; 3] => (Vector);
+        /// Moment, world axes [N m].
+        moment_n_m: [f64; 3] = [0.0; 3] => (Vector);
+        /// Point at which the force acts, platform frame [m].
+        point_m: [f64; 3] = [0.0; 3] => (Vector);
+    }
 }
 
-/// A cable fails, at a time or at a tension.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct CutEvent {
-    /// Name of the cable.
-    pub cable: String,
-    /// Time [s].
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub at_s: Option<f64>,
-    /// Tension at either end at which it fails [N].
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub at_tension_n: Option<f64>,
+declared! {
+    /// A cable fails, at a time or at a tension.
+    pub struct CutEvent {
+        /// Name of the cable.
+        cable: String = String::new() => (Text).required();
+        /// Time [s].
+        #[serde(skip_serializing_if = "Option::is_none")]
+        at_s: Option<f64> = None => (Number(Finite));
+        /// Tension at either end at which it fails [N].
+        #[serde(skip_serializing_if = "Option::is_none")]
+        at_tension_n: Option<f64> = None => (Number(Finite));
+    }
+}
+
+/// Kinds of events with their keys, in the order of the fields of [`Scenario`].
+pub(super) fn event_kinds() -> [(&'static str, Vec<Key>); 7] {
+    [
+        ("release", ReleaseEvent::keys()),
+        ("pick", PickEvent::keys()),
+        ("lengths", LengthsEvent::keys()),
+        ("tension", TensionEvent::keys()),
+        ("stop", StopEvent::keys()),
+        ("push", PushEvent::keys()),
+        ("cut", CutEvent::keys()),
+    ]
 }

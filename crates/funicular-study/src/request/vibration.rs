@@ -131,9 +131,9 @@ declared! {
         /// pitch_deg, yaw_deg or unstrained_length_NAME_m of every cable [m]; between the rows the lengths change in
         /// straight lines. Without a pose and lengths the state is that of the last row.
         trajectory: Option<NumberColumns> = None => (Columns);
-        /// Times of the stop or the move [s], each at most the one before: from the begin of the acceleration to that
-        /// of the deceleration (for a stop the deceleration itself), of each acceleration, and of each change of the
-        /// acceleration. The command takes their sum; without them a stop is sudden.
+        /// Times of the command [s], each at most the one before. A move has T1 from the start of the acceleration to the
+        /// start of the deceleration, T2 for each of the two, and T3 for each change of the acceleration; a stop has T1 for
+        /// the deceleration, and T2 and T3 for its changes. The command takes their sum; without them a stop is sudden.
         profile_s: Option<Vec<f64>> = None => (Commas(ProgramForm::NotNegative)).form("T1[,T2[,T3]]").otherwise("none");
         /// Input shaper of the command: zv, zvd, or ei:V, which leaves the fraction V of a vibration, as in
         /// ei:0.05.

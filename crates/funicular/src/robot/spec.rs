@@ -429,9 +429,6 @@ fn read_state(
 
     let Some(value) = root.get("state") else {
         let lengths = lengths??;
-        if !lengths.is_empty() {
-            cables::refuse_one_anchor(reader, cables?);
-        }
         let state = if lengths.is_empty() { State::Unknown } else { State::Lengths(lengths) };
         return Some((state, [0.0; 3]));
     };

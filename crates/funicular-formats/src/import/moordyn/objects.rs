@@ -95,8 +95,11 @@ impl<'a> MoorDynModel<'a> {
         };
         let mut losses = MoorDynLosses::default();
         let mut water = None;
-        for (kind, row) in sections::rows(&file.text) {
-            match kind {
+        // Text before the first section that is known is a description.
+        let (mut named, mut has_begun) = (None, false);
+        for (section, row) in sections::rows(&file.text) {
+            has_begun |= section.kind != SectionKind::Other;
+            match section.kind {
                 SectionKind::LineTypes => {
                     let read = model.line_type(file, &row, &mut losses)?;
                     model.types.push(read);
@@ -121,7 +124,16 @@ impl<'a> MoorDynModel<'a> {
                     }
                     _ => {}
                 },
-                SectionKind::RodTypes | SectionKind::Other => {}
+                SectionKind::Failures => model.lost.push(format!(
+                    "the failure of line {} of the file: in a scenario of `simulate` it is a [[cut]] with `at_s` or \
+                     `at_tension_n`",
+                    row.line
+                )),
+                SectionKind::Other if has_begun && named != Some(section) && !section.title.is_empty() => {
+                    named = Some(section);
+                    model.lost.push(format!("the section `{}` from line {} on", clean(section.title), section.line));
+                }
+                SectionKind::RodTypes | SectionKind::Outputs | SectionKind::Other => {}
             }
         }
 

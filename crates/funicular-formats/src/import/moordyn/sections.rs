@@ -17,12 +17,16 @@ pub(super) enum SectionKind {
     Lines,
     Options,
     ExternalLoads,
-    /// Any other section (outputs, failures, control, …): it does not describe the robot's statics.
+    /// Lines that fail, at a time or at a tension.
+    Failures,
+    /// Names of signals to write, and the line after the last section.
+    Outputs,
+    /// Any other section (control, …): it does not describe the robot's statics.
     Other,
 }
 
 /// Words of the headers. The longer ones come first: `LINE TYPES` must not be taken as a section of `LINES`.
-const HEADERS: [(&[&str], SectionKind); 8] = [
+const HEADERS: [(&[&str], SectionKind); 10] = [
     (&["LINE TYPES", "LINE DICTIONARY"], SectionKind::LineTypes),
     (&["ROD TYPES", "ROD DICTIONARY"], SectionKind::RodTypes),
     (&["EXTERNAL LOADS"], SectionKind::ExternalLoads),
@@ -31,7 +35,19 @@ const HEADERS: [(&[&str], SectionKind); 8] = [
     (&["POINTS", "POINT LIST", "POINT PROPERTIES", "CONNECTION PROPERTIES", "NODE PROPERTIES"], SectionKind::Points),
     (&["LINES", "LINE LIST", "LINE PROPERTIES"], SectionKind::Lines),
     (&["OPTIONS"], SectionKind::Options),
+    (&["FAILURE"], SectionKind::Failures),
+    (&["OUTPUT", "NEED THIS LINE"], SectionKind::Outputs),
 ];
+
+/// Section with at least one row.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Section<'a> {
+    pub(super) kind: SectionKind,
+    /// Words of its header.
+    pub(super) title: &'a str,
+    /// Line of its header, from 1.
+    pub(super) line: usize,
+}
 
 /// SourceRow of a table in an input file.
 #[derive(Debug, Clone)]
@@ -43,23 +59,24 @@ pub(super) struct SourceRow<'a> {
     names: Rc<[&'a str]>,
 }
 
-/// Rows of a file, each with the kind of its section.
-pub(super) fn rows(text: &str) -> Vec<(SectionKind, SourceRow<'_>)> {
+/// Rows of a file, each with its section.
+pub(super) fn rows(text: &str) -> Vec<(Section<'_>, SourceRow<'_>)> {
     let mut rows = Vec::new();
-    let mut kind = None;
+    let mut section = None;
     let mut to_skip = 0;
     let mut names: Rc<[&str]> = Rc::default();
 
     for (i, line) in text.lines().enumerate() {
         if let Some(header) = header(line) {
-            kind = Some(header);
+            let title = line.trim_matches(|c: char| c == '-' || c.is_whitespace());
+            section = Some(Section { kind: header, title, line: i + 1 });
             // Two rows with names and units of the columns follow; the list of options has none.
-            to_skip = if header == SectionKind::Options { 0 } else { 2 };
+            to_skip = if matches!(header, SectionKind::Options | SectionKind::Outputs) { 0 } else { 2 };
             names = Rc::default();
             continue;
         }
 
-        let Some(kind) = kind else { continue };
+        let Some(section) = section else { continue };
         if to_skip == 2 {
             let words: Vec<&str> = line.split_whitespace().collect();
             // In the layout of version 1, the number of rows stands before the names: `2 NLines - number of lines`.
@@ -78,7 +95,7 @@ pub(super) fn rows(text: &str) -> Vec<(SectionKind, SourceRow<'_>)> {
 
         let words: Vec<&str> = without_comment(line).split_whitespace().collect();
         if !words.is_empty() {
-            rows.push((kind, SourceRow { line: i + 1, words, names: names.clone() }));
+            rows.push((section, SourceRow { line: i + 1, words, names: names.clone() }));
         }
     }
     rows
@@ -167,7 +184,7 @@ mod tests {
         let text = "free text\n--- LINE TYPES ---\nName\n(-)\nrope 1 ! note\n\n---- POINTS ----\na\nb\n1 fixed # x\n\
                     --- SOLVER OPTIONS---\n0 rho\n--- need this line ---\n";
         let found: Vec<(SectionKind, usize, usize)> =
-            rows(text).into_iter().map(|(kind, row)| (kind, row.line, row.words.len())).collect();
+            rows(text).into_iter().map(|(section, row)| (section.kind, row.line, row.words.len())).collect();
         assert_eq!(
             found,
             [(SectionKind::LineTypes, 5, 2), (SectionKind::Points, 10, 2), (SectionKind::Options, 12, 2)]

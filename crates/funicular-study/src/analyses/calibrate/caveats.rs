@@ -133,10 +133,9 @@ fn stretch(of: &CalibrationReport) -> Option<String> {
     let (stretch, tension) = elongation(&of.of.robot)?;
     (stretch > deviation).then(|| {
         format!(
-            "cables are straight and rigid here, but under {} N they stretch or sag by about {}, more than the deviation \
-             of the readings, {}; with stretch and sag lengths alone say nothing about the robot, because every row has as \
-             many unknown true lengths as cables: correct the readings by measured tensions, or read the values as those \
-             of a rigid robot",
+            "cables are straight and rigid here. Under {} N they stretch or sag by about {}, which is more than the \
+             deviation of the readings, {}: the part that all rows share goes into the found values, the rest into the \
+             residuals. Correct the readings by measured tensions if you need the anchors more exactly than that",
             significant(tension, 3),
             in_mm(stretch),
             in_mm(deviation)

@@ -3,14 +3,14 @@
 use crate::analyses::timed_rows::{Holds, TimedRows};
 use crate::at_rest::AtRest;
 use crate::names::suggestion;
-use crate::request::{CutEvent, LengthsEvent, NumberColumns, Scenario};
+use crate::request::{self, CutEvent, LengthsEvent, NumberColumns, Scenario, check_scenario};
 use crate::values::finite;
 use anyhow::{Context, Result, anyhow, bail};
 use funicular::math::Vec3;
 use funicular::robot::{Robot, State};
 use funicular::simulation::{CutAt, SimulationEvent};
 use funicular::statics;
-use serde_json::{Map, Value};
+use serde_json::Value;
 
 /// ScenarioEvents in the order of the scenario, with their names in messages.
 pub struct ScenarioEvents {
@@ -80,7 +80,7 @@ impl ScenarioEvents {
     fn add<T>(&mut self, kind: &str, list: &[T], event: impl Fn(&T) -> Result<SimulationEvent>) -> Result<()> {
         for (k, of) in list.iter().enumerate() {
             let label = if list.len() == 1 { format!("[[{kind}]]") } else { format!("[[{kind}]] number {}", k + 1) };
-            let event = event(of).map_err(|error| anyhow!("{label} of ⟪scenario⟫: {error}"))?;
+            let event = event(of).with_context(|| format!("{label} of ⟪scenario⟫"))?;
             self.list.push(event);
             self.labels.push(label);
         }
@@ -169,22 +169,8 @@ pub fn scenario_from_toml(text: &str, table: impl Fn(&str) -> Result<NumberColum
             }
         }
     }
-    scenario_of(value)
-}
-
-/// Reads a scenario from plain data, list by list, so that an error says where.
-fn scenario_of(value: Value) -> Result<Scenario> {
-    let Value::Object(lists) = value else { bail!("it has no tables") };
-    let mut checked = Map::new();
-    for (kind, list) in lists {
-        let Value::Array(events) = list else { bail!("`{kind}`: write [[{kind}]], one table for each event") };
-        for (k, event) in events.iter().enumerate() {
-            let one = Value::Object(Map::from_iter([(kind.clone(), Value::Array(vec![event.clone()]))]));
-            serde_json::from_value::<Scenario>(one).map_err(|error| anyhow!("[[{kind}]] number {}: {error}", k + 1))?;
-        }
-        checked.insert(kind, Value::Array(events));
-    }
-    Ok(serde_json::from_value(Value::Object(checked))?)
+    check_scenario(&value)?;
+    request::read(value)
 }
 
 fn of_item(item: &toml_edit::Item) -> Result<Value> {

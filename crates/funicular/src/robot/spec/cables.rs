@@ -291,19 +291,3 @@ pub(super) fn refuse_coincident_ends(reader: &mut Reader, cables: &[CableEntry],
         }
     }
 }
-
-/// Refuses a robot whose cables all have one anchor. With given lengths the pose is unknown here, but this can be
-/// checked.
-pub(super) fn refuse_one_anchor(reader: &mut Reader, cables: &[CableEntry]) {
-    let anchors: Option<Vec<Vec3>> =
-        cables.iter().map(|entry| entry.cable.as_ref().map(|c| c.anchor.reference_w())).collect();
-    // A single cable is a pendulum and has one anchor.
-    let Some([first, others @ ..]) = anchors.as_deref() else {
-        return;
-    };
-    if !others.is_empty() && others.iter().all(|other| (other - first).norm() <= COINCIDENT * first.norm()) {
-        reader
-            .issue(cables[0].anchor_span.clone(), "all cables have the same anchor")
-            .help("give the exit point of every cable in `anchor_m`, in the world frame");
-    }
-}

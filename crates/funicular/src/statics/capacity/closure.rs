@@ -17,14 +17,14 @@ pub struct WrenchClosure {
     /// Degrees of freedom of the platform.
     pub dof: usize,
     /// Tension factor: largest ratio of the minimum to the maximum tension with which the cables balance each other
-    /// without a load, from 0 to 1.
+    /// without a load, from 0 to 1; rounding counts as 0.
     pub tension_factor: f64,
 }
 
 impl WrenchClosure {
     /// True if the cables could balance every load with tensions that are high enough.
     pub fn is_closed(&self) -> bool {
-        self.rank == self.dof && self.tension_factor > POSITIVE
+        self.rank == self.dof && self.tension_factor > 0.0
     }
 }
 
@@ -54,5 +54,6 @@ pub fn wrench_closure(robot: &Robot, pose: &Pose) -> WrenchClosure {
         .map(|cable| if has_no_length(&cable) { Vec6::zeros() } else { cable.unit_wrench(&coordinates) })
         .collect();
     let rank = SpannedWrenches::of(&columns, dof).spanned.len();
-    WrenchClosure { rank, dof, tension_factor: balanced_pull(&columns, dof) }
+    let factor = balanced_pull(&columns, dof);
+    WrenchClosure { rank, dof, tension_factor: if factor > POSITIVE { factor } else { 0.0 } }
 }

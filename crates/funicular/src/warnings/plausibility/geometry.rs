@@ -33,7 +33,10 @@ impl Size {
 pub(super) fn check(robot: &Robot) -> Vec<Implausible> {
     let size = Size::of(robot);
     // A single point far away explains the size of all.
-    let of_size = single_cable(robot).or_else(|| anchors(&size)).or_else(|| attachments(robot, &size));
+    let of_size = one_anchor(robot, &size)
+        .or_else(|| single_cable(robot))
+        .or_else(|| anchors(&size))
+        .or_else(|| attachments(robot, &size));
     let of_size = of_size.or_else(|| distance(robot, &size)).or_else(|| attachments_in_world(robot, &size));
     let mut found: Vec<Implausible> = of_size.into_iter().collect();
     found.extend(signs(robot, &size));
@@ -113,6 +116,19 @@ fn single_cable(robot: &Robot) -> Option<Implausible> {
         }
     }
     None
+}
+
+/// All cables at one anchor: slings from one hook, or a slip.
+fn one_anchor(robot: &Robot, size: &Size) -> Option<Implausible> {
+    let [first, _, ..] = &robot.cables[..] else { return None };
+    let at = first.anchor.reference_w();
+    (size.anchors <= COINCIDE * at.norm()).then(|| Implausible::Odd {
+        what: format!("all cables have one anchor, ({}, {}, {}) m", number(at.x), number(at.y), number(at.z)),
+        slip:
+            "a copied `anchor_m`? Slings from one hook have one, and the platform turns about the vertical through it \
+               without resistance"
+                .to_owned(),
+    })
 }
 
 /// Attachments around the position of the platform in place of its origin.

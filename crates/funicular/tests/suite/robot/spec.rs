@@ -376,11 +376,6 @@ fn a_pose_is_checked_with_the_geometry() {
 }
 
 #[test]
-fn lengths_without_a_pose_need_more_than_one_anchor() {
-    check(ROBOT, &[("one anchor", "[3.0, 0.0, 4.0]", "[-3.0, 0.0, 4.0]", "all cables have the same anchor", 23)]);
-}
-
-#[test]
 fn a_point_mass_has_neither_size_nor_orientation() {
     check(
         POINT,

@@ -115,3 +115,61 @@ fn the_rule_stiffest_is_refused_where_no_tension_changes_the_least_stiffness() {
     }
     assert!(!statics::leaves_choice(&Robot::from_toml(funicular_robots::YUAN2014_4MM).unwrap()));
 }
+
+/// Crate of 400 kg on slings of 2.5 m from one hook.
+fn slings(from: impl Fn(usize) -> [f64; 3], lengths: &[f64]) -> Robot {
+    let attachments = [[1.2, 0.8, 0.5], [-1.2, 0.8, 0.5], [-1.2, -0.8, 0.5], [1.2, -0.8, 0.5]];
+    let cables: Vec<_> = attachments.into_iter().enumerate().map(|(i, at)| (from(i), at)).take(lengths.len()).collect();
+    let mut robot = robot("mass_kg = 400\ninertia_kg_m2 = [40, 70, 90]", 0.4, &cables);
+    robot.state = State::Lengths(lengths.to_vec());
+    robot
+}
+
+#[test]
+fn slings_from_one_hook_hold_their_crate_which_turns_freely_about_the_vertical_through_the_hook() {
+    let hook = [0.0, 0.0, 6.0];
+    let robot = slings(|_| hook, &[2.5; 4]);
+    let found = statics::solve(&robot, StaticModel::Spring, None).unwrap().equilibrium;
+
+    // Straight slings: four equal tensions T at the angle θ carry the weight, and T stretches them.
+    let (weight, reach) = (400.0 * 9.81, 1.2_f64.hypot(0.8));
+    let mut length = 2.5_f64;
+    for _ in 0..100 {
+        let cosine = (length * length - reach * reach).sqrt() / length;
+        length = 2.5 * (1.0 + weight / (4.0 * cosine) / 1e6);
+    }
+    let drop = (length * length - reach * reach).sqrt();
+    assert!((found.pose.position_w.z - (6.0 - drop - 0.5)).abs() < 1e-9, "{}", found.pose.position_w.z);
+    for cable in &found.cables {
+        assert!((cable.tension_platform / (weight * length / drop / 4.0) - 1.0).abs() < 1e-9);
+    }
+    let free = statics::free_motions(&robot, &found);
+    assert!(free.iter().any(|motion| motion.to_string().starts_with("turn about (0.000, 0.000, 1.000)")), "{free:?}");
+
+    // Sagging ones are the limit of slings whose anchors are apart by a micrometre.
+    let sagging = statics::solve(&robot, StaticModel::Catenary, None).unwrap().equilibrium;
+    let apart = slings(|i| [1e-6 * i as f64, 0.0, 6.0], &[2.5; 4]);
+    let apart = statics::solve(&apart, StaticModel::Catenary, None).unwrap().equilibrium;
+    assert!((sagging.pose.position_w.z - apart.pose.position_w.z).abs() < 1e-5);
+    for (one, other) in sagging.cables.iter().zip(&apart.cables) {
+        assert!((one.tension_platform - other.tension_platform).abs() < 1e-3 * other.tension_platform);
+    }
+    let warned = funicular::warnings::plausibility::of_robot(&robot);
+    assert!(warned.iter().any(|of| of.to_string().contains("all cables have one anchor, (0, 0, 6) m")), "{warned:?}");
+}
+
+#[test]
+fn slings_of_different_lengths_and_two_falls_from_one_sheave_are_computed() {
+    let robot = slings(|_| [0.5, -0.2, 6.0], &[2.5, 2.6, 2.4]);
+    let found = statics::solve(&robot, StaticModel::Catenary, None).unwrap().equilibrium;
+    // The centre of mass hangs below the hook.
+    assert!((found.pose.position_w.xy() - funicular::math::Vec3::new(0.5, -0.2, 0.0).xy()).norm() < 1e-3);
+
+    let falls = [([0.0, 0.0, 9.0], [0.0; 3]), ([0.0, 0.0, 9.0], [0.0; 3])];
+    let mut two = self::robot("mass_kg = 50\nmotion = \"point-mass\"", 0.2, &falls);
+    two.state = State::Lengths(vec![8.0, 8.01]);
+    let found = statics::solve(&two, StaticModel::Catenary, None).unwrap().equilibrium;
+    let carried: f64 = found.cables.iter().map(|cable| cable.tension_anchor).sum();
+    let weight = 9.81 * (50.0 + 0.2 * 16.01);
+    assert!((carried / weight - 1.0).abs() < 1e-3, "{carried} {weight}");
+}
