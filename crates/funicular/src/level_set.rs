@@ -9,6 +9,7 @@
 
 mod boundary;
 mod edge_root;
+mod error;
 mod grid;
 mod inner_box;
 mod nodes;

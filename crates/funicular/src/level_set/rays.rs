@@ -75,7 +75,7 @@ impl RaySet {
                 } else {
                     (segment, [near_value, value])
                 };
-                roots.push(EdgeRoot::new(segment, ends));
+                roots.push(EdgeRoot::new(segment, ends, tolerance));
                 of_rays.push(ray);
             }
             before = (ray, distance, value);
@@ -89,7 +89,7 @@ impl RaySet {
             ends.into_iter().map(|end| RayIntervals { intervals: Vec::new(), end }).collect();
         let mut changes: Vec<Vec<f64>> = vec![Vec::new(); rays.len()];
         for (root, ray) in roots.iter().zip(of_rays) {
-            changes[ray].push((root.point() - center).norm());
+            changes[ray].push((root.end() - center).norm());
         }
         for (ray, mut changes) in rays.iter_mut().zip(changes) {
             if is_inside(values[0]) {
@@ -170,7 +170,7 @@ pub fn first_borders(directions: &[Vec3], search: &RaysInBox, evaluate: &mut Eva
         let mut inside = Vec::new();
         for (((ray, near, near_value), far), value) in going.into_iter().zip(next).zip(values) {
             if !is_inside(value) {
-                roots.push(EdgeRoot::new([at(ray, near), at(ray, far)], [near_value, value]));
+                roots.push(EdgeRoot::new([at(ray, near), at(ray, far)], [near_value, value], tolerance));
                 of_rays.push(ray);
             } else if far < lengths[ray] {
                 inside.push((ray, far, value));
@@ -185,7 +185,7 @@ pub fn first_borders(directions: &[Vec3], search: &RaysInBox, evaluate: &mut Eva
     let mut ends: Vec<FirstBorder> =
         lengths.iter().map(|length| FirstBorder { distance: *length, is_border: false }).collect();
     for (root, ray) in roots.iter().zip(of_rays) {
-        ends[ray] = FirstBorder { distance: (root.point() - center).norm(), is_border: true };
+        ends[ray] = FirstBorder { distance: (root.end() - center).norm(), is_border: true };
     }
     Some(ends)
 }

@@ -2,7 +2,7 @@
 
 use super::boundary::BoundaryMesh;
 use crate::math::Vec3;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Section of a set with a plane at right angles to an axis.
 #[derive(Debug, Clone, PartialEq)]
@@ -14,7 +14,8 @@ pub struct SetSection {
 }
 
 impl BoundaryMesh {
-    /// Section with the plane in which coordinate `axis` (0, 1 or 2) has a value [m].
+    /// Section with the plane in which coordinate `axis` (0, 1 or 2) has a value [m]. Faces of the set in this plane belong
+    /// to it, whichever side of the plane they bound.
     pub fn section(&self, axis: usize, at: f64) -> SetSection {
         let mut segments = self.segments(axis, at);
         let mut polygons = Vec::new();
@@ -35,10 +36,22 @@ impl BoundaryMesh {
     /// Segments in which the plane cuts the triangles: from the edge that goes down through the plane, with the point
     /// there, to the edge that goes up. Neighbours share an edge, which goes down in one and up in the other.
     fn segments(&self, axis: usize, at: f64) -> BTreeMap<[usize; 2], ([usize; 2], Vec3)> {
-        let is_above = |vertex: usize| self.vertices()[vertex][axis] >= at;
+        // The set lies above a face in the plane that looks down, so the section passes just above its vertices; elsewhere
+        // just below those in the plane.
+        let height = |vertex: usize| self.vertices()[vertex][axis];
+        let mut passes_above: BTreeSet<usize> = BTreeSet::new();
+        for triangle in self.triangles().iter().filter(|triangle| triangle.iter().all(|i| height(*i) == at)) {
+            let [a, b, c] = triangle.map(|i| self.vertices()[i]);
+            if (b - a).cross(&(c - a))[axis] < 0.0 {
+                passes_above.extend(triangle);
+            }
+        }
+        let is_above = |vertex: usize| height(vertex) > at || height(vertex) == at && !passes_above.contains(&vertex);
         let cut = |[a, b]: [usize; 2]| {
             let [from, to] = [a, b].map(|vertex| self.vertices()[vertex]);
-            let mut point = from + (to - from) * ((at - from[axis]) / (to[axis] - from[axis]));
+            let rise = to[axis] - from[axis];
+            let part = if rise == 0.0 { 0.5 } else { (at - from[axis]) / rise };
+            let mut point = from + (to - from) * part;
             point[axis] = at;
             point
         };

@@ -49,12 +49,16 @@ type Edge = (usize, usize);
 /// # References
 /// docs/theory.md, section 10b.
 pub struct LevelSet {
-    grid: PointGrid,
-    nodes: GridNodes,
+    pub(super) grid: PointGrid,
+    pub(super) nodes: GridNodes,
     /// Vertices of the boundary on the edges of the finest steps.
     vertices: HashMap<Edge, Vec3>,
     evaluations: usize,
     end: SearchEnd,
+    /// Tolerance of the vertices along their edges [m].
+    pub(super) tolerance: f64,
+    /// Volume on the wrong side of the boundary by samples between the nodes [m³], with what their number leaves open.
+    pub(super) sampled: Option<f64>,
 }
 
 impl LevelSet {
@@ -65,12 +69,12 @@ impl LevelSet {
         let stride = nodes.stride;
 
         let edges = crossed_edges(&grid, &nodes);
-        let mut roots: Vec<EdgeRoot> = edges.iter().map(|edge| root(&grid, &nodes, *edge)).collect();
+        let mut roots: Vec<EdgeRoot> = edges.iter().map(|edge| root(&grid, &nodes, *edge, tolerance)).collect();
         let (polishing, found) = match stride {
             1 => EdgeRoot::find_all(&mut roots, tolerance, evaluate),
             _ => (0, false),
         };
-        let vertices = edges.into_iter().zip(roots.iter().map(EdgeRoot::point)).collect();
+        let vertices = edges.into_iter().zip(roots.iter().map(EdgeRoot::end)).collect();
 
         let end = match (stride, found) {
             (1, true) => SearchEnd::Complete,
@@ -78,7 +82,11 @@ impl LevelSet {
             _ => SearchEnd::Coarse,
         };
         let evaluations = nodes.evaluated + polishing;
-        Some(Self { grid, nodes, vertices, evaluations, end })
+        let mut set = Self { grid, nodes, vertices, evaluations, end, tolerance, sampled: None };
+        if found && let Some((wrong, count)) = set.sample(evaluate) {
+            (set.sampled, set.evaluations) = (Some(wrong), set.evaluations + count);
+        }
+        Some(set)
     }
 
     /// Grid of the search.
@@ -142,14 +150,27 @@ impl LevelSet {
     /// Cells of a stride that are not all outside, with a bit for each corner that is inside.
     fn cells(&self, stride: usize) -> impl Iterator<Item = ([usize; 3], u8)> + '_ {
         self.grid.cells(stride).filter_map(move |cell| {
-            let corners = GridNodes::corners(&self.grid, cell, stride);
-            let bits = (0..8).filter(|i| self.nodes.is_inside(corners[*i])).fold(0, |bits, i| bits | 1 << i);
+            let bits = self.corners_inside(&GridNodes::corners(&self.grid, cell, stride));
             (bits != 0).then_some((cell, bits))
         })
     }
 
+    /// Bit for each corner of a cell that is inside.
+    pub(super) fn corners_inside(&self, corners: &[usize; 8]) -> u8 {
+        (0..8).filter(|i| self.nodes.is_inside(corners[*i])).fold(0, |bits, i| bits | 1 << i)
+    }
+
     fn is_at_box(&self, cell: [usize; 3], stride: usize) -> bool {
         cell.iter().zip(self.grid.steps()).any(|(at, steps)| *at == 0 || at + stride == steps)
+    }
+
+    /// Point of a vertex of a cell of a stride.
+    pub(super) fn vertex(&self, corners: &[usize; 8], stride: usize, vertex: CellVertex) -> Vec3 {
+        let edge = match vertex {
+            CellVertex::Edge(a, b) => self.vertex_edge((corners[a], a ^ b), stride),
+            CellVertex::Corner(corner) => (corners[corner], 0),
+        };
+        self.vertices.get(&edge).copied().unwrap_or_else(|| self.grid.point(edge.0))
     }
 
     /// Vertex on an edge of larger steps: that of its one part that the boundary crosses.
@@ -188,10 +209,11 @@ fn crossed_edges(grid: &PointGrid, nodes: &GridNodes) -> Vec<Edge> {
 }
 
 /// Search on an edge that is crossed.
-fn root(grid: &PointGrid, nodes: &GridNodes, (index, axes): Edge) -> EdgeRoot {
+fn root(grid: &PointGrid, nodes: &GridNodes, (index, axes): Edge, tolerance: f64) -> EdgeRoot {
     let end = index + nodes.stride * offset(grid, axes);
     let [inner, outer] = if nodes.is_inside(index) { [index, end] } else { [end, index] };
-    EdgeRoot::new([inner, outer].map(|index| grid.point(index)), [inner, outer].map(|index| nodes.value(index)))
+    let points = [inner, outer].map(|index| grid.point(index));
+    EdgeRoot::new(points, [inner, outer].map(|index| nodes.value(index)), tolerance)
 }
 
 /// Mesh while triangles are added.

@@ -61,6 +61,37 @@ pub(super) fn surface(inside: u8, mut add: impl FnMut([CellVertex; 3])) {
     }
 }
 
+/// Tetrahedra that fill the inside of a cell behind the triangles of [`surface`].
+pub(super) fn solids(inside: u8, mut add: impl FnMut([CellVertex; 4])) {
+    let is_inside = |corner: usize| inside >> corner & 1 == 1;
+    for tetrahedron in TETRAHEDRA {
+        let within: Vec<usize> = (0..4).filter(|i| is_inside(tetrahedron[*i])).collect();
+        let at = |i: usize| CellVertex::Corner(tetrahedron[i]);
+        let edge = |i: usize, j: usize| CellVertex::between(tetrahedron[i], tetrahedron[j]);
+        match within[..] {
+            [one] => {
+                let [a, b, c, d] = ONE_FIRST[one];
+                add([at(a), edge(a, b), edge(a, c), edge(a, d)]);
+            }
+            [first, second] => {
+                for [a, b, c, d] in TWO_FIRST.into_iter().filter(|order| order[..2] == [first, second]) {
+                    add([at(a), edge(a, c), edge(a, d), edge(b, d)]);
+                    add([at(a), edge(a, c), edge(b, d), edge(b, c)]);
+                    add([at(a), at(b), edge(b, c), edge(b, d)]);
+                }
+            }
+            [a, b, c] => {
+                let alone = (0..4).find(|i| !within.contains(i)).unwrap_or_default();
+                add([at(a), at(b), at(c), edge(c, alone)]);
+                add([at(a), at(b), edge(b, alone), edge(c, alone)]);
+                add([at(a), edge(a, alone), edge(b, alone), edge(c, alone)]);
+            }
+            [a, b, c, d] => add([at(a), at(b), at(c), at(d)]),
+            _ => {}
+        }
+    }
+}
+
 /// Triangles of the inside on the faces of the box, in a cell of a stride.
 pub(super) fn caps(
     grid: &PointGrid,

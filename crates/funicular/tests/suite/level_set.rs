@@ -3,7 +3,7 @@
 use funicular::level_set::{
     BoundaryMesh, FirstBorder, LevelSet, MAX_NODES, PointGrid, RaySet, RaysInBox, SearchEnd, Sphere, first_borders,
 };
-use funicular::math::Vec3;
+use funicular::math::{Rotation, Vec3};
 use proptest::prelude::*;
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
@@ -14,8 +14,12 @@ fn cube(half: f64, steps: usize) -> PointGrid {
 }
 
 fn find(grid: PointGrid, inside: impl Fn(&Vec3) -> Option<f64>) -> LevelSet {
+    find_to(grid, 1e-9, inside)
+}
+
+fn find_to(grid: PointGrid, tolerance: f64, inside: impl Fn(&Vec3) -> Option<f64>) -> LevelSet {
     let mut evaluate = |points: &[Vec3]| Some(points.iter().map(&inside).collect());
-    LevelSet::find(grid, 1e-9, &mut evaluate).unwrap()
+    LevelSet::find(grid, tolerance, &mut evaluate).unwrap()
 }
 
 /// Every edge of a closed surface belongs to two triangles, which go along it in opposite directions.
@@ -61,6 +65,99 @@ fn a_ball_has_its_volume_area_and_centroid() {
         assert_eq!((set.touches(), mesh.cut_area()), ([false; 6], 0.0));
     }
     assert!(before < 2e-3 * volume);
+}
+
+/// Set of a known volume within a cube of half side 1.
+struct KnownSet {
+    name: &'static str,
+    volume: f64,
+    value: Box<dyn Fn(&Vec3) -> Option<f64>>,
+}
+
+/// Sets that are smooth, have edges, tips or a plateau at zero, or are thin, moved and turned a little.
+fn known_sets(moved: Vec3, turned: f64) -> Vec<KnownSet> {
+    let place = Rotation::from_scaled_axis(Vec3::new(0.7, -0.4, 0.9) * turned);
+    let local = move |point: &Vec3| place.inverse() * (point - moved);
+    let within = |half: Vec3| move |point: Vec3| (0..3).map(|k| half[k] - point[k].abs()).fold(f64::INFINITY, f64::min);
+    let [box_, slab, wedge] = [[0.52, 0.43, 0.31], [0.6, 0.55, 0.06], [0.5, 0.5, 0.5]].map(Vec3::from).map(within);
+    let [plateau, jump] = [Vec3::new(0.52, 0.43, 0.31), Vec3::new(0.41, 0.47, 0.53)].map(within);
+    let (height, slope) = (1.1, 0.4);
+    let cone = move |point: Vec3| {
+        let below = 0.55 - point.z;
+        (slope * below - point.xy().norm()).min(height - below)
+    };
+    let tetrahedron =
+        |point: Vec3| point.iter().fold(f64::INFINITY, |least, at| least.min(at + 0.3)).min(0.4 - point.sum());
+    let known = |name, volume, value: Box<dyn Fn(Vec3) -> Option<f64>>| KnownSet {
+        name,
+        volume,
+        value: Box::new(move |point| value(local(point))),
+    };
+    vec![
+        known("ball", 4.0 / 3.0 * PI * 0.7_f64.powi(3), Box::new(|point| Some(0.7 - point.norm()))),
+        known("box", 8.0 * 0.52 * 0.43 * 0.31, Box::new(move |point| Some(box_(point)))),
+        known("cone", PI / 3.0 * (slope * height).powi(2) * height, Box::new(move |point| Some(cone(point)))),
+        known("tetrahedron", 1.3_f64.powi(3) / 6.0, Box::new(move |point| Some(tetrahedron(point)))),
+        known("thin slab", 8.0 * 0.6 * 0.55 * 0.06, Box::new(move |point| Some(slab(point)))),
+        known("wedge", 0.5, Box::new(move |point| Some(wedge(point).min(point.x - point.y)))),
+        // Zero inside, and rounding about zero; negative outside.
+        known("plateau", 8.0 * 0.52 * 0.43 * 0.31, Box::new(move |point| Some(plateau(point).min(0.0)))),
+        known(
+            "plateau without values beyond",
+            8.0 * 0.41 * 0.47 * 0.53,
+            Box::new(move |point| (jump(point) >= 0.0).then_some(0.0)),
+        ),
+        known(
+            "jump",
+            8.0 * 0.41 * 0.47 * 0.53,
+            Box::new(move |point| Some(if jump(point) >= 0.0 { 1e-9 } else { -5.0 })),
+        ),
+    ]
+}
+
+#[test]
+fn the_stated_error_of_a_volume_is_not_below_the_true_one() {
+    for (moved, turned) in
+        [(Vec3::zeros(), 0.0), (Vec3::new(0.05, -0.1, 0.2), 0.0), (Vec3::new(0.011, 0.023, -0.037), 1.0)]
+    {
+        for set in known_sets(moved, turned) {
+            for steps in [16, 20, 32, 40] {
+                let found = find_to(cube(1.0, steps), 0.02 / steps as f64, &set.value);
+                let (volume, stated) = (found.boundary(1).volume(), found.volume_errors());
+                let error = (volume - set.volume).abs();
+                assert!(error <= stated[0], "{} with {steps} steps: {error} > {}", set.name, stated[0]);
+                let coarse = (found.boundary(2).volume() - set.volume).abs();
+                assert!(
+                    coarse <= stated[1],
+                    "{} with {steps} steps as {}: {coarse} > {}",
+                    set.name,
+                    steps / 2,
+                    stated[1]
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn a_plateau_at_zero_loses_nothing() {
+    // The same box by its distance, by a plateau at zero, by one with rounding, and with no values outside.
+    let half = Vec3::new(0.731, 0.577, 0.413);
+    let distance = move |point: &Vec3| (0..3).map(|k| half[k] - point[k].abs()).fold(f64::INFINITY, f64::min);
+    let rounding = |point: &Vec3| 1e-16 * (1.0 + (1e3 * point.x).sin());
+    let kinds: [Box<dyn Fn(&Vec3) -> Option<f64>>; 4] = [
+        Box::new(move |point| Some(distance(point).min(0.0))),
+        Box::new(move |point| Some(if distance(point) >= 0.0 { rounding(point) } else { -1e3 })),
+        Box::new(move |point| (distance(point) >= 0.0).then(|| rounding(point))),
+        Box::new(move |point| Some(if distance(point) >= 0.0 { 0.0 } else { 10.0 * distance(point) - 0.1 })),
+    ];
+    for steps in [16, 24] {
+        let volume = find(cube(1.0, steps), |point| Some(distance(point))).boundary(1).volume();
+        for (i, kind) in kinds.iter().enumerate() {
+            let set = find(cube(1.0, steps), kind);
+            assert!((set.boundary(1).volume() - volume).abs() < 1e-7, "{i} {steps}: {volume}");
+        }
+    }
 }
 
 #[test]
@@ -172,6 +269,29 @@ fn sections_have_the_areas_of_circles_and_of_a_ring_with_its_hole() {
     let mesh = find(cube(1.6, 64), ring).boundary(1);
     let section = mesh.section(2, 0.0);
     assert!(section.polygons.len() == 2 && (section.area / (PI * (1.96 - 0.36)) - 1.0).abs() < 5e-3);
+}
+
+#[test]
+fn sections_at_faces_have_the_area_of_the_set() {
+    // On every face of the box, for a set that the box cuts, and for one that just touches faces of the grid.
+    let mesh = find(cube(1.0, 12), |point| Some(1.2 - point.norm())).boundary(1);
+    let cap = mesh.cut_area() / 6.0;
+    for (axis, at) in (0..3).flat_map(|axis| [(axis, -1.0), (axis, 1.0)]) {
+        let section = mesh.section(axis, at);
+        assert!((section.area - cap).abs() < 1e-9 && section.polygons.len() == 1, "{axis} {at}: {}", section.area);
+        let near = mesh.section(axis, at * (1.0 - 1e-7));
+        assert!((section.area - near.area).abs() < 1e-5 * cap);
+    }
+
+    // Two boxes, one above and one below the plane z = 0, whose faces lie on nodes.
+    let boxes = |point: &Vec3| {
+        let of = |x: f64, z: f64| 0.25 - (point.x - x).abs().max(point.y.abs()).max((point.z - z).abs());
+        Some(of(-0.5, 0.25).max(of(0.5, -0.25)))
+    };
+    let mesh = find(cube(1.0, 16), boxes).boundary(1);
+    let section = mesh.section(2, 0.0);
+    assert!((section.area - 0.5).abs() < 1e-9 && section.polygons.len() == 2, "{}", section.area);
+    assert!((mesh.section(2, 0.1).area - 0.25).abs() < 1e-9 && mesh.section(2, 0.6).polygons.is_empty());
 }
 
 #[test]
