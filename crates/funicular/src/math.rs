@@ -4,6 +4,7 @@
 
 pub(crate) mod active_set;
 pub mod chosen_rows;
+pub(crate) mod complex_symmetric;
 pub(crate) mod dual;
 pub(crate) mod eigenvectors;
 pub mod generalized_eigen;

@@ -14,7 +14,7 @@ use crate::request::{self, GustRequest, TurbulenceOptions, check_vector};
 use crate::signals::Output;
 use crate::table::Column;
 use anyhow::{Context, Result, bail};
-use funicular::gust::{self, Gusts, PeakFactor, Spectra};
+use funicular::gust::{self, Gusts, PeakFactor, Resonance, Spectra};
 use funicular::math::Vec3;
 use funicular::modes;
 use funicular::response::{Quantity, Signal};
@@ -149,8 +149,9 @@ pub fn about(at_rest: &AtRest, request: &GustRequest) -> Result<Gusty> {
     warnings.extend(measured::caveat(robot, limit));
     let gusts = Gusts::new(robot, equilibrium, &dynamics, &signals, limit)?;
     let natural: Vec<f64> = found.modes.iter().map(|mode| mode.frequency_hz).collect();
-    let spectra = gusts.spectra(limit, &natural).map_err(|error| no_solution(&error))?;
     let in_air = gust::aerodynamic_damping_ratio(robot, equilibrium, &dynamics, &found.modes)?;
+    let resonances = Resonance::of_modes(&found.modes, &in_air);
+    let spectra = gusts.spectra(limit, &resonances).map_err(|error| no_solution(&error))?;
 
     Ok(Gusty {
         robot: robot.name.clone(),

@@ -3,7 +3,7 @@
 use super::{AtRest, ModesBelow};
 use anyhow::{Result, bail};
 use funicular::dynamics::Linearisation;
-use funicular::gust::{Gusts, Moments, PeakFactor};
+use funicular::gust::{self, Gusts, Moments, PeakFactor, Resonance};
 use funicular::modes;
 use funicular::response::{Quantity, Signal};
 use funicular::statics::CableState;
@@ -29,8 +29,9 @@ pub(crate) fn moments_in_gusts(
     let ModesBelow { dynamics, modes, .. } = at_rest.modes_below(linearisation, limit, modes::MAX_MODES)?;
     let AtRest { robot, equilibrium, .. } = at_rest;
     let signals: Vec<(Signal, Quantity)> = signals.iter().map(|signal| (*signal, Quantity::Displacement)).collect();
-    let natural: Vec<f64> = modes.modes.iter().map(|mode| mode.frequency_hz).collect();
-    let spectra = Gusts::new(robot, equilibrium, &dynamics, &signals, limit)?.spectra(limit, &natural)?;
+    let in_air = gust::aerodynamic_damping_ratio(robot, equilibrium, &dynamics, &modes.modes)?;
+    let resonances = Resonance::of_modes(&modes.modes, &in_air);
+    let spectra = Gusts::new(robot, equilibrium, &dynamics, &signals, limit)?.spectra(limit, &resonances)?;
     Ok(spectra.moments)
 }
 

@@ -18,7 +18,7 @@ use super::{DynamicCableAt, Dynamics, NEAR_POLE_FRACTION, add_local};
 use crate::cable::catenary_dynamic::{
     CatenaryDynamicEnd, DriveAt, Family, LossyBesidePoles, LossyFamily, NearPole, NearRanges,
 };
-use crate::math::{CDMat, CMat6, CVec6, Complex, order};
+use crate::math::{CDMat, CMat6, CVec6, Complex, complex_symmetric, order};
 
 /// What is computed of a bordered dynamic stiffness.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -63,51 +63,50 @@ impl Dynamics {
     /// Motion at a simple zero ω [rad/s], for cables that are catenary-dynamic or do not depend on frequency; of size
     /// one.
     pub(crate) fn damped_motion(&self, omega: Complex) -> Option<DampedMotion> {
-        let Bordered { value, slope, .. } = self.bordered(omega, 1.0, 0.0, BorderedFor::Motion);
-        // Poles near ω, as the border has them.
-        let mut near = Vec::new();
-        for (t, term) in self.terms.iter().enumerate() {
-            let form = term.form.by_poles()?;
-            let (damping, mass_per_length) = self.damping[term.cable];
-            let (square, _) = damping.square_with_slope(omega, mass_per_length);
-            let poles = form.near_poles(&Self::near_of_border(form, square));
-            near.extend(poles.into_iter().map(|pole| (t, pole.family, pole.index)));
-        }
-
-        // Amplitudes of clamped modes in the unit of the platform's motion, so that all entries have one size. Supports
-        // follow, then drives, whose rows are motions.
-        let (dof, bordered) = (self.dof(), self.dof() + near.len());
-        let first_drive = bordered + self.supports.as_ref().map_or(0, |supports| supports.count());
-        let stiffest = (0..dof).map(|k| value[(k, k)].norm()).fold(0.0, f64::max);
-        let unit = |k: usize| if (dof..bordered).contains(&k) { stiffest.sqrt() / omega.norm() } else { 1.0 };
-        let weight = |row: usize| if row < first_drive { unit(row) } else { stiffest };
-        let scaled = CDMat::from_fn(value.nrows(), value.ncols(), |r, c| value[(r, c)] * (weight(r) * unit(c)));
-        let svd = scaled.svd(false, true);
-        let mut values: Vec<(f64, usize)> = svd.singular_values.iter().copied().zip(0..).collect();
-        order::sort_ascending(&mut values, |(value, _)| *value);
-        if values.get(1).is_some_and(|(second, _)| *second <= SHARED_ZERO * values[values.len() - 1].0) {
+        let at = ZeroVectors::of(self, omega)?;
+        if at.shared > 1 {
             return None;
         }
-        let row = svd.v_t?;
-        let motion: Vec<Complex> = row.row(values[0].1).iter().enumerate().map(|(k, z)| z.conj() * unit(k)).collect();
+        let motion = at.motion(0);
+        let slope = at.product(&at.left(&motion), &motion);
+        Some(at.damped_motion(motion, slope))
+    }
 
-        // The null vector of the transposed matrix has the forces −Δz of the drives in place of their motions z.
-        let mut left = motion.clone();
-        let mut first = first_drive;
-        for term in &self.terms {
-            let Some(form) = term.form.by_poles() else { continue };
-            for (_, (delta, _)) in motions_with_losses(form, omega, 1.0) {
-                left[first] *= -delta;
-                first += 1;
-            }
-        }
-        let product = |r: usize| -> Complex { (0..motion.len()).map(|c| slope[(r, c)] * motion[c]).sum() };
-        let slope = (0..motion.len()).map(|r| left[r] * product(r)).sum();
-        let near =
-            near.into_iter().enumerate().map(|(k, (t, family, index))| (t, family, index, motion[dof + k])).collect();
-        let platform = CVec6::from_fn(|i, _| if i < self.dof() { motion[i] } else { Complex::new(0.0, 0.0) });
-        let supports = motion[bordered..first_drive].to_vec();
-        Some(DampedMotion { platform, near, supports, slope })
+    /// Motions at zeros that lie so near to each other that one ω [rad/s] stands for all: at least `count`, independent
+    /// of each other, with their places relative to ω [rad/s]. Places within `same` [rad/s] of each other are one place,
+    /// zero. `None` if two motions are one, so that their sum does not decay by exponentials alone.
+    ///
+    /// The derivative of D between motions that span the space is a symmetric matrix G. In vectors that are orthogonal by
+    /// it, the residue of the receptance is the sum of those of the motions, whichever vectors these are.
+    ///
+    /// # References
+    /// docs/theory.md, equation (46f1).
+    pub(crate) fn shared_motions(
+        &self,
+        omega: Complex,
+        count: usize,
+        same: f64,
+    ) -> Option<Vec<(Complex, DampedMotion)>> {
+        let at = ZeroVectors::of(self, omega)?;
+        let all: Vec<Vec<Complex>> = (0..count.max(at.shared).min(at.motions())).map(|k| at.motion(k)).collect();
+        let lefts: Vec<Vec<Complex>> = all.iter().map(|motion| at.left(motion)).collect();
+        let between = |of: &dyn Fn(&[Complex], &[Complex]) -> Complex| {
+            CDMat::from_fn(all.len(), all.len(), |i, j| 0.5 * (of(&lefts[i], &all[j]) + of(&lefts[j], &all[i])))
+        };
+        let slopes = between(&|left, motion| at.product(left, motion));
+        let values = between(&|left, motion| at.value_product(left, motion));
+
+        let orthogonal = complex_symmetric::orthogonalised(&slopes)?;
+        let places = orthogonal.transpose() * values * &orthogonal;
+        let (places, turned) = complex_symmetric::diagonalised(places, same)?;
+        let vectors = orthogonal * turned;
+        let found = (0..all.len()).map(|k| {
+            let sum = |i: usize| -> Complex { all.iter().enumerate().map(|(j, of)| of[i] * vectors[(j, k)]).sum() };
+            let motion: Vec<Complex> = (0..all[0].len()).map(sum).collect();
+            // D(ω) + (ω_k − ω) D'(ω) is zero along the motion.
+            (-places[k], at.damped_motion(motion, Complex::new(1.0, 0.0)))
+        });
+        Some(found.collect())
     }
 
     /// Poles of a cable that are unknowns of their own at the square ω_c² of its frequency, as in the border.
@@ -154,6 +153,102 @@ impl Dynamics {
         let mut parts = BorderedParts::of_platform(self, omega, losses, purpose);
         (0..self.terms.len()).for_each(|t| parts.add_cable(t, poles_below));
         parts.assembled()
+    }
+}
+
+/// Vectors that the bordered dynamic stiffness takes nearly to zero at a complex frequency.
+struct ZeroVectors<'d> {
+    dynamics: &'d Dynamics,
+    value: CDMat,
+    slope: CDMat,
+    /// Poles near ω, as the border has them: index of the cable among those whose stiffness depends on frequency,
+    /// family, index of the mode.
+    near: Vec<(usize, Family, usize)>,
+    /// Row from which on motions of drives follow.
+    first_drive: usize,
+    /// Stiffness of the losses of each motion of the drives, Δ.
+    losses: Vec<Complex>,
+    /// Conjugate right singular vectors as rows, of entries over their units, and their order by singular values.
+    rows: CDMat,
+    order: Vec<usize>,
+    units: Vec<f64>,
+    /// Number of singular values that are zero except for rounding, at least one.
+    shared: usize,
+}
+
+impl<'d> ZeroVectors<'d> {
+    /// `None` for a cable model without motions at complex frequencies.
+    fn of(dynamics: &'d Dynamics, omega: Complex) -> Option<Self> {
+        let Bordered { value, slope, .. } = dynamics.bordered(omega, 1.0, 0.0, BorderedFor::Motion);
+        // Poles near ω, as the border has them.
+        let (mut near, mut losses) = (Vec::new(), Vec::new());
+        for (t, term) in dynamics.terms.iter().enumerate() {
+            let form = term.form.by_poles()?;
+            let (damping, mass_per_length) = dynamics.damping[term.cable];
+            let (square, _) = damping.square_with_slope(omega, mass_per_length);
+            let poles = form.near_poles(&Dynamics::near_of_border(form, square));
+            near.extend(poles.into_iter().map(|pole| (t, pole.family, pole.index)));
+            losses.extend(motions_with_losses(form, omega, 1.0).into_iter().map(|(_, (delta, _))| delta));
+        }
+
+        // Amplitudes of clamped modes in the unit of the platform's motion, so that all entries have one size. Supports
+        // follow, then drives, whose rows are motions.
+        let (dof, bordered) = (dynamics.dof(), dynamics.dof() + near.len());
+        let first_drive = bordered + dynamics.supports.as_ref().map_or(0, |supports| supports.count());
+        let stiffest = (0..dof).map(|k| value[(k, k)].norm()).fold(0.0, f64::max);
+        let unit = |k: usize| if (dof..bordered).contains(&k) { stiffest.sqrt() / omega.norm() } else { 1.0 };
+        let weight = |row: usize| if row < first_drive { unit(row) } else { stiffest };
+        let scaled = CDMat::from_fn(value.nrows(), value.ncols(), |r, c| value[(r, c)] * (weight(r) * unit(c)));
+        let svd = scaled.svd(false, true);
+        let mut values: Vec<(f64, usize)> = svd.singular_values.iter().copied().zip(0..).collect();
+        order::sort_ascending(&mut values, |(value, _)| *value);
+        let largest = values.last()?.0;
+        let shared = values.iter().skip(1).take_while(|(of, _)| *of <= SHARED_ZERO * largest).count() + 1;
+        let order = values.into_iter().map(|(_, index)| index).collect();
+        let units = (0..value.nrows()).map(unit).collect();
+        Some(Self { dynamics, value, slope, near, first_drive, losses, rows: svd.v_t?, order, units, shared })
+    }
+
+    /// Number of vectors.
+    fn motions(&self) -> usize {
+        self.order.len()
+    }
+
+    /// Vector with the `k`-th smallest singular value.
+    fn motion(&self, k: usize) -> Vec<Complex> {
+        self.rows.row(self.order[k]).iter().zip(&self.units).map(|(z, unit)| z.conj() * *unit).collect()
+    }
+
+    /// Vector of the transposed matrix: it has the forces −Δz of the drives in place of their motions z.
+    fn left(&self, motion: &[Complex]) -> Vec<Complex> {
+        let mut left = motion.to_vec();
+        left[self.first_drive..].iter_mut().zip(&self.losses).for_each(|(z, delta)| *z *= -delta);
+        left
+    }
+
+    /// Product of two vectors with the derivative of the matrix.
+    fn product(&self, left: &[Complex], motion: &[Complex]) -> Complex {
+        Self::between(&self.slope, left, motion)
+    }
+
+    /// Product of two vectors with the matrix.
+    fn value_product(&self, left: &[Complex], motion: &[Complex]) -> Complex {
+        Self::between(&self.value, left, motion)
+    }
+
+    fn between(matrix: &CDMat, left: &[Complex], motion: &[Complex]) -> Complex {
+        let product = |r: usize| -> Complex { (0..motion.len()).map(|c| matrix[(r, c)] * motion[c]).sum() };
+        (0..motion.len()).map(|r| left[r] * product(r)).sum()
+    }
+
+    /// Parts of a motion with the derivative of its quadratic form.
+    fn damped_motion(&self, motion: Vec<Complex>, slope: Complex) -> DampedMotion {
+        let dof = self.dynamics.dof();
+        let near = self.near.iter().enumerate();
+        let near: Vec<_> = near.map(|(k, (t, family, index))| (*t, *family, *index, motion[dof + k])).collect();
+        let platform = CVec6::from_fn(|i, _| if i < dof { motion[i] } else { Complex::new(0.0, 0.0) });
+        let supports = motion[dof + near.len()..self.first_drive].to_vec();
+        DampedMotion { platform, near, supports, slope }
     }
 }
 

@@ -1,4 +1,4 @@
-//! Aerodynamic damping of the natural modes.
+//! Aerodynamic damping of the natural modes, and their resonances in gusts.
 
 use super::cable::Drag;
 use super::{GustError, Setting};
@@ -9,6 +9,26 @@ use crate::response::along;
 use crate::robot::Robot;
 use crate::statics::Equilibrium;
 use std::f64::consts::TAU;
+
+/// Peak that a mode makes in the spectra of the response to gusts.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Resonance {
+    /// Natural frequency of the mode [Hz].
+    pub frequency_hz: f64,
+    /// Damping ratio of the mode with that by the mean wind; the half width of the peak over its frequency.
+    pub damping_ratio: f64,
+}
+
+impl Resonance {
+    /// Resonances of all modes, whose damping by the mean wind is given in their order.
+    pub fn of_modes(modes: &[Mode], aerodynamic: &[f64]) -> Vec<Self> {
+        let of = |(mode, by_wind): (&Mode, &f64)| Self {
+            frequency_hz: mode.frequency_hz,
+            damping_ratio: mode.damping_ratio + by_wind,
+        };
+        modes.iter().zip(aerodynamic).map(of).collect()
+    }
+}
 
 /// Damping ratio that the mean wind gives each mode by the drag of cables and platform on their motion, of first order.
 /// The modes belong to the dynamics.

@@ -177,14 +177,11 @@ impl CommandedMotions {
 
     /// Motion of the point from the end of a command on, relative to its new rest; t = 0 at the end.
     pub fn after(&self, command: &LengthCommand) -> Decay {
-        let motions = (self.motions.iter())
-            .map(|motion| {
-                let size = command.at_end(motion.lambda(), &motion.by_length);
-                let amplitude = motion.point.map(|along| along * size);
-                DecayingMotion { mode: motion.mode, omega: motion.omega, amplitude }
-            })
-            .collect();
-        Decay { motions }
+        Decay::of(self.motions.iter().map(|motion| {
+            let size = command.at_end(motion.lambda(), &motion.by_length);
+            let amplitude = motion.point.map(|along| along * size);
+            DecayingMotion { mode: motion.mode, omega: motion.omega, amplitude }
+        }))
     }
 
     /// Difference of the point from the static place of the lengths at each of several times since the start of a

@@ -4,7 +4,8 @@
 use super::Modes;
 use super::damped::DampedModes;
 use crate::dynamics::{DampedMotion, Dynamics};
-use crate::math::{Complex, Vec3, Vec6};
+use crate::math::{Complex, Vec3, Vec6, order};
+use std::f64::consts::TAU;
 use thiserror::Error;
 
 /// Decay of the motion of a point of the platform, relative to its rest: `y(t) = Σ 2 Re(A_k e^{λ_k t})`.
@@ -51,9 +52,10 @@ pub enum DecayError {
         /// Frequency [Hz].
         frequency_hz: f64,
     },
-    /// Modes share a complex frequency.
+    /// Two motions of the platform are one, not only their frequencies.
     #[error(
-        "modes of the platform share the complex frequency at {frequency_hz:.4} Hz: their motions cannot be parted"
+        "two motions of the platform meet in one at {frequency_hz:.4} Hz, so that their decay is not a sum of exponentials: \
+         change the damping of ropes or platform a little, or simulate the motion"
     )]
     Shared {
         /// Frequency [Hz].
@@ -96,6 +98,19 @@ impl DecayingMotion {
 }
 
 impl Decay {
+    /// Decay of these motions. Those at one complex frequency are one motion, of the sum of their amplitudes: how it is
+    /// parted among them has no meaning.
+    pub(super) fn of(all: impl Iterator<Item = DecayingMotion>) -> Self {
+        let mut motions: Vec<DecayingMotion> = Vec::new();
+        for motion in all {
+            match motions.last_mut().filter(|last| last.omega == motion.omega) {
+                Some(last) => last.amplitude.iter_mut().zip(motion.amplitude).for_each(|(sum, part)| *sum += part),
+                None => motions.push(motion),
+            }
+        }
+        Self { motions }
+    }
+
     /// Displacement of the point from its rest at a time [m].
     pub fn at(&self, time: f64) -> Vec3 {
         let mut sum = Vec3::zeros();
@@ -171,6 +186,14 @@ impl PoleMotion {
     }
 }
 
+/// Part of the rate of decay up to which the places of two zeros are one: over the time in which the motion decays to a
+/// millionth, their phases then differ by at most 1.4e-5.
+const SAME_PLACE: f64 = 1e-6;
+
+/// Relative distance of zeros whose motions are found together: alone they would hold a part of each other, of rounding
+/// over this distance.
+const TOGETHER: f64 = 1e-9;
+
 /// Motions at all poles, without modes in which the platform rests.
 ///
 /// # Errors
@@ -186,20 +209,63 @@ pub(super) fn pole_motions(
     let by_poles = dynamics.terms().iter().all(|term| term.form().by_poles().is_some());
     let partners = damped.modes.iter().enumerate().map(|(i, mode)| (Some(i), mode));
     let moves = |mode: &Option<usize>| mode.is_none_or(|i: usize| undamped.modes[i].platform_energy_fraction != 0.0);
-    partners
-        .chain(damped.others.iter().map(|mode| (None, mode)))
-        .filter(|(mode, _)| moves(mode))
-        .map(|(mode, of)| {
-            let frequency_hz = of.frequency_hz();
-            if of.omega.im <= 0.0 {
-                return Err(DecayError::NoDecay { frequency_hz });
-            }
-            let refused = if by_poles { DecayError::Shared { frequency_hz } } else { DecayError::Model };
-            let found = dynamics.damped_motion(of.omega).ok_or(refused)?;
-            Ok(PoleMotion { mode, omega: of.omega, found })
-        })
-        .collect()
+    let all: Vec<(Option<usize>, Complex)> =
+        partners.chain(damped.others.iter().map(|mode| (None, mode))).map(|(mode, of)| (mode, of.omega)).collect();
+
+    let mut motions = Vec::with_capacity(all.len());
+    for group in groups(&all) {
+        if !group.iter().any(|k| moves(&all[*k].0)) {
+            continue;
+        }
+        let mean = group.iter().map(|k| all[*k].1).sum::<Complex>() / group.len() as f64;
+        let frequency_hz = mean.norm() / TAU;
+        if let Some(k) = group.iter().find(|k| all[**k].1.im <= 0.0) {
+            return Err(DecayError::NoDecay { frequency_hz: all[*k].1.norm() / TAU });
+        }
+        let refused = if by_poles { DecayError::Shared { frequency_hz } } else { DecayError::Model };
+        if let [k] = group[..]
+            && let Some(found) = dynamics.damped_motion(mean)
+        {
+            motions.push(PoleMotion { mode: all[k].0, omega: mean, found });
+            continue;
+        }
+
+        let found = dynamics.shared_motions(mean, group.len(), SAME_PLACE * mean.im).ok_or(refused)?;
+        let members = group.iter().map(|k| Some(*k)).chain(std::iter::repeat(None));
+        motions.extend(found.into_iter().zip(members).map(|((gap, found), member)| PoleMotion {
+            mode: member.and_then(|k| all[k].0),
+            omega: mean + gap,
+            found,
+        }));
+    }
+    Ok(motions)
 }
+
+/// Zeros whose motions are found together, by their indices; groups in the order of their first members.
+fn groups(zeros: &[(Option<usize>, Complex)]) -> Vec<Vec<usize>> {
+    let mut ascending: Vec<usize> = (0..zeros.len()).collect();
+    order::sort_ascending(&mut ascending, |k| zeros[*k].1.re);
+    let mut groups: Vec<Vec<usize>> = Vec::with_capacity(zeros.len());
+    for k in ascending {
+        let omega = zeros[k].1;
+        let near = |group: &Vec<usize>| {
+            let gap = group.iter().map(|other| (zeros[*other].1 - omega).norm()).fold(f64::INFINITY, f64::min);
+            gap <= (TOGETHER * omega.norm()).max(SAME_PLACE * omega.im)
+        };
+        // Zeros with almost the same real part follow each other.
+        let found = groups.iter_mut().rev().take(MAX_BESIDE).find(|group| near(group));
+        match found {
+            Some(group) => group.push(k),
+            None => groups.push(vec![k]),
+        }
+    }
+    groups.iter_mut().for_each(|group| group.sort_unstable());
+    groups.sort_by_key(|group| group[0]);
+    groups
+}
+
+/// Maximum number of groups with almost the same real part among which that of a zero is sought.
+const MAX_BESIDE: usize = 16;
 
 /// Scaled vectors of the displacement of a point at `arm_w` from the platform origin along the world axes [m].
 pub(super) fn point_rows(dynamics: &Dynamics, arm_w: &Vec3) -> [Vec6; 3] {

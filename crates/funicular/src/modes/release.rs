@@ -34,17 +34,15 @@ impl Release {
         arm_w: &Vec3,
     ) -> Result<Self, DecayError> {
         let (rows, force) = (point_rows(dynamics, arm_w), scaled(dynamics, wrench));
-        let motions = (pole_motions(dynamics, undamped, damped)?.into_iter())
-            .map(|free| {
-                // i (l·u)(u·f)/slope over −λ = −iω.
-                let factor = -free.along(&force) / (free.found.slope * free.omega);
-                let amplitude = free.of_point(&rows).map(|along| factor * along);
-                DecayingMotion { mode: free.mode, omega: free.omega, amplitude }
-            })
-            .collect();
+        let motions = pole_motions(dynamics, undamped, damped)?.into_iter().map(|free| {
+            // i (l·u)(u·f)/slope over −λ = −iω.
+            let factor = -free.along(&force) / (free.found.slope * free.omega);
+            let amplitude = free.of_point(&rows).map(|along| factor * along);
+            DecayingMotion { mode: free.mode, omega: free.omega, amplitude }
+        });
 
         let (held, omitted) = at_rest(dynamics, undamped, &force, &rows);
-        Ok(Self { decay: Decay { motions }, held, omitted })
+        Ok(Self { decay: Decay::of(motions), held, omitted })
     }
 }
 

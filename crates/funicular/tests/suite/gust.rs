@@ -5,7 +5,7 @@ mod kinds;
 
 use funicular::cable::catenary_dynamic::DriveSignal;
 use funicular::dynamics::{Dynamics, Linearisation};
-use funicular::gust::{self, GustError, Gusts, PeakFactor, Spectra};
+use funicular::gust::{self, GustError, Gusts, PeakFactor, Resonance, Spectra};
 use funicular::math::Vec3;
 use funicular::modes;
 use funicular::response::{self, Quantity, Signal};
@@ -85,7 +85,7 @@ impl WindyRobot {
     fn spectra(&self, outputs: &[(Signal, Quantity)]) -> Spectra {
         let (robot, rest, dynamics) = self.at_rest();
         let gusts = Gusts::new(&robot, &rest, &dynamics, outputs, self.up_to_hz).unwrap();
-        gusts.spectra(self.up_to_hz, &natural(&dynamics, self.up_to_hz)).unwrap()
+        gusts.spectra(self.up_to_hz, &resonances(&robot, &rest, &dynamics, self.up_to_hz)).unwrap()
     }
 
     fn with(mut self, decay: [f64; 3], is_frozen: bool) -> Self {
@@ -94,8 +94,10 @@ impl WindyRobot {
     }
 }
 
-fn natural(dynamics: &Dynamics, below_hz: f64) -> Vec<f64> {
-    modes::below(dynamics, below_hz).modes.iter().map(|mode| mode.frequency_hz).collect()
+fn resonances(robot: &Robot, rest: &Equilibrium, dynamics: &Dynamics, below_hz: f64) -> Vec<Resonance> {
+    let found = modes::below(dynamics, below_hz).modes;
+    let in_air = gust::aerodynamic_damping_ratio(robot, rest, dynamics, &found).unwrap();
+    Resonance::of_modes(&found, &in_air)
 }
 
 fn along(direction_w: Vec3) -> (Signal, Quantity) {
@@ -450,8 +452,9 @@ fn the_variance_by_modes_is_the_integral_over_their_bands() {
     let case = cogiro();
     let (robot, rest, dynamics) = case.at_rest();
     let gusts = Gusts::new(&robot, &rest, &dynamics, &[along(Vec3::x())], case.up_to_hz).unwrap();
-    let natural = natural(&dynamics, case.up_to_hz);
-    let spectra = gusts.spectra(case.up_to_hz, &natural).unwrap();
+    let found = resonances(&robot, &rest, &dynamics, case.up_to_hz);
+    let natural: Vec<f64> = found.iter().map(|of| of.frequency_hz).collect();
+    let spectra = gusts.spectra(case.up_to_hz, &found).unwrap();
     let sum: f64 = spectra.by_mode[0].iter().sum();
     assert!((sum / spectra.moments[0].variance - 1.0).abs() < 1e-12);
     // Slow gusts are nearest to the first mode; of the others the one with the largest part.
@@ -463,6 +466,66 @@ fn the_variance_by_modes_is_the_integral_over_their_bands() {
     let inner: f64 = (1..steps).map(density).sum();
     let expected = (0.5 * (density(0) + density(steps)) + inner) * (to - from) / f64::from(steps);
     assert!((spectra.by_mode[0][k] / expected - 1.0).abs() < 1e-3, "{} {expected}", spectra.by_mode[0][k]);
+}
+
+/// The limit of the frequencies only adds: the variance and its part of every mode below are as with a lower limit,
+/// though the dynamics are made for another one. The ropes have no drag, so that peaks are narrow.
+#[test]
+fn a_higher_limit_never_takes_variance_away() {
+    for (text, speed, limits) in [
+        (funicular_robots::CAROCA, 5.0, [5.0, 5.5, 6.0, 7.0, 9.0]),
+        (funicular_robots::COGIRO, 10.0, [6.3, 6.5, 7.0, 8.0, 9.0]),
+        (funicular_robots::IPANEMA2, 10.0, [20.0, 23.0, 26.0, 29.0, 32.0]),
+    ] {
+        let robot = Robot::from_toml(text).unwrap();
+        let damping = (robot.cables[0].material.damping, robot.cables[0].material.stretch_loss);
+        let mut before = [0.0_f64; 5];
+        for up_to_hz in limits {
+            let windy = WindyRobot {
+                text,
+                velocity: [speed, 0.0, 0.0],
+                drag_width: 0.0,
+                drag_area: 1.0,
+                damping,
+                turbulence: Turbulence { length_scale: [85.0, 28.0, 6.9], ..stadium().turbulence },
+                up_to_hz,
+            };
+            let spectra = windy.spectra(&measured(robot.cables.len() - 1));
+            for (before, of) in before.iter_mut().zip(&spectra.moments) {
+                assert!(of.variance >= *before * (1.0 - 1e-5), "{}, {up_to_hz} Hz: {before} {of:?}", robot.name);
+                *before = of.variance;
+            }
+        }
+    }
+}
+
+/// A narrow peak is the half width times π times its height: white gusts on one mode, with the damping of the air
+/// alone, down to a ratio of 1e-8.
+#[test]
+fn a_narrow_peak_has_the_variance_of_its_closed_form() {
+    for drag_area in [1.0, 1e-2, 1e-4] {
+        let mut windy = cogiro();
+        (windy.drag_width, windy.drag_area) = (0.0, drag_area);
+        windy.damping = (Damping::Ratio(0.0), StretchLoss { factor: 0.0, time: 0.0 });
+        windy.up_to_hz = 9.0;
+        let (robot, rest, dynamics) = windy.at_rest();
+        let gusts = Gusts::new(&robot, &rest, &dynamics, &[along(Vec3::x()), along(Vec3::z())], 9.0).unwrap();
+        let found = resonances(&robot, &rest, &dynamics, 9.0);
+        let spectra = gusts.spectra(9.0, &found).unwrap();
+        for output in 0..2 {
+            let parts = &spectra.by_mode[output];
+            let k = (1..found.len() - 1).max_by(|a, b| parts[*a].total_cmp(&parts[*b])).unwrap();
+            let Resonance { frequency_hz, damping_ratio } = found[k];
+            // Highest of the samples beside the natural frequency, which damping and the truncated series may move.
+            let near = spectra.frequencies_hz.iter().zip(&spectra.densities);
+            let near = near.filter(|(hz, _)| (*hz / frequency_hz - 1.0).abs() < 1e-3);
+            let height = near.map(|(_, of)| of.total[output]).fold(0.0, f64::max);
+            let expected = std::f64::consts::PI * damping_ratio * frequency_hz * height;
+            let gap = parts[k] / expected - 1.0;
+            println!("{drag_area} {frequency_hz} {damping_ratio:e}: {gap:e}, {} frequencies", spectra.densities.len());
+            assert!(gap.abs() < 2e-3, "{drag_area}, output {output}: {damping_ratio} {gap}");
+        }
+    }
 }
 
 /// Gusts drawn in time have the root mean squares of the spectra, within the error of a sample of this length.
