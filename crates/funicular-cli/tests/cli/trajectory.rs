@@ -259,9 +259,8 @@ fn steps_of_the_rows_are_exact_and_the_last_is_shorter() {
     let cogiro = robot("cogiro.toml");
     let settled = json(
         &[
-            &["settle", &cogiro, "--pose", "0,0,1.5", "--move-by", "0.1,0,0", "--speed-m-s", "0.2", "--below-hz", "5"]
-                [..],
-            &["--acceleration-m-s2", "0.7", "--jerk-m-s3", "3", "--sample-time-s", "0.007"],
+            &["settle", &cogiro, "--pose", "0,0,1.5", "--move-m", "0.1,0,0", "--below-hz", "5"][..],
+            &["--profile-s", "0.5,0.24,0.103", "--sample-time-s", "0.007"],
         ]
         .concat(),
     );
