@@ -214,8 +214,12 @@ impl Named for CourseForm {
 
     fn about(self) -> &'static str {
         match self {
+            Self::ContinuousJerk => {
+                "Fifteen phases: the jerk rises and falls in straight lines, so that the rates of the lengths do not jump"
+            }
             Self::JerkLimited => "Seven phases of constant jerk: the fastest course within the limits",
-            Self::Quintic => "Polynomial of the fifth degree",
+            Self::Quintic => "Polynomial of the fifth degree; the jerk jumps at both ends",
+            Self::Septic => "Polynomial of the seventh degree, without jerk at both ends",
         }
     }
 }

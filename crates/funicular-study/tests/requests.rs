@@ -49,6 +49,7 @@ fn requests() -> Vec<Value> {
     let motion = json!({
         "path": { "t_s": [0.0, 1.0], "x_m": [0.0, 1.0], "y_m": [0.0, 0.5], "z_m": [1.5, 1.5] },
         "move_to": [1.0, 0.0, 1.5, 0.0, 0.0, 5.0], "via": [[0.5, 0.0, 1.6, 0.0, 0.0, 0.0]], "lift_m": 0.2, "blend": 0.5,
+        "row_tolerance_m": 1e-4,
         "circle_center_m": [0.0, 0.0, 1.0], "circle_axis": [0.0, 0.1, 1.0], "turns": 2.0, "course": "quintic",
         "speed_m_s": 1.0, "acceleration_m_s2": 2.0, "jerk_m_s3": 20.0, "angular_speed_rad_s": 0.5,
         "angular_acceleration_rad_s2": 1.0, "angular_jerk_rad_s3": 9.0, "duration_s": 3.0, "fastest": true,

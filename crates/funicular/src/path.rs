@@ -3,16 +3,20 @@
 mod bandwidth;
 mod circle;
 mod course;
+mod limits_kept;
 mod moves;
 mod profile;
 mod shaper;
+mod smoothing;
 mod straight_move;
 mod table;
 
 pub use course::{CourseForm, MotionLimits};
+pub use limits_kept::UsedParts;
 pub use profile::Profile;
 pub(crate) use profile::mean_exponential;
 pub use shaper::{Impulse, Shaper, ShaperKind};
+pub use smoothing::smoothed_within;
 pub use straight_move::StraightMove;
 pub use table::MAX_TURN_DEG;
 
@@ -66,6 +70,42 @@ pub struct PathPoint {
     pub acceleration_w: Vec6,
     /// Rates of both accelerations [m/s³, rad/s³].
     pub jerk_w: Vec6,
+}
+
+/// Side of a time from which a motion is looked at. Both differ where a derivative jumps.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Side {
+    /// Just before the time.
+    Before,
+    /// Just after it.
+    After,
+}
+
+/// Time at which a derivative of a path jumps.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PathCorner {
+    /// Time [s].
+    pub time: f64,
+    /// Lowest order of the derivatives that jump: 2 for the acceleration, 3 for the jerk, 4 for its rate.
+    pub order: usize,
+}
+
+impl PathCorner {
+    /// Order of the jerk among the derivatives of the pose.
+    pub const JERK: usize = 3;
+
+    /// Corners in ascending order; several within a time [s] are the one with the lowest order.
+    fn merged(mut corners: Vec<Self>, same: f64) -> Vec<Self> {
+        corners.sort_by(|a, b| a.time.total_cmp(&b.time));
+        let mut found: Vec<Self> = Vec::with_capacity(corners.len());
+        for corner in corners {
+            match found.last_mut() {
+                Some(last) if corner.time - last.time <= same => last.order = last.order.min(corner.order),
+                _ => found.push(corner),
+            }
+        }
+        found
+    }
 }
 
 /// Fault of a path.
@@ -180,31 +220,45 @@ impl PlatformPath {
         own * self.slowness
     }
 
-    /// Times at which the jerk jumps [s], ascending: there the rates of the lengths jump, because tensions and sag follow
-    /// the acceleration. None within a table.
-    pub fn jumps_of_jerk(&self) -> Vec<f64> {
+    /// Times at which a derivative up to that of the jerk jumps, ascending. The rates of lengths jump where the jerk does,
+    /// because tensions and sag follow the acceleration. None within a table.
+    pub fn corners(&self) -> Vec<PathCorner> {
         let own = match &self.shape {
-            PathShape::Moves(moves) => moves.corner_times(),
-            PathShape::Circle(circle) => circle.corner_times(),
+            PathShape::Moves(moves) => moves.corners(),
+            PathShape::Circle(circle) => circle.corners(),
             PathShape::Table(_) => Vec::new(),
         };
-        let mut times: Vec<f64> = own.iter().map(|time| time * self.slowness).collect();
-        times.sort_by(f64::total_cmp);
-        times
+        own.into_iter().map(|corner| PathCorner { time: corner.time * self.slowness, ..corner }).collect()
     }
 
     /// Motion at a time [s]; at rest before the begin and after the end, where a table holds its first or last motion.
+    /// Where a derivative jumps, the motion just after the time, and at the end of the path that just before it.
     pub fn at(&self, time: f64) -> PathPoint {
+        let duration = self.duration();
+        let is_end = (time - duration).abs() <= profile::SAME_CORNER * duration;
+        self.beside(time, if is_end { Side::Before } else { Side::After })
+    }
+
+    /// Motion just before or just after a time [s].
+    pub fn beside(&self, time: f64, side: Side) -> PathPoint {
         let own = time / self.slowness;
         let mut point = match &self.shape {
-            PathShape::Moves(moves) => moves.at(own),
-            PathShape::Circle(circle) => circle.at(own),
+            PathShape::Moves(moves) => moves.at(own, side),
+            PathShape::Circle(circle) => circle.at(own, side),
             PathShape::Table(table) => table.at(own),
         };
         point.velocity_w /= self.slowness;
         point.acceleration_w /= self.slowness.powi(2);
         point.jerk_w /= self.slowness.powi(3);
         point
+    }
+
+    /// Largest parts of limits that the motion uses, over all its time.
+    pub fn used_parts(&self, limits: &MotionLimits) -> UsedParts {
+        let ends = [0.0, self.duration()];
+        let mut times: Vec<f64> = self.corners().iter().map(|corner| corner.time).chain(ends).collect();
+        times.sort_by(f64::total_cmp);
+        limits_kept::largest(&times, |time, side| limits.used_by(&self.beside(time, side)))
     }
 
     /// Least distance at which the path passes each pose that it goes through, between the first and the last [m]; more

@@ -19,6 +19,11 @@ use std::f64::consts::PI;
 /// its square times the third derivative of the lengths; the lengths have an error of 1e-12 m, over this time 1e-8 m/s.
 const DIFFERENCE: f64 = 1e-4;
 
+/// Difference of the rates on both sides of a time, over the smaller of them, from which on the tensions jump on one side,
+/// and least rate that is compared [m/s]: a kink of a rule changes rates by up to half, a jump by a factor of 100.
+const JUMP: f64 = 3.0;
+const MIN_JUMP: f64 = 0.01;
+
 /// Part of the load of a rope that swings with the platform about its fixed anchor: a uniform load with the same force
 /// at the platform as `μ (1 − s/l) a`.
 const UNIFORM: f64 = 2.0 / 3.0;
@@ -156,12 +161,25 @@ impl<'a> AlongPath<'a> {
         found
     }
 
-    /// Rates of the lengths as differences over a short time.
+    /// Rates of the lengths as differences over a short time; those of the smoother side if the tensions jump on the other.
     fn differences(&mut self, point: &PathPoint) -> Result<Vec<f64>, StaticsError> {
-        let [before, after] = [-DIFFERENCE, DIFFERENCE].map(|time| self.equilibrium(&shifted(point, time)));
+        let [before, here, after] = [-DIFFERENCE, 0.0, DIFFERENCE].map(|time| self.equilibrium(&shifted(point, time)));
         self.load(point);
-        let both = before?.cables.into_iter().zip(after?.cables);
-        Ok(both.map(|(from, to)| (to.unstrained_length - from.unstrained_length) / (2.0 * DIFFERENCE)).collect())
+        let [before, here, after] = [before?, here?, after?];
+        let rates = |from: &Equilibrium, to: &Equilibrium, time: f64| -> Vec<f64> {
+            let pairs = from.cables.iter().zip(&to.cables);
+            pairs.map(|(from, to)| (to.unstrained_length - from.unstrained_length) / time).collect()
+        };
+        let [backward, forward] = [rates(&before, &here, DIFFERENCE), rates(&here, &after, DIFFERENCE)];
+        let size = |of: &[f64]| of.iter().fold(0.0, |most: f64, rate| most.max(rate.abs()));
+        let difference = backward.iter().zip(&forward).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        Ok(if difference <= JUMP * size(&backward).min(size(&forward)).max(MIN_JUMP) {
+            rates(&before, &after, 2.0 * DIFFERENCE)
+        } else if size(&backward) < size(&forward) {
+            backward
+        } else {
+            forward
+        })
     }
 
     /// Limit that the tension of a cable has reached.

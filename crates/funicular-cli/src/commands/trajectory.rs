@@ -76,9 +76,20 @@ impl Printed for TrajectoryResult {
             self.origin.phrase(),
             self.verdict(),
         );
+        for of in &self.used {
+            let _ = writeln!(text, "{}", self.told_use(of));
+        }
+        if let Some(factor) = self.inertia_factor {
+            let _ =
+                writeln!(text, "other tensions within the limits hold the inertia times {}", significant(factor, 4));
+        }
         for of in &self.extremes {
             let (value, time) = (significant(of.value, 4), significant(of.t_s, 4));
-            let _ = writeln!(text, "{}: {value} {}, cable \"{}\", at {time} s", of.what, of.unit, of.cable);
+            let place = format!("{value} {}, cable \"{}\", at {time} s", of.unit, of.cable);
+            let _ = match &of.no_bound {
+                Some(because) => writeln!(text, "{}: no bound, {because}; beside the jumps {place}", of.what),
+                None => writeln!(text, "{}: {place}", of.what),
+            };
         }
         if let Some(sums) = &self.sums {
             let _ = writeln!(
@@ -106,6 +117,9 @@ impl Printed for TrajectoryResult {
         }
         self.stations.iter().for_each(|of| text.push_str(&of_stations(of)));
         text.push_str(&of_changes(self));
+        for note in &self.notes {
+            let _ = writeln!(text, "{note}");
+        }
         let _ = write!(text, "\n{table}\n{} of {} shown.\n", shown.len(), counted(self.rows.len(), "row"));
         text
     }

@@ -231,6 +231,14 @@ fn a_way_around_a_column_is_found() {
     let through = found["way"]["through"].as_array().unwrap();
     assert!((1..=2).contains(&through.len()), "{through:?}");
 
+    // No way leads into the distance of the column: told at once.
+    let begun = std::time::Instant::now();
+    let blocked = ["--pose", "-2.5,0,1.2", "--move-to", "-0.66,0,0.8", "--set", "clearance.obstacles_m=0.5"];
+    let blocked = run(&[&["clearance", &hall, "--find-way"], &blocked[..]].concat());
+    let text = stderr(&blocked);
+    assert!(blocked.status.code() == Some(1) && text.contains("end of the move") && text.contains("post"), "{text}");
+    assert!(begun.elapsed().as_secs() < 20);
+
     let alone = run(&["clearance", &hall, "--find-way"]);
     assert!(alone.status.code() == Some(2) && stderr(&alone).contains("--move-to"), "{}", stderr(&alone));
 }

@@ -13,8 +13,10 @@ fn moved(more: &[&str]) -> serde_json::Value {
 #[test]
 fn a_move_starts_and_ends_at_rest_with_the_lengths_of_its_poses() {
     let found = moved(&[]);
-    // √20 m at 2 m/s, 1 s to get to it, 0.1 s to get to the acceleration.
-    assert!((number(&found["duration_s"]) - (20.0_f64.sqrt() / 2.0 + 1.1)).abs() < 1e-12);
+    // √20 m at 2 m/s, 1 s to get to it, 0.1 s to get to the acceleration, 0.1 s to get to the jerk.
+    assert!((number(&found["duration_s"]) - (20.0_f64.sqrt() / 2.0 + 1.2)).abs() < 1e-12);
+    let jerk_limited = moved(&["--course", "jerk-limited"]);
+    assert!((number(&jerk_limited["duration_s"]) - (20.0_f64.sqrt() / 2.0 + 1.1)).abs() < 1e-12);
     assert_eq!(found["within_limits"], true);
 
     let rows = found["rows"].as_array().unwrap();
@@ -155,4 +157,223 @@ fn faults_are_named_with_their_place() {
     let output = run(&[&["trajectory", &cogiro, "--pose", "0,0,1.5", "--move-to", "9,0,1.5"], &COURSE[..]].concat());
     assert_eq!(output.status.code(), Some(1));
     assert!(stderr(&output).contains("after the start of the path"), "{}", stderr(&output));
+}
+
+/// Value of an extreme, and the reason why it has no bound.
+fn extreme(found: &serde_json::Value, what: &str) -> (f64, Option<String>) {
+    let all = found["extremes"].as_array().unwrap();
+    let of = all.iter().find(|of| of["what"] == what).unwrap();
+    (number(&of["value"]), of["no_bound"].as_str().map(str::to_owned))
+}
+
+#[test]
+fn what_is_largest_does_not_depend_on_the_rows() {
+    // A minimum that some cables reach on the way, where the rates jump.
+    for (more, jumps) in [
+        (&[][..], false),
+        (&["--course", "septic"], false),
+        (&["--course", "jerk-limited"], true),
+        (&["--min-tension-n", "180"], true),
+    ] {
+        let of = |step: &str| moved(&[more, &["--sample-time-s", step]].concat());
+        let (speed, no_bound) = extreme(&of("0.04"), "largest speed");
+        assert_eq!(no_bound, None);
+        let (acceleration, no_bound) = extreme(&of("0.04"), "largest acceleration");
+        assert_eq!(no_bound.is_some(), jumps, "{more:?} {no_bound:?}");
+        for step in ["0.01", "0.002", "0.001"] {
+            let found = of(step);
+            let (finer, _) = extreme(&found, "largest speed");
+            assert!((finer - speed).abs() < 0.01 * speed, "{more:?} {step}: {finer} {speed}");
+            let (finer, _) = extreme(&found, "largest acceleration");
+            assert!((finer - acceleration).abs() < 0.01 * acceleration, "{more:?} {step}: {finer} {acceleration}");
+
+            // No row has more, and no difference of two rows.
+            let rows = found["rows"].as_array().unwrap();
+            for pair in rows.windows(2) {
+                let [before, after] = [0, 1].map(|k| numbers(&pair[k]["unstrained_lengths_m"]));
+                let time = number(&pair[1]["t_s"]) - number(&pair[0]["t_s"]);
+                for (before, after) in before.iter().zip(&after) {
+                    assert!((after - before).abs() < 1.01 * speed * time + 1e-9, "{more:?} {step} {}", pair[0]["t_s"]);
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn a_jump_of_the_jerk_is_told_and_is_beyond_a_limit_of_acceleration() {
+    let winches = robot("cogiro-winches.toml");
+    let set = ["--set", "winches.drum.max_acceleration_m_s2=50", "--set", "winches.drum.max_speed_m_s=5"];
+    let line = [&["trajectory", &winches], &MOVE[..], &COURSE, &set].concat();
+    let smooth = json(&line);
+    assert_eq!(smooth["within_limits"], true, "{}", smooth["most_used"]);
+    assert_eq!(smooth["path_jumps"].as_array().unwrap().len(), 0);
+
+    let jumping = [&line[..], &["--course", "jerk-limited"]].concat();
+    let found = json(&jumping);
+    assert_eq!((&found["within_limits"], &found["most_used"]["limit"]), (&false.into(), &"acceleration".into()));
+    assert_eq!((found["most_used"].get("part"), &found["path_jumps"][0]["of"]), (None, &"jerk".into()));
+    assert_eq!(found["path_jumps"].as_array().unwrap().len(), 8);
+    let text = run(&jumping);
+    let text = stdout(&text);
+    assert!(text.contains("no bound, because the jerk of the platform jumps"), "{text}");
+    assert!(text.contains("which has no bound"), "{text}");
+
+    // Without a limit of the jerk lengths jump.
+    let steps = [&["trajectory", &winches], &MOVE[..], &COURSE[..4], &set].concat();
+    let found = json(&steps);
+    let (_, no_bound) = extreme(&found, "largest speed");
+    assert!(no_bound.unwrap().contains("acceleration of the platform jumps"));
+    assert_eq!(found["within_limits"], false);
+}
+
+#[test]
+fn used_parts_of_tensions_are_those_of_the_tensions() {
+    let found = moved(&["--min-tension-n", "150", "--max-tension-n", "900"]);
+    let used = found["used"].as_array().unwrap();
+    let part = |limit: &str| number(&used.iter().find(|of| of["limit"] == limit).unwrap()["part"]);
+    let (largest, lowest) = (extreme(&found, "largest tension").0, extreme(&found, "lowest tension").0);
+    assert!((part("maximum-tension") - largest / 900.0).abs() < 1e-9);
+    // The lowest tension of a cable may lie between its ends.
+    assert!(part("minimum-tension") >= 150.0 / lowest - 1e-9 && part("minimum-tension") < 1.02 * 150.0 / lowest);
+    assert_eq!(found["most_used"]["part"], used[0]["part"]);
+    assert!(number(&found["inertia_factor"]) > 1.0);
+
+    // A cable that the rule holds at its minimum uses all of it, which is no verdict.
+    let found = moved(&["--min-tension-n", "200"]);
+    assert_eq!((&found["used"][0]["limit"], &found["used"][0]["part"]), (&"minimum-tension".into(), &1.0.into()));
+    assert_eq!((&found["most_used"]["limit"], &found["within_limits"]), (&"maximum-tension".into(), &true.into()));
+}
+
+#[test]
+fn steps_of_the_rows_are_exact_and_the_last_is_shorter() {
+    let found = moved(&["--sample-time-s", "0.002"]);
+    let times: Vec<f64> = found["rows"].as_array().unwrap().iter().map(|row| number(&row["t_s"])).collect();
+    let last = times.len() - 1;
+    assert!(
+        times[..last].iter().enumerate().all(|(k, time)| *time == format!("{:.3}", 0.002 * k as f64).parse().unwrap())
+    );
+    assert_eq!(times[last], number(&found["duration_s"]));
+    assert!((1e-9..=0.002).contains(&(times[last] - times[last - 1])));
+
+    let cogiro = robot("cogiro.toml");
+    let settled = json(
+        &[
+            &["settle", &cogiro, "--pose", "0,0,1.5", "--move-m", "0.1,0,0", "--below-hz", "5"][..],
+            &["--profile-s", "0.5,0.24,0.103", "--sample-time-s", "0.007"],
+        ]
+        .concat(),
+    );
+    let times: Vec<f64> = settled["lengths"].as_array().unwrap().iter().map(|row| number(&row["t_s"])).collect();
+    let last = times.len() - 1;
+    assert!((0..last).all(|k| (times[k] - 0.007 * k as f64).abs() < 1e-12));
+    assert!((times[last] - number(&settled["duration_s"])).abs() < 1e-12);
+}
+
+#[test]
+fn rounded_rows_are_named_and_smoothed() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("path.csv").display().to_string();
+    let cogiro = robot("cogiro.toml");
+    let write = |step: f64, digits: usize| {
+        let row = |k: usize| {
+            let t = step * k as f64;
+            let s = t / 3.0 - (std::f64::consts::TAU * t / 3.0).sin() / std::f64::consts::TAU;
+            format!("{t:.4},{:.digits$},{:.digits$},{:.digits$}\n", -1.0 + 2.0 * s, 0.3 * s, 1.5 + 0.2 * s)
+        };
+        let count = (3.0 / step).round() as usize;
+        fs::write(&path, format!("t_s,x_m,y_m,z_m\n{}", (0..=count).map(row).collect::<String>())).unwrap();
+    };
+    let line = |more: &[&str]| {
+        [&["trajectory", &cogiro, "--path", &path], more].concat().iter().map(|x| (*x).to_owned()).collect::<Vec<_>>()
+    };
+    let tension = |more: &[&str]| {
+        let line = line(more);
+        let line: Vec<&str> = line.iter().map(String::as_str).collect();
+        (extreme(&json(&line), "largest tension").0, stderr(&run(&line)).to_owned())
+    };
+
+    write(0.01, 9);
+    let (exact, warnings) = tension(&[]);
+    assert!(!warnings.contains("rounded"), "{warnings}");
+    write(0.1, 3);
+    let (coarse, warnings) = tension(&[]);
+    assert!(!warnings.contains("rounded") && (coarse - exact).abs() < 0.02 * exact, "{warnings} {coarse} {exact}");
+
+    write(0.01, 4);
+    let (rounded, warnings) = tension(&[]);
+    for part in ["rounded to 0.0001 m every 0.01 s", "= 4.0 m/s²", "at rows ", "--row-tolerance-m 5.0e-5"] {
+        assert!(warnings.contains(part), "{part}: {warnings}");
+    }
+    let (smooth, warnings) = tension(&["--row-tolerance-m", "0.00005"]);
+    assert!(
+        (smooth - exact).abs() < 2e-3 * exact && (rounded - exact).abs() > 0.02 * exact,
+        "{smooth} {rounded} {exact}"
+    );
+    assert!(!warnings.contains("rounded"), "{warnings}");
+
+    // Rows every 10 ms in millimetres ask for accelerations that no cables give.
+    write(0.01, 3);
+    let owned = line(&[]);
+    let output = run(&owned.iter().map(String::as_str).collect::<Vec<_>>());
+    assert!(stderr(&output).contains("rounded to 0.001 m") && stderr(&output).contains("rows "), "{}", stderr(&output));
+    let (smooth, _) = tension(&["--row-tolerance-m", "0.0005"]);
+    assert!((smooth - exact).abs() < 0.01 * exact, "{smooth} {exact}");
+
+    let without = run(&[&["trajectory", &cogiro], &MOVE[..], &COURSE, &["--row-tolerance-m", "0.1"]].concat());
+    assert_eq!(without.status.code(), Some(2));
+}
+
+#[test]
+fn a_polynomial_needs_a_duration_or_a_limit_alone() {
+    let cogiro = robot("cogiro.toml");
+    for course in ["quintic", "septic"] {
+        let line = [&["trajectory", &cogiro], &MOVE[..], &["--course", course, "--duration-s", "4"]].concat();
+        assert!((number(&json(&line)["duration_s"]) - 4.0).abs() < 1e-12);
+        let line = [&["trajectory", &cogiro], &MOVE[..], &["--course", course, "--speed-m-s", "2"]].concat();
+        assert!(number(&json(&line)["duration_s"]) > 4.0);
+    }
+    let line = [&["trajectory", &cogiro], &MOVE[..], &["--duration-s", "4"]].concat();
+    let output = run(&line);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(stderr(&output).contains("septic"), "{}", stderr(&output));
+
+    // A duration that is too short for the limits is told.
+    let line = [&["trajectory", &cogiro], &MOVE[..], &COURSE, &["--duration-s", "3"]].concat();
+    assert!(stderr(&run(&line)).contains("the speed 114"), "{}", stderr(&run(&line)));
+}
+
+#[test]
+fn a_rule_that_jumps_has_no_rate_across_the_jump() {
+    // About a pose at which two optima of `middle` lie 87 N apart.
+    let cogiro = robot("cogiro.toml");
+    let pose = |by: f64| {
+        format!(
+            "{},{},{},-0.238899985,5.835693707,-0.570301491",
+            3.198_456_389 - by,
+            -2.261_249_935 - 0.7 * by,
+            3.574_254_715 + 0.3 * by
+        )
+    };
+    let line = |rule: &str| {
+        let (from, to) = (pose(2e-3), pose(-2e-3));
+        let course = ["--speed-m-s", "0.01", "--acceleration-m-s2", "0.1", "--jerk-m-s3", "1"];
+        let line = [
+            &["trajectory", &cogiro, "--pose", &from, "--move-to", &to, "--tension-rule", rule][..],
+            &["--max-tension-n", "5000", "--min-tension-n", "100"],
+            &course,
+        ];
+        line.concat().iter().map(|x| (*x).to_owned()).collect::<Vec<_>>()
+    };
+    for (rule, jumps) in [("middle", 1), ("lowest", 0)] {
+        let line = line(rule);
+        let line: Vec<&str> = line.iter().map(String::as_str).collect();
+        let found = json(&line);
+        assert_eq!(found["rule_jumps"].as_array().unwrap().len(), jumps, "{rule}");
+        let (speed, no_bound) = extreme(&found, "largest speed");
+        assert!(speed < 0.02, "{rule}: {speed}");
+        assert_eq!(no_bound.is_some(), jumps > 0);
+        let warnings = stderr(&run(&line)).to_owned();
+        assert_eq!(warnings.contains("the rule `middle` jumps to other tensions at 1 time"), jumps > 0, "{warnings}");
+    }
 }

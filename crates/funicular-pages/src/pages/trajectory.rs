@@ -68,7 +68,8 @@ fn extremes(found: &TrajectoryResult) -> PageTable {
     let caption = "Largest and lowest numbers on the path.";
     let mut table = PageTable::new("table-extremes", caption, &["<number", "value", "<unit", "<cable", "at|s"]);
     for of in &found.extremes {
-        let (value, time) = (significant(of.value, 4), fixed(of.t_s, 3));
+        let time = fixed(of.t_s, 3);
+        let value = if of.no_bound.is_some() { "no bound".to_owned() } else { significant(of.value, 4) };
         table.row(vec![of.what.to_owned(), value, of.unit.to_owned(), of.cable.clone(), time]);
     }
     table

@@ -82,6 +82,9 @@ pub fn run(robot: Robot, request: &ClearanceRequest) -> Result<Clearances> {
     let (robot, rest) = (&at_rest.robot, &at_rest.equilibrium);
     let around = Surroundings::of(robot);
     let end = request.move_to.map(|pose| move_end(&at_rest, request, pose)).transpose()?;
+    if let Some(end) = end.as_ref().filter(|_| request.find_way) {
+        ways::refuse_blocked(&at_rest, &around, end)?;
+    }
     let mut pairs = match &end {
         None => around.clearances(rest, None).iter().map(|of| ClearanceRow::of(robot, &around, of)).collect(),
         Some(end) => on_the_way(&at_rest, &around, end)?,

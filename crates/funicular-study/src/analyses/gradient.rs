@@ -200,6 +200,7 @@ pub fn about(at_rest: &AtRest, request: &GradientRequest) -> Result<GradientTabl
         }
     }
 
+    warnings.extend(at_rest.rule_near_jump());
     let GradientRows { mut results, refused, .. } = rows;
     for result in &mut results {
         scale(&mut result.derivatives, &parameters, request.per);

@@ -279,6 +279,7 @@ impl<'a> Swing<'a> {
         let command = shaped_command.as_ref().unwrap_or(unshaped);
         let lowest_tension = LowestTension::of(self.at_rest, command, &motions)?;
         warnings.extend(self.frequencies_at(&command.start()?)?);
+        warnings.extend(command.rule_jumps());
 
         let name = request.shaper.as_deref().unwrap_or_default();
         let tolerance = request.tolerance_m;

@@ -323,6 +323,7 @@ fn found(at_rest: &AtRest, request: &SimulateRequest, first: History, finer: Opt
     let reached = first.rows.last().map_or(0.0, |row| row.t_s);
     let is_whole = reached >= request.duration_s * (1.0 - 1e-12);
     let mut warnings: Vec<String> = at_rest.implausible().collect();
+    warnings.extend(at_rest.rule_near_jump());
     if at_rest.robot.turbulence.is_some() && request.gust_seed.is_none() {
         warnings.push("the wind is its mean alone: ⟪gust_seed⟫ draws the gusts of its turbulence".to_owned());
     }

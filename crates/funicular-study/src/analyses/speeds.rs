@@ -162,7 +162,10 @@ pub fn run(robot: Robot, request: &SpeedsRequest) -> Result<Speeds> {
         cables: cables
             .map(|(cable, winch)| CableSpeeds::of(cable.name.clone(), winch, asks.then_some(&half_widths)))
             .collect(),
-        warnings: at_rest.warnings(None).into_iter().chain(kink(&at_rest, &speeds)).collect(),
+        warnings: (at_rest.warnings(None).into_iter())
+            .chain(kink(&at_rest, &speeds))
+            .chain(at_rest.rule_near_jump())
+            .collect(),
     })
 }
 

@@ -15,6 +15,24 @@ pub(super) const POSE: [&str; 6] = ["x_m", "y_m", "z_m", "roll_deg", "pitch_deg"
 /// Maximum number of rows over time: an hour at 0.1 s, or 36 s at 1 ms.
 pub(super) const MAX_SAMPLES: f64 = 36_000.0;
 
+/// Part of a step beyond the last one that counts as rounding.
+const ROUNDING: f64 = 1e-9;
+
+/// Number of equal steps from 0 to a time [s], the last of which may be shorter.
+pub(super) fn count_of_steps(end: f64, step: f64) -> f64 {
+    (end / step - ROUNDING).ceil().max(0.0)
+}
+
+/// Times in equal steps from 0 on; the last step ends at this time and may be shorter [s].
+pub(super) fn in_steps(end: f64, step: f64) -> impl Iterator<Item = f64> {
+    // A step of 0.002 s is 1/500 s: quotients are the decimal numbers that a user expects, products are not.
+    let per_second = (1.0 / step).round();
+    let is_part = per_second >= 1.0 && (per_second * step - 1.0).abs() < 1e-12;
+    let count = count_of_steps(end, step) as usize;
+    let at = move |k: usize| if is_part { k as f64 / per_second } else { k as f64 * step };
+    (0..count).map(at).chain([end])
+}
+
 /// Rows over time.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct TimedRows {

@@ -16,6 +16,10 @@ declared! {
         /// Path: columns t_s [s], x_m, y_m, z_m [m] and, where the platform turns, roll_deg, pitch_deg, yaw_deg; a spline
         /// of the fifth degree passes the rows.
         path: Option<NumberColumns> = None => (Columns).under("Path");
+        /// Smooth the rows of ⟪path⟫ by less than this distance [m]: half a unit of their last digit takes their rounding
+        /// out. Angles change by less than what moves the attachments as far.
+        row_tolerance_m: Option<f64> = None => (Number(Positive)).under("Path")
+            .otherwise("the path passes its rows");
         /// Pose x,y,z[,roll,pitch,yaw] [m, degrees] to which the platform moves from the pose of the state, from rest to
         /// rest.
         move_to: Option<Pose> = None => (Pose).under("Path");
@@ -70,14 +74,15 @@ declared! {
         angular_acceleration_rad_s2: Option<f64> = None => (Number(Positive)).under("Course").otherwise("none");
         /// Largest rate of the angular acceleration [rad/s³].
         angular_jerk_rad_s3: Option<f64> = None => (Number(Positive)).under("Course").otherwise("none");
-        /// Duration of the whole path [s]: all its times are multiplied by one factor.
+        /// Duration of the whole path [s]: all its times are multiplied by one factor. With the course `quintic` or `septic`
+        /// it needs no limits: moves in a row then get times by their length, 1 rad like 1 m.
         duration_s: Option<f64> = None => (Number(Positive)).under("Course")
             .otherwise("that of the limits or of the table");
         /// Find the shortest duration that keeps all limits of tensions and winches, by one factor of all times.
         fastest: bool = false => (Switch).under("Course").excludes(&["duration_s"]);
         /// Add the inertia of the ropes across them, as of taut strings, to that of the platform.
         rope_inertia: bool = false => (Switch).under("Course");
-        /// Time between the rows of the result [s].
+        /// Time between the rows of the result [s]; the last step may be shorter. Largest values do not depend on it.
         sample_time_s: Option<f64> = None => (Number(Positive)).under("Course")
             .otherwise("the rows of the table, or a two-hundredth of the duration");
         /// Time between the lengths that a controller gets [s]; between them it changes the lengths in straight lines.

@@ -1,7 +1,9 @@
 //! Circles of the platform's origin.
 
 use super::course::{Course, CourseForm, MotionLimits};
-use super::{PathError, PathPoint};
+use super::limits_kept::largest;
+use super::profile::SAME_CORNER;
+use super::{PathCorner, PathError, PathPoint, Side};
 use crate::math::{Vec3, Vec6};
 use crate::robot::Pose;
 use std::f64::consts::TAU;
@@ -54,7 +56,8 @@ impl Circle {
             angle,
             course: course.clone(),
         };
-        let excess = circle.excess(&limits);
+        let times: Vec<f64> = circle.corners().iter().map(|corner| corner.time).collect();
+        let excess = largest(&times, |time, side| limits.used_by(&circle.at(time, side))).time_factor();
         if excess > 1.0 {
             course = course.slowed(excess);
             circle.course = course;
@@ -62,30 +65,18 @@ impl Circle {
         Ok(circle)
     }
 
-    /// Factor of the time with which acceleration and jerk keep their limits.
-    fn excess(&self, limits: &MotionLimits) -> f64 {
-        /// Number of times at which the motion is looked at.
-        const LOOKS: usize = 400;
-        let factor = |k: usize| {
-            let point = self.at(self.duration() * k as f64 / LOOKS as f64);
-            let size = |of: &Vec6| of.fixed_rows::<3>(0).norm();
-            let [acceleration, jerk] = [size(&point.acceleration_w), size(&point.jerk_w)];
-            (acceleration / limits.acceleration).sqrt().max((jerk / limits.jerk).cbrt())
-        };
-        (0..=LOOKS).map(factor).fold(1.0, f64::max)
-    }
-
     pub(super) fn duration(&self) -> f64 {
         self.course.duration()
     }
 
-    /// Times at which the jerk jumps [s].
-    pub(super) fn corner_times(&self) -> Vec<f64> {
-        self.course.corner_times()
+    /// Times at which a derivative jumps, ascending.
+    pub(super) fn corners(&self) -> Vec<PathCorner> {
+        let all = self.course.corners().into_iter().map(|(time, order)| PathCorner { time, order });
+        PathCorner::merged(all.collect(), SAME_CORNER * self.duration())
     }
 
-    pub(super) fn at(&self, time: f64) -> PathPoint {
-        let [done, rate, second, third] = self.course.at(time).map(|of| self.angle * of);
+    pub(super) fn at(&self, time: f64, side: Side) -> PathPoint {
+        let [done, rate, second, third] = self.course.at(time, side).map(|of| self.angle * of);
         let (sin, cos) = done.sin_cos();
         let outwards = self.radius_w * cos + self.quarter_w * sin;
         let along = self.quarter_w * cos - self.radius_w * sin;

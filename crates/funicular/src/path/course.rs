@@ -1,6 +1,7 @@
 //! Course of a motion over time within limits of speed, acceleration and jerk.
 
-use super::{PathError, Profile};
+use super::profile::SAME_CORNER;
+use super::{PathError, Profile, Side};
 
 /// Limits of the motion of the platform. Infinite by default.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -36,36 +37,93 @@ impl Default for MotionLimits {
 /// Form of a course from rest to rest.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum CourseForm {
-    /// Seven phases of constant jerk, the fastest course within the limits.
+    /// Fifteen phases in which the jerk is constant, rises or falls in a straight line: it nowhere jumps. The rates of the
+    /// lengths of cables are then continuous.
     #[default]
+    ContinuousJerk,
+    /// Seven phases of constant jerk, the fastest course within the limits.
     JerkLimited,
-    /// Polynomial of the fifth degree: no acceleration at both ends.
+    /// Polynomial of the fifth degree: no acceleration at both ends, where the jerk jumps.
     Quintic,
+    /// Polynomial of the seventh degree: neither acceleration nor jerk at both ends.
+    Septic,
 }
 
 impl CourseForm {
     /// All forms.
-    pub const ALL: [Self; 2] = [Self::JerkLimited, Self::Quintic];
+    pub const ALL: [Self; 4] = [Self::ContinuousJerk, Self::JerkLimited, Self::Quintic, Self::Septic];
 
     /// Name in requests.
     pub fn name(self) -> &'static str {
         match self {
+            Self::ContinuousJerk => "continuous-jerk",
             Self::JerkLimited => "jerk-limited",
             Self::Quintic => "quintic",
+            Self::Septic => "septic",
         }
+    }
+
+    /// True if a duration alone gives the course: a polynomial.
+    pub fn is_polynomial(self) -> bool {
+        matches!(self, Self::Quintic | Self::Septic)
     }
 }
 
 /// Course from 0 to 1.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Course {
-    JerkLimited(Profile),
-    Quintic { duration: f64 },
+    Phases(Profile),
+    Polynomial { degree: Degree, duration: f64 },
 }
 
-/// Largest rate, and magnitudes of its first and second derivative, of the quintic course in the time 1: at τ = 1/2, at
-/// τ = 1/2 ± √3/6, at τ = 0.
-const QUINTIC_PEAKS: [f64; 3] = [1.875, 5.773_502_691_896_258, 60.0];
+/// Polynomial from rest to rest.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Degree {
+    /// `τ³(10 − 15τ + 6τ²)`.
+    Five,
+    /// `τ⁴(35 − 84τ + 70τ² − 20τ³)`.
+    Seven,
+}
+
+impl Degree {
+    /// Largest rate, and magnitudes of its first and second derivative, in the time 1.
+    ///
+    /// Fifth degree: at τ = 1/2, at τ = 1/2 ± √3/6, at both ends. Seventh: at τ = 1/2, at τ = 1/2 ± √5/10, at τ = 1/2.
+    fn peaks(self) -> [f64; 3] {
+        match self {
+            Self::Five => [1.875, 5.773_502_691_896_258, 60.0],
+            Self::Seven => [2.1875, 7.513_188_404_399_293, 52.5],
+        }
+    }
+
+    /// Derivative that jumps at both ends.
+    fn order_of_corners(self) -> usize {
+        match self {
+            Self::Five => 3,
+            Self::Seven => 4,
+        }
+    }
+
+    /// Value and three derivatives at τ from 0 to 1.
+    fn at(self, tau: f64) -> [f64; 4] {
+        let left = 1.0 - tau;
+        let both = tau * left;
+        match self {
+            Self::Five => [
+                tau.powi(3) * (10.0 - tau * (15.0 - 6.0 * tau)),
+                30.0 * both.powi(2),
+                60.0 * both * (1.0 - 2.0 * tau),
+                60.0 - 360.0 * both,
+            ],
+            Self::Seven => [
+                tau.powi(4) * (35.0 - tau * (84.0 - tau * (70.0 - 20.0 * tau))),
+                140.0 * both.powi(3),
+                420.0 * both.powi(2) * (1.0 - 2.0 * tau),
+                840.0 * both * (1.0 - 5.0 * both),
+            ],
+        }
+    }
+}
 
 impl Course {
     /// Fastest course of a motion by this way of the origin [m] and this angle [rad] within limits.
@@ -76,69 +134,81 @@ impl Course {
         let straight = [limits.speed / way, limits.acceleration / way, limits.jerk / way];
         let turning = [limits.angular_speed / turn, limits.angular_acceleration / turn, limits.angular_jerk / turn];
         for (part, of, given) in [(way, "translation", straight), (turn, "turn", turning)] {
-            if part > 0.0 && !(given[0].is_finite() && given[1].is_finite()) {
+            // The time of a polynomial follows from any one limit.
+            let is_limited = if form.is_polynomial() {
+                given.iter().any(|limit| limit.is_finite())
+            } else {
+                given[0].is_finite() && given[1].is_finite()
+            };
+            if part > 0.0 && !is_limited {
                 return Err(PathError::NoLimit { of });
             }
         }
 
         let [rate, acceleration, jerk] = std::array::from_fn(|k| straight[k].min(turning[k]));
+        let polynomial = |degree: Degree| {
+            let [of_rate, of_acceleration, of_jerk] = degree.peaks();
+            let times = [of_rate / rate, (of_acceleration / acceleration).sqrt(), (of_jerk / jerk).cbrt()];
+            Self::Polynomial { degree, duration: times.into_iter().fold(0.0, f64::max) }
+        };
         Ok(match form {
-            CourseForm::JerkLimited => Self::JerkLimited(Profile::limited(rate, acceleration, jerk)),
-            CourseForm::Quintic => {
-                let [of_rate, of_acceleration, of_jerk] = QUINTIC_PEAKS;
-                let times = [of_rate / rate, (of_acceleration / acceleration).sqrt(), (of_jerk / jerk).cbrt()];
-                Self::Quintic { duration: times.into_iter().fold(0.0, f64::max) }
-            }
+            CourseForm::ContinuousJerk => Self::Phases(Profile::continuous_jerk(rate, acceleration, jerk)),
+            CourseForm::JerkLimited => Self::Phases(Profile::limited(rate, acceleration, jerk)),
+            CourseForm::Quintic => polynomial(Degree::Five),
+            CourseForm::Septic => polynomial(Degree::Seven),
         })
     }
 
     pub(super) fn duration(&self) -> f64 {
         match self {
-            Self::JerkLimited(profile) => profile.duration(),
-            Self::Quintic { duration } => *duration,
+            Self::Phases(profile) => profile.duration(),
+            Self::Polynomial { duration, .. } => *duration,
         }
     }
 
     /// The course with all times multiplied by a positive factor.
     pub(super) fn slowed(&self, factor: f64) -> Self {
         match self {
-            Self::JerkLimited(profile) => Self::JerkLimited(profile.slowed(factor)),
-            Self::Quintic { duration } => Self::Quintic { duration: duration * factor },
+            Self::Phases(profile) => Self::Phases(profile.slowed(factor)),
+            Self::Polynomial { degree, duration } => Self::Polynomial { degree: *degree, duration: duration * factor },
         }
     }
 
-    /// Time in which it slows down at its end [s].
+    /// Time in which it slows down at its end, at most half of its duration [s].
     pub(super) fn slowing(&self) -> f64 {
         match self {
-            Self::JerkLimited(profile) => profile.slowing(),
-            Self::Quintic { duration } => 0.5 * duration,
+            Self::Phases(profile) => profile.slowing().min(0.5 * profile.duration()),
+            Self::Polynomial { duration, .. } => 0.5 * duration,
         }
     }
 
-    /// Times at which the jerk jumps [s].
-    pub(super) fn corner_times(&self) -> Vec<f64> {
-        match self {
-            Self::JerkLimited(profile) => profile.corner_times().collect(),
-            Self::Quintic { duration } => vec![0.0, *duration],
-        }
+    /// Times at which a derivative jumps [s], ascending, with the order of this derivative.
+    pub(super) fn corners(&self) -> Vec<(f64, usize)> {
+        let (times, order) = match self {
+            Self::Phases(profile) => (profile.corner_times(), profile.order_of_corners()),
+            Self::Polynomial { degree, duration } => (vec![0.0, *duration], degree.order_of_corners()),
+        };
+        times.into_iter().map(|time| (time, order)).collect()
     }
 
-    /// Part that is done at a time [s], with three derivatives.
-    pub(super) fn at(&self, time: f64) -> [f64; 4] {
+    /// Part that is done just before or just after a time [s], with three derivatives.
+    pub(super) fn at(&self, time: f64, side: Side) -> [f64; 4] {
         match self {
-            Self::JerkLimited(profile) => std::array::from_fn(|order| profile.derivative(time, order)),
-            Self::Quintic { duration } => {
+            Self::Phases(profile) => profile.beside(time, side),
+            Self::Polynomial { degree, duration } => {
                 let tau = time / duration;
-                if tau <= 0.0 || tau >= 1.0 {
-                    return [f64::from(u8::from(tau >= 1.0)), 0.0, 0.0, 0.0];
+                let is_on = |end: f64| (tau - end).abs() <= SAME_CORNER;
+                let is_before = tau <= 0.0 || is_on(0.0);
+                let is_beyond = tau >= 1.0 || is_on(1.0);
+                match (is_before, is_beyond, side) {
+                    (true, _, Side::After) if is_on(0.0) => {}
+                    (_, true, Side::Before) if is_on(1.0) => {}
+                    (true, ..) => return [0.0; 4],
+                    (_, true, _) => return [1.0, 0.0, 0.0, 0.0],
+                    (false, false, _) => {}
                 }
-                let left = 1.0 - tau;
-                [
-                    tau.powi(3) * (10.0 - tau * (15.0 - 6.0 * tau)),
-                    30.0 * (tau * left).powi(2) / duration,
-                    60.0 * tau * left * (1.0 - 2.0 * tau) / duration.powi(2),
-                    (60.0 - 360.0 * tau * left) / duration.powi(3),
-                ]
+                let [done, rate, second, third] = degree.at(tau.clamp(0.0, 1.0));
+                [done, rate / duration, second / duration.powi(2), third / duration.powi(3)]
             }
         }
     }

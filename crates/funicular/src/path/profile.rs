@@ -1,6 +1,7 @@
 //! Course of a commanded change over time: boxes convolved with each other, which bound rate, acceleration and jerk,
 //! and the impulses of a shaper (docs/theory.md, equation (46j)).
 
+use super::Side;
 use super::shaper::{Impulse, Shaper};
 use crate::math::Complex;
 
@@ -11,11 +12,21 @@ use crate::math::Complex;
 /// Without boxes the change is a step.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Profile {
-    /// Durations of the boxes [s], all positive.
+    /// Durations of the boxes [s], all positive, at most [`MAX_BOXES`] of a course within limits.
     boxes: Vec<f64>,
     /// Parts of the change, each of which begins at its time.
     impulses: Vec<Impulse>,
 }
+
+/// Number of boxes of a course with a continuous jerk, the largest of all.
+const MAX_BOXES: usize = 4;
+
+/// Number of derivatives of a motion, the value among them.
+const ORDERS: usize = 4;
+
+/// Part of the duration of a course below which two of its corners are one: phases that end together differ by rounding,
+/// 1e-16 of the duration, and no phase that changes a motion is this short.
+pub(super) const SAME_CORNER: f64 = 1e-9;
 
 /// Magnitude of x up to which a series gives `(eˣ − 1)/x` and its successors: the closed form has lost two digits
 /// there, and [`TERMS`] terms of the series leave 1e-19.
@@ -57,6 +68,18 @@ impl Profile {
         Self::new(&[1.0 / rate, rate / acceleration, acceleration / jerk])
     }
 
+    /// Course of [`Self::limited`] whose changes of the acceleration take twice as long, so that the jerk rises and falls
+    /// in straight lines within the same limit. Fifteen phases; without a limit of the jerk the acceleration jumps.
+    pub fn continuous_jerk(rate: f64, acceleration: f64, jerk: f64) -> Self {
+        let mut found = Self::limited(rate, acceleration, jerk);
+        // A further box averages all derivatives, so that every limit stays kept.
+        let shortest = found.boxes.iter().copied().fold(f64::INFINITY, f64::min);
+        if found.boxes.len() == MAX_BOXES - 1 {
+            found.boxes.push(shortest);
+        }
+        found
+    }
+
     /// The course with all times multiplied by a positive factor.
     #[must_use]
     pub(super) fn slowed(&self, factor: f64) -> Self {
@@ -70,9 +93,26 @@ impl Profile {
         self.boxes.iter().sum::<f64>() - self.boxes.iter().copied().fold(0.0, f64::max)
     }
 
-    /// Times at which the derivative with the number of the boxes jumps, or a lower one [s].
-    pub(super) fn corner_times(&self) -> impl Iterator<Item = f64> + '_ {
-        self.impulses.iter().flat_map(|impulse| self.corners().map(|(_, at)| impulse.time + at))
+    /// Times at which the derivative of the order of the number of boxes jumps [s], ascending. Phases that end together
+    /// have one corner, and none if their jumps cancel.
+    pub(super) fn corner_times(&self) -> Vec<f64> {
+        let own = self.merged_corners();
+        let of = |impulse: &Impulse| {
+            let (start, size) = (impulse.time, impulse.amplitude);
+            own.iter().map(|(jump, at)| (jump * size, start + at)).collect::<Vec<_>>()
+        };
+        let all = merged(self.impulses.iter().flat_map(of).collect(), self.tolerance());
+        all.into_iter().map(|(_, at)| at).collect()
+    }
+
+    /// Order of the derivative that jumps at the corners.
+    pub(super) fn order_of_corners(&self) -> usize {
+        self.boxes.len()
+    }
+
+    /// Time within which two corners are one [s].
+    fn tolerance(&self) -> f64 {
+        SAME_CORNER * self.duration()
     }
 
     /// Part of the change that is done at a time [s], 0 to 1.
@@ -93,6 +133,58 @@ impl Profile {
             }
         };
         self.impulses.iter().map(|impulse| impulse.amplitude * of_one(time - impulse.time)).sum()
+    }
+
+    /// Part that is done and its three derivatives just before or just after a time [s]; both sides differ at corners alone.
+    ///
+    /// The phases are integrated one after the other. The sum of powers over all corners, as in [`Self::derivative`], would
+    /// lose digits in a long phase of constant rate between short changes of the acceleration.
+    pub fn beside(&self, time: f64, side: Side) -> [f64; ORDERS] {
+        let mut found = [0.0; ORDERS];
+        for impulse in &self.impulses {
+            let own = self.one_beside(time - impulse.time, side);
+            found.iter_mut().zip(own).for_each(|(sum, own)| *sum += impulse.amplitude * own);
+        }
+        found
+    }
+
+    /// [`Self::beside`] for a single impulse at the time 0.
+    fn one_beside(&self, time: f64, side: Side) -> [f64; ORDERS] {
+        let (own, same) = (self.boxes.iter().sum::<f64>(), self.tolerance());
+        let has_passed = |corner: f64| match side {
+            Side::Before => time > corner + same,
+            Side::After => time >= corner - same,
+        };
+        let mut found = [0.0; ORDERS];
+        if has_passed(own) || !has_passed(0.0) {
+            found[0] = f64::from(u8::from(has_passed(own)));
+            return found;
+        }
+        if time > 0.5 * own {
+            // The rate is the same from both ends.
+            let mirrored = if side == Side::Before { Side::After } else { Side::Before };
+            let [done, rate, second, third] = self.one_beside((own - time).min(0.5 * own), mirrored);
+            return [1.0 - done, rate, -second, third];
+        }
+
+        let (count, area) = (self.boxes.len(), self.boxes.iter().product::<f64>());
+        let mut state = vec![0.0; count + 1];
+        let mut last = 0.0;
+        let mut top = 0.0;
+        for (jump, at) in self.merged_corners().into_iter().filter(|(_, at)| has_passed(*at)) {
+            advance(&mut state, at - last);
+            top += jump;
+            state[count] = top / area;
+            last = at;
+        }
+        advance(&mut state, (time - last).max(0.0));
+        std::array::from_fn(|order| if order <= count { state[order] } else { 0.0 })
+    }
+
+    /// Jump of the derivative of the order of the number of boxes, over the product of the boxes, and time of every corner
+    /// of the chain.
+    fn merged_corners(&self) -> Vec<(f64, f64)> {
+        merged(self.corners().collect(), self.tolerance())
     }
 
     /// Integral of the part that is not done yet, from a time [s] on: the way of a stop from unit speed.
@@ -143,6 +235,26 @@ impl Profile {
             }
         }
         sum
+    }
+}
+
+/// Corners in ascending order; several within a time [s] are one, and none if their jumps cancel.
+fn merged(mut corners: Vec<(f64, f64)>, same: f64) -> Vec<(f64, f64)> {
+    corners.sort_by(|a, b| a.1.total_cmp(&b.1));
+    let mut found: Vec<(f64, f64)> = Vec::with_capacity(corners.len());
+    for (jump, at) in corners {
+        match found.last_mut() {
+            Some(last) if at - last.1 <= same => last.0 += jump,
+            _ => found.push((jump, at)),
+        }
+    }
+    found.into_iter().filter(|(jump, _)| jump.abs() > SAME_CORNER).collect()
+}
+
+/// Value and derivatives after a time in which the last one is constant.
+fn advance(state: &mut [f64], time: f64) {
+    for order in 0..state.len() {
+        state[order] = state[order..].iter().enumerate().map(|(k, of)| of * power(time, k)).sum();
     }
 }
 

@@ -1,8 +1,15 @@
 //! Accelerations of the lengths from lengths and rates at neighbouring times.
 
+/// Least time over which a difference is taken, if the values are smooth for so long [s]: lengths have an error of 1e-12 m,
+/// which is then 4e-6 m/s².
+const MIN_STEP: f64 = 5e-4;
+
 /// Second derivative over time of values whose first derivatives are known, at every time (docs/theory.md, equation
 /// (40z7)). `belongs(k)` is true if the values between the times k and k + 1 are smooth; a difference does not reach over
 /// an interval that is not, unless there is no other beside it.
+///
+/// A neighbour is the nearest time that is at least 0.5 ms away, or the farthest one before the values cease to be smooth.
+/// Times may be equal: a pair of them stands for both sides of a jump.
 ///
 /// With both neighbours the polynomial of the fifth degree through values and rates is differentiated, with one that of
 /// the third degree.
@@ -28,10 +35,12 @@ pub fn length_accelerations(
 ) -> Vec<Vec<f64>> {
     assert!(times.len() == lengths.len() && times.len() == rates.len(), "as many rows of each");
     let row = |k: usize| {
-        let neighbours = [k.checked_sub(1), Some(k + 1).filter(|next| *next < times.len())];
-        let is_smooth = |j: usize| belongs(j.min(k));
-        let smooth = neighbours.map(|of| of.filter(|j| is_smooth(*j)));
-        let used = if smooth == [None, None] { neighbours } else { smooth };
+        let smooth = [
+            neighbour(k, (0..k).rev(), times, |j| belongs(j)),
+            neighbour(k, k + 1..times.len(), times, |j| belongs(j - 1)),
+        ];
+        let any = [neighbour(k, (0..k).rev(), times, |_| true), neighbour(k, k + 1..times.len(), times, |_| true)];
+        let used = if smooth == [None, None] { any } else { smooth };
 
         let of = |i: usize| {
             // Value beside a line over the square of the distance, with its slope.
@@ -49,6 +58,30 @@ pub fn length_accelerations(
         (0..lengths[k].len()).map(of).collect()
     };
     (0..times.len()).map(row).collect()
+}
+
+/// Time next to that with the index k on one side: the nearest of these indices that is far enough, or the farthest that
+/// can be reached.
+fn neighbour(
+    k: usize,
+    indices: impl Iterator<Item = usize>,
+    times: &[f64],
+    is_reached: impl Fn(usize) -> bool,
+) -> Option<usize> {
+    let mut found = None;
+    for j in indices {
+        let distance = (times[j] - times[k]).abs();
+        if !is_reached(j) {
+            break;
+        }
+        if distance > 0.0 {
+            found = Some(j);
+        }
+        if distance >= MIN_STEP {
+            break;
+        }
+    }
+    found
 }
 
 /// `(L(t) − L(0) − L̇(0) t)/t²` with its slope.

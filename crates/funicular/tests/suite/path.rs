@@ -1,7 +1,9 @@
 //! Paths of the platform: derivatives against differences, limits that are reached, splines against what they pass.
 
 use funicular::math::{Rotation, Vec3, Vec6};
-use funicular::path::{CourseForm, MotionLimits, PathError, PathPoint, PlatformPath, Profile};
+use funicular::path::{
+    CourseForm, MotionLimits, PathCorner, PathError, PathPoint, PlatformPath, Profile, Side, smoothed_within,
+};
 use funicular::robot::{Pose, Robot};
 
 fn limits() -> MotionLimits {
@@ -105,9 +107,19 @@ fn a_move_reaches_its_limits_and_not_more() {
 
 #[test]
 fn the_jerk_jumps_where_it_is_said_and_nowhere_else() {
-    for path in [through(CourseForm::JerkLimited, 0.5), circle(CourseForm::Quintic).slowed(1.3)] {
-        let jumps = path.jumps_of_jerk();
-        assert!(jumps.windows(2).all(|pair| pair[0] <= pair[1]) && jumps.len() >= 2);
+    for (path, jumps) in [
+        (through(CourseForm::JerkLimited, 0.5), true),
+        (circle(CourseForm::Quintic).slowed(1.3), true),
+        (through(CourseForm::ContinuousJerk, 0.5), false),
+        (circle(CourseForm::ContinuousJerk), false),
+        (through(CourseForm::Septic, 0.0), false),
+    ] {
+        let corners = path.corners();
+        assert!(corners.windows(2).all(|pair| pair[0].time < pair[1].time) && corners.len() >= 2);
+        assert_eq!(corners.iter().any(|corner| corner.order <= PathCorner::JERK), jumps);
+
+        let jumps: Vec<f64> =
+            corners.iter().filter(|corner| corner.order <= PathCorner::JERK).map(|corner| corner.time).collect();
         let step = 1e-5 * path.duration();
         for k in 1..40_000 {
             let (before, after) =
@@ -116,6 +128,36 @@ fn the_jerk_jumps_where_it_is_said_and_nowhere_else() {
             let is_near = jumps.iter().any(|jump| (before - step..=after + step).contains(jump));
             assert!(is_near || change < 0.2, "{before}: {change}");
         }
+    }
+}
+
+#[test]
+fn both_sides_of_a_corner_are_the_limits_of_the_motion_there() {
+    for form in CourseForm::ALL {
+        for path in [through(form, 0.0), through(form, 0.7), circle(form).slowed(0.7)] {
+            let by = 1e-7 * path.duration();
+            for corner in path.corners() {
+                for (side, sign) in [(Side::Before, -1.0), (Side::After, 1.0)] {
+                    let (here, near) = (path.beside(corner.time, side), path.at(corner.time + sign * by));
+                    // A jerk that changes at most by 10 m/s³ within 1 ms.
+                    assert!((here.jerk_w - near.jerk_w).norm() < 0.02, "{form:?} {corner:?} {side:?}");
+                    assert!((here.acceleration_w - near.acceleration_w).norm() < 1e-4);
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn phases_that_end_together_are_one_corner_or_none() {
+    // A short move reaches neither its speed nor a constant speed: in the middle its jerk is the same on both sides.
+    let limits = MotionLimits { speed: 2.0, acceleration: 2.0, jerk: 20.0, ..MotionLimits::default() };
+    for way in [0.01, 0.3, 0.360_555_127_546_398_9, 0.7] {
+        let ends = [Pose::new([0.0; 3], [0.0; 3]), Pose::new([way, 0.0, 0.0], [0.0; 3])];
+        let path = PlatformPath::through(&ends, &limits, CourseForm::JerkLimited, 0.0).unwrap();
+        let middle = 0.5 * path.duration();
+        assert!((path.at(middle).jerk_w[0] + 20.0).abs() < 1e-6, "{way}: {}", path.at(middle).jerk_w[0]);
+        assert!(path.corners().iter().all(|corner| (corner.time - middle).abs() > 1e-3 * middle), "{way}");
     }
 }
 
@@ -160,6 +202,103 @@ fn blended_moves_arrive_earlier_and_round_their_corners() {
         assert!((end.pose.position_w - corners()[3].position_w).norm() < 1e-12 && turn < 1e-12);
         assert_eq!(end.velocity_w, Vec6::zeros());
     }
+}
+
+/// Largest translational and angular acceleration and jerk, over their limits, at times that are not those of the
+/// search.
+fn largest_parts(path: &PlatformPath, limits: &MotionLimits) -> [f64; 3] {
+    let mut found = [0.0_f64; 3];
+    let corners: Vec<f64> = path.corners().iter().map(|corner| corner.time).collect();
+    let between =
+        corners.windows(2).flat_map(|pair| (0..=700).map(|k| pair[0] + (pair[1] - pair[0]) * f64::from(k) / 700.0));
+    for time in between {
+        for side in [Side::Before, Side::After] {
+            let point = path.beside(time, side);
+            for (k, (of, [linear, angular])) in [
+                (point.velocity_w, [limits.speed, limits.angular_speed]),
+                (point.acceleration_w, [limits.acceleration, limits.angular_acceleration]),
+                (point.jerk_w, [limits.jerk, limits.angular_jerk]),
+            ]
+            .into_iter()
+            .enumerate()
+            {
+                let size = |from: usize| of.fixed_rows::<3>(from).norm();
+                found[k] = found[k].max(size(0) / linear).max(size(3) / angular);
+            }
+        }
+    }
+    found
+}
+
+#[test]
+fn blends_and_circles_keep_every_limit() {
+    let at = |x: f64, y: f64, yaw: f64| Pose::new([x, y, 1.0], [0.0, 0.0, yaw]);
+    let ways: [&[Pose]; 5] = [
+        &corners(),
+        // A right angle, a way back, a straight line with unequal parts, and a turn alone after a translation.
+        &[at(0.0, 0.0, 0.0), at(2.0, 0.0, 0.0), at(2.0, 3.0, 0.0)],
+        &[at(0.0, 0.0, 0.0), at(2.0, 0.0, 0.0), at(0.1, 0.0, 0.0)],
+        &[at(0.0, 0.0, 0.0), at(0.3, 0.0, 0.0), at(4.0, 0.0, 0.0)],
+        &[at(0.0, 0.0, 0.0), at(1.0, 0.0, 0.0), at(1.0, 0.0, 90.0), at(1.0, 0.001, 90.0)],
+    ];
+    for form in CourseForm::ALL {
+        for poses in ways {
+            for blend in [0.3, 1.0] {
+                let path = PlatformPath::through(poses, &limits(), form, blend).unwrap();
+                let parts = largest_parts(&path, &limits());
+                assert!(parts.iter().all(|part| *part <= 1.0 + 1e-6), "{form:?} {blend} {parts:?}");
+                let stopping = PlatformPath::through(poses, &limits(), form, 0.0).unwrap();
+                assert!(path.duration() <= stopping.duration() * (1.0 + 1e-9), "{form:?} {blend}");
+            }
+        }
+        for turns in [0.02, 0.3, -1.5, 6.0] {
+            let start = Pose::new([0.4, 0.0, 1.5], [0.0; 3]);
+            let about = (&Vec3::new(0.0, 0.0, 1.0), &Vec3::z());
+            let path = PlatformPath::circle(&start, about, turns, &limits(), form).unwrap();
+            let parts = largest_parts(&path, &limits());
+            assert!(parts.iter().all(|part| *part <= 1.0 + 1e-6), "{form:?} {turns} {parts:?}");
+            assert!(parts.iter().any(|part| *part > 0.99), "{form:?} {turns} {parts:?}");
+        }
+    }
+}
+
+#[test]
+fn a_continuous_jerk_costs_the_time_of_one_change_of_the_acceleration() {
+    let ends = [Pose::new([0.0; 3], [0.0; 3]), Pose::new([5.0, 0.0, 0.0], [0.0; 3])];
+    let of = |form| PlatformPath::through(&ends, &limits(), form, 0.0).unwrap();
+    let (smooth, jumping) = (of(CourseForm::ContinuousJerk), of(CourseForm::JerkLimited));
+    // 2 m/s² at 10 m/s³.
+    assert!((smooth.duration() - jumping.duration() - 0.2).abs() < 1e-12);
+    let used = smooth.used_parts(&limits());
+    for part in [used.speed, used.acceleration, used.jerk] {
+        assert!((part - 1.0).abs() < 1e-9, "{used:?}");
+    }
+}
+
+#[test]
+fn smoothed_values_round_to_those_of_the_table() {
+    // Unequal times, and a motion that rests at both ends.
+    let times: Vec<f64> = (0..=300).map(|k| 0.01 * f64::from(k) + 0.002 * f64::from(k % 3)).collect();
+    let value = |t: &f64| 2.0 - 1.5 * (1.2 * t).cos();
+    let acceleration = |t: f64| 1.5 * 1.44 * (1.2 * t).cos();
+    for unit in [1e-3, 1e-4, 1e-9] {
+        let rounded: Vec<f64> = times.iter().map(|t| (value(t) / unit).round() * unit).collect();
+        let smooth = smoothed_within(&times, &rounded, 0.5 * unit);
+        assert!(smooth.iter().zip(&rounded).all(|(a, b)| (a - b).abs() < 0.5 * unit));
+
+        // Divided differences of both.
+        let bend = |x: &[f64], k: usize| {
+            let (left, right) = (times[k] - times[k - 1], times[k + 1] - times[k]);
+            2.0 * ((x[k + 1] - x[k]) / right - (x[k] - x[k - 1]) / left) / (left + right)
+        };
+        let error = |x: &[f64]| {
+            (2..times.len() - 2).map(|k| (bend(x, k) - acceleration(times[k])).abs()).fold(0.0_f64, f64::max)
+        };
+        let (before, after) = (error(&rounded), error(&smooth));
+        assert!(unit < 1e-6 || (before > 1.0e4 * unit && after < 0.02 * before), "{unit}: {before} {after}");
+        assert!(after < 0.3, "{unit}: {after}");
+    }
+    assert_eq!(smoothed_within(&[0.0, 1.0, 2.0], &[0.0, 5.0, 1.0], 0.5), [0.0, 5.0, 1.0]);
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! A robot in motion along a path: rates and accelerations of lengths against differences, inertia, frequencies.
 
 use funicular::math::Vec3;
-use funicular::path::{CourseForm, MotionLimits, PlatformPath};
+use funicular::path::{CourseForm, MotionLimits, PlatformPath, Side};
 use funicular::robot::{Pose, Robot};
 use funicular::statics::{self, Limit, StaticModel, TensionRule};
 use funicular::trajectory::{AlongPath, InMotion, length_accelerations};
@@ -180,4 +180,32 @@ fn the_frequency_of_a_motion_is_that_of_its_acceleration() {
     assert!(
         (path.slowed(4.0).frequency_below_which(0.5, 1.0) - path.frequency_below_which(0.5, 1.0) / 4.0).abs() < 1e-12
     );
+}
+
+#[test]
+fn rates_at_corners_are_the_differences_on_their_side() {
+    let robot = Robot::from_toml(funicular_robots::COGIRO).unwrap();
+    let limits = MotionLimits { speed: 2.0, acceleration: 2.0, jerk: 20.0, ..MotionLimits::default() };
+    // The first is so short that two of its phases end together.
+    for end in [[0.3, 0.2, 1.5], [4.0, 2.0, 1.5]] {
+        for form in CourseForm::ALL {
+            let poses = [Pose::new([0.0, 0.0, 1.5], [0.0; 3]), Pose::new(end, [0.0; 3])];
+            let path = PlatformPath::through(&poses, &limits, form, 0.0).unwrap();
+            let mut along = AlongPath::new(&robot, StaticModel::Catenary, TensionRule::Lowest, false);
+            let middle = 0.5 * path.duration();
+            let times = path.corners().into_iter().map(|corner| corner.time).chain([middle, 0.3 * middle]);
+            for time in times.collect::<Vec<_>>() {
+                for (side, step) in [(Side::Before, -2e-4), (Side::After, 2e-4)] {
+                    let mut at = |by: f64| along.at(&path.beside(time + by, side)).unwrap();
+                    let rates = at(0.0).length_rates;
+                    let [here, near, far] = [0.0, step, 2.0 * step].map(|by| lengths(&at(by)));
+                    for (i, rate) in rates.iter().enumerate() {
+                        let difference = (4.0 * near[i] - 3.0 * here[i] - far[i]) / (2.0 * step);
+                        // A third of the square of the step times a third derivative of some 100 m/s³.
+                        assert!((rate - difference).abs() < 2e-5, "{form:?} {time} {side:?} {i}: {rate} {difference}");
+                    }
+                }
+            }
+        }
+    }
 }

@@ -2,8 +2,12 @@
 
 use super::{PoseRow, rest_at};
 use crate::at_rest::AtRest;
+use crate::error::NoSolution;
+use crate::text::decimals;
+use anyhow::Result;
 use funicular::clearance::Surroundings;
 use funicular::math::Vec3;
+use funicular::path::StraightMove;
 use funicular::robot::{PlatformMotion, Pose, Robot};
 use serde::Serialize;
 
@@ -21,6 +25,30 @@ pub struct WayAround {
     pub through: Option<Vec<PoseRow>>,
     /// Number of straight moves that were examined.
     pub moves_examined: usize,
+}
+
+/// Refuses a search between two poses one of which is not free itself: no way leads there.
+///
+/// # Errors
+/// [`NoSolution`] with the pair that is nearest at this pose.
+pub(super) fn refuse_blocked(at_rest: &AtRest, around: &Surroundings, end: &Pose) -> Result<()> {
+    for (which, key, pose) in [("start", "pose", &at_rest.equilibrium.pose), ("end", "move_to", end)] {
+        if around.is_free_way(&StraightMove::between(pose, pose), &mut rest_at(at_rest)) {
+            continue;
+        }
+        let rest = rest_at(at_rest)(pose).map_err(|error| {
+            let text = format!("at the {which} of the move: {error}");
+            if error.is_no_solution() { NoSolution(text).into() } else { anyhow::anyhow!(text) }
+        })?;
+        let nearest = around.least(&rest, None).map_or_else(String::new, |pair| {
+            let (distance, required) = (decimals(pair.distance, 4), decimals(pair.required, 4));
+            format!(": {} are {distance} m apart, and {required} m are required", around.pair_text(pair.pair))
+        });
+        let text =
+            format!("no way leads to the {which} of the move, which is not free itself{nearest}; give another ⟪{key}⟫");
+        return Err(NoSolution(text).into());
+    }
+    Ok(())
 }
 
 impl WayAround {

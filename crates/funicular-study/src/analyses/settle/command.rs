@@ -159,6 +159,14 @@ impl<'a> Command<'a> {
         }
     }
 
+    /// Warning about a rule of tensions that jumps between poses of the command.
+    pub(super) fn rule_jumps(&self) -> Option<String> {
+        match self {
+            Self::Motion(of) => of.rule_jumps(),
+            Self::Trajectory(of) => of.rule_jumps(),
+        }
+    }
+
     /// Lengths at equal steps of time, from the start to the end [m].
     ///
     /// # Errors

@@ -100,6 +100,12 @@ impl<'a> Motion<'a> {
         self.equilibrium(self.left(0.0))
     }
 
+    /// Warning about a rule of tensions that jumps on the way.
+    pub(super) fn rule_jumps(&self) -> Option<String> {
+        let whole = self.left(0.0);
+        self.at_rest.rule_jumps_on_way(&mut |part| self.pose(whole * (1.0 - part)), "motion")
+    }
+
     /// Lengths at equal steps of time, from the start to the end [m].
     ///
     /// # Errors

@@ -1,26 +1,23 @@
 //! Rows of numbers over the time of a command, and numbers of the equilibria on the way.
 
-use super::super::timed_rows::MAX_SAMPLES;
+use super::super::timed_rows::{MAX_SAMPLES, count_of_steps, in_steps};
 use crate::error::NoSolution;
 use anyhow::{Result, anyhow, bail};
 use funicular::statics::{Equilibrium, StaticsError};
 
-/// Part of a sample beyond the last one that counts as rounding.
-const ROUNDING: f64 = 1e-9;
-
-/// Times in equal steps from 0 to the end of a command or the first step after it [s].
+/// Times in equal steps from 0 to the end of a command, the last of which may be shorter [s].
 ///
 /// # Errors
 /// Too many samples.
 pub(super) fn sample_times(end: f64, step: f64) -> Result<impl Iterator<Item = f64>> {
-    let count = (end / step - ROUNDING).ceil().max(0.0);
+    let count = count_of_steps(end, step);
     if count > MAX_SAMPLES {
         bail!(
             "⟪sample_time_s⟫ {step} gives {count} samples of the lengths, and at most {MAX_SAMPLES} are computed: give \
              a longer time"
         );
     }
-    Ok((0..=count as usize).map(move |i| i as f64 * step))
+    Ok(in_steps(end, step))
 }
 
 /// Row between two rows, at a part of the way from the first to the second.

@@ -11,7 +11,7 @@ use crate::table_fault::TableFault;
 use crate::text::significant;
 use anyhow::{Result, bail};
 use funicular::modes::LengthCommand;
-use funicular::path::Shaper;
+use funicular::path::{Shaper, StraightMove};
 use funicular::robot::{Pose, Robot};
 use funicular::statics::{self, Equilibrium};
 
@@ -174,6 +174,18 @@ impl<'a> Trajectory<'a> {
 
     pub(super) fn start(&self) -> &Equilibrium {
         &self.start
+    }
+
+    /// Warning about a rule of tensions that jumps between the poses of the table.
+    pub(super) fn rule_jumps(&self) -> Option<String> {
+        let mut pose = |part: f64| {
+            let place = part * (self.rows.times.len() - 1) as f64;
+            let row = (place as usize).min(self.rows.times.len() - 2);
+            let way = StraightMove::between(&self.rows.pose(row), &self.rows.pose(row + 1));
+            way.pose(place - row as f64)
+        };
+        let has_poses = self.rows.holds == Holds::Poses;
+        has_poses.then(|| self.at_rest.rule_jumps_on_way(&mut pose, "rows of the trajectory")).flatten()
     }
 
     /// Lengths at equal steps of time [m].

@@ -1,7 +1,7 @@
 //! Shortest duration of a path that keeps all limits, by one factor of all its times.
 
 use super::samples::MotionSamples;
-use super::{JudgedLimits, Planned};
+use super::{JudgedLimits, Planned, ROUNDING, used};
 use crate::error::{ErrorKind, NoSolution};
 use crate::watch::Watch;
 use anyhow::Result;
@@ -73,14 +73,13 @@ pub(super) fn fastest<'a>(planned: &Planned<'a>, watch: &mut dyn Watch) -> Resul
 /// True if the motion keeps all limits of tensions and winches. Distances do not depend on the speed but by the sag, and
 /// tensions by choice are found or not.
 fn keeps_limits(planned: &Planned, count: usize, watch: &mut dyn Watch) -> Result<bool> {
-    let times = (0..=count).map(|k| planned.path.duration() * k as f64 / count as f64).collect();
-    let plain =
-        Planned { judged: JudgedLimits { clearance: false, inertia: false, ..planned.judged }, ..planned.clone() };
-    let samples = match MotionSamples::at(&plain, times, watch) {
+    let judged = JudgedLimits { clearance: false, inertia: false, ..planned.judged };
+    let plain = Planned { judged, ..planned.clone() };
+    let samples = match MotionSamples::at(&plain, &[], count, watch) {
         Ok(samples) => samples,
         Err(error) if ErrorKind::of(&error) == ErrorKind::NoSolution => return Ok(false),
         Err(error) => return Err(error),
     };
-    let within = |k: usize| samples.most_used(&plain, k).is_none_or(|(_, part)| part <= 1.0 + 1e-9);
-    Ok((0..=count).all(within))
+    let within = |k: usize| used::most(&samples.used(&plain, k)).is_none_or(|(_, part)| part <= 1.0 + ROUNDING);
+    Ok((0..samples.times.len()).all(within))
 }

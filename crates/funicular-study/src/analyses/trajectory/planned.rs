@@ -2,9 +2,11 @@
 
 use super::super::timed_rows::{Holds, TimedRows};
 use super::KEY;
+use super::rounded::{self, RoundedRows};
 use crate::at_rest::check_pose;
 use crate::request::{self, MotionOptions, NumberColumns, State, TrajectoryRequest};
 use crate::table_fault::TableFault;
+use crate::text::significant;
 use anyhow::{Result, bail};
 use funicular::math::Vec3;
 use funicular::path::{MotionLimits, PathError, PlatformPath};
@@ -14,18 +16,25 @@ use funicular::robot::{Pose, Robot};
 /// half a turn to a whole one without 30°, by which angles pass the end of their range.
 const AMBIGUOUS_DEG: std::ops::Range<f64> = 180.0..330.0;
 
+/// Excess of a limit of speed, acceleration or jerk that counts as rounding.
+const MAX_EXCESS: f64 = 1e-6;
+
 /// Checks the table of a path for a robot.
 ///
 /// # Errors
 /// The first fault: a column that is missing or unknown, fewer than two rows, times that do not rise, a pose that the
 /// platform cannot have, a jump, or a turn whose way is not known.
 pub fn check(columns: &NumberColumns, robot: &Robot) -> Result<(), TableFault> {
-    of_table(columns, robot).map(drop)
+    of_table(columns, robot, None).map(drop)
 }
 
-/// Rows of a path, with the path through them.
-fn of_table(columns: &NumberColumns, robot: &Robot) -> Result<(TimedRows, PlatformPath), TableFault> {
-    let rows = TimedRows::read(KEY, columns, robot)?;
+/// Rows of a path, smoothed by less than a distance [m], with the path through them.
+fn of_table(
+    columns: &NumberColumns,
+    robot: &Robot,
+    tolerance: Option<f64>,
+) -> Result<(TimedRows, PlatformPath), TableFault> {
+    let mut rows = TimedRows::read(KEY, columns, robot)?;
     let fault = |row: Option<usize>, text: String| TableFault { key: KEY, row, text };
     if rows.holds == Holds::Lengths {
         let text = "a path has poses: give x_m, y_m, z_m and, where the platform turns, angles; ⟪trajectory⟫ of \
@@ -46,6 +55,9 @@ fn of_table(columns: &NumberColumns, robot: &Robot) -> Result<(TimedRows, Platfo
         }
     }
 
+    if let Some(tolerance) = tolerance {
+        rounded::smooth(&mut rows, tolerance, robot.platform_length());
+    }
     let poses: Vec<Pose> = (0..rows.times.len()).map(|row| rows.pose(row)).collect();
     let path = PlatformPath::of_table(&rows.times, &poses).map_err(|error| {
         let row = match error {
@@ -66,26 +78,39 @@ pub(super) fn state(robot: &Robot, request: &TrajectoryRequest) -> Result<State>
     if state.pose.is_some() || state.lengths_m.is_some() || state.hold_lengths_of_pose {
         bail!("⟪path⟫ has the poses of the platform: leave out ⟪pose⟫, ⟪lengths_m⟫ and ⟪hold_lengths_of_pose⟫");
     }
-    let (rows, _) = of_table(columns, robot)?;
+    let (rows, _) = of_table(columns, robot, request.row_tolerance_m)?;
     let first: [f64; 6] = std::array::from_fn(|k| rows.values[0][k]);
     state.pose = Some(request::Pose::Angles(first));
     Ok(state)
 }
 
-/// Path of a request that starts at a pose, and the times of the rows of its table.
+/// Path of a request.
+pub(super) struct PathOfRequest {
+    pub(super) path: PlatformPath,
+    /// Times of the rows of its table [s].
+    pub(super) times: Option<Vec<f64>>,
+    /// Rows of the table whose rounding is part of the motion.
+    pub(super) rounded: Option<RoundedRows>,
+}
+
+/// Path of a request that starts at a pose.
 ///
 /// # Errors
 /// Several paths or none, options of another path, poses that the platform cannot have, or a [`PathError`].
-pub(super) fn path(
-    robot: &Robot,
-    start: &Pose,
-    request: &TrajectoryRequest,
-) -> Result<(PlatformPath, Option<Vec<f64>>)> {
+pub(super) fn path(robot: &Robot, start: &Pose, request: &TrajectoryRequest) -> Result<PathOfRequest> {
     refuse_mixtures(request)?;
-    let limits = limits(&request.motion);
     let form = request.motion.course;
+    let given = limits(&request.motion);
+    let limits = if given == MotionLimits::default() && form.is_polynomial() && request.motion.duration_s.is_some() {
+        // The duration follows; any speed gives moves in a row times by their length.
+        MotionLimits { speed: 1.0, angular_speed: 1.0, ..given }
+    } else {
+        given
+    };
+    let mut rounded = None;
     let (path, times) = if let Some(columns) = &request.path {
-        let (rows, path) = of_table(columns, robot)?;
+        let (rows, path) = of_table(columns, robot, request.row_tolerance_m)?;
+        rounded = RoundedRows::of(&rows, columns, robot.platform_length());
         (path, Some(rows.times))
     } else if let Some(center) = request.circle_center_m {
         let axis = Vec3::from(request.circle_axis);
@@ -103,16 +128,34 @@ pub(super) fn path(
 
     let factor = request.motion.duration_s.map_or(1.0, |duration| duration / path.duration());
     let times = times.map(|times| times.iter().map(|time| time * factor).collect());
-    Ok((path.slowed(factor), times))
+    Ok(PathOfRequest { path: path.slowed(factor), times, rounded })
 }
+
+/// Warning about a path that is faster than the limits of the request, because its duration was changed.
+pub(super) fn beyond_limits(path: &PlatformPath, motion: &MotionOptions) -> Option<String> {
+    let limits = limits(motion);
+    if limits == MotionLimits::default() {
+        return None;
+    }
+    let used = path.used_parts(&limits);
+    let parts = [("speed", used.speed), ("acceleration", used.acceleration), ("jerk", used.jerk)];
+    let beyond = parts.iter().filter(|(_, part)| *part > 1.0 + MAX_EXCESS);
+    let told: Vec<String> =
+        beyond.map(|(of, part)| format!("the {of} {} % of its limit", significant(100.0 * part, 4))).collect();
+    let option = if motion.fastest { "⟪fastest⟫" } else { "⟪duration_s⟫" };
+    (!told.is_empty()).then(|| format!("{option} makes the platform faster than it may be: {}", told.join(", ")))
+}
+
+/// Way to a move without limits.
+const WITHOUT_LIMITS: &str = "; ⟪duration_s⟫ alone is enough with ⟪course⟫ `septic` or `quintic`";
 
 /// Error of a path with the way out.
 fn named(path: Result<PlatformPath, PathError>) -> Result<PlatformPath> {
     path.map_err(|error| match error {
         PathError::NoLimit { of: "turn" } => {
-            anyhow::anyhow!("{error}, ⟪angular_speed_rad_s⟫ and ⟪angular_acceleration_rad_s2⟫")
+            anyhow::anyhow!("{error}, ⟪angular_speed_rad_s⟫ and ⟪angular_acceleration_rad_s2⟫{WITHOUT_LIMITS}")
         }
-        PathError::NoLimit { .. } => anyhow::anyhow!("{error}, ⟪speed_m_s⟫ and ⟪acceleration_m_s2⟫"),
+        PathError::NoLimit { .. } => anyhow::anyhow!("{error}, ⟪speed_m_s⟫ and ⟪acceleration_m_s2⟫{WITHOUT_LIMITS}"),
         error => error.into(),
     })
 }
@@ -152,6 +195,9 @@ fn refuse_mixtures(request: &TrajectoryRequest) -> Result<()> {
     }
     if request.blend > 1.0 {
         bail!("⟪blend⟫ {} is above 1, the whole time of slowing down: give a number from 0 to 1", request.blend);
+    }
+    if request.row_tolerance_m.is_some() && request.path.is_none() {
+        bail!("⟪row_tolerance_m⟫ smooths the rows of a table: give it with ⟪path⟫");
     }
     let motion = &request.motion;
     let limited = limits(motion) != MotionLimits::default();

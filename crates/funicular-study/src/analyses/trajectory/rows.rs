@@ -1,6 +1,7 @@
 //! Rows of a trajectory, and their columns.
 
-use super::samples::{MotionSamples, UsedLimit, lengths};
+use super::samples::{MotionSamples, lengths};
+use super::used::UsedLimit;
 use crate::analyses::fields::{self, AXES};
 use crate::analyses::shared::PoseRow;
 use crate::columns::{Columns, column, parts};
@@ -54,7 +55,9 @@ pub struct TrajectoryRow {
 }
 
 impl TrajectoryRow {
-    pub(super) fn of(robot: &Robot, samples: &MotionSamples, k: usize, used: Option<&(UsedLimit, f64)>) -> Self {
+    /// Row with this number; a row on a jump has the values just after it.
+    pub(super) fn of(robot: &Robot, samples: &MotionSamples, row: usize, used: Option<&(UsedLimit, f64)>) -> Self {
+        let k = samples.rows[row];
         let motion = &samples.motions[k];
         let (point, rest) = (&motion.point, &motion.equilibrium);
         let winches: Vec<_> = (0..robot.cables.len()).map(|i| samples.winch(robot, k, i)).collect();
@@ -85,7 +88,7 @@ impl TrajectoryRow {
             motor_torques_n_m: of_motors(|motor| motor.torque),
             motor_powers_w: of_motors(|motor| Some(motor.power)),
             first_frequency_hz: if rest.model == StaticModel::Catenary { first() } else { None },
-            clearance_margin_m: samples.nearest[k].as_ref().map(funicular::clearance::Clearance::margin),
+            clearance_margin_m: samples.nearest[row].as_ref().map(funicular::clearance::Clearance::margin),
             limit: used.map(|(limit, _)| limit.name()),
             limit_cable: used.and_then(|(limit, _)| limit.cable()).map(|i| robot.cables[i].name.clone()),
             used_part: used.map(|(_, part)| *part).filter(|part| part.is_finite()),

@@ -3,6 +3,7 @@
 use super::Planned;
 use super::samples::{MotionSamples, lengths};
 use anyhow::Result;
+use funicular::path::Side;
 use funicular::statics;
 use serde::Serialize;
 
@@ -51,8 +52,8 @@ impl Stations {
         let half = 0.5 * interval;
         let middle = samples.times[k].clamp(half, duration - half);
         let mut along = planned.along();
-        let [from, to, at] =
-            [middle - half, middle + half, middle].map(|time| super::samples::in_motion(&mut along, planned, time));
+        let [from, to, at] = [middle - half, middle + half, middle]
+            .map(|time| super::samples::in_motion(&mut along, planned, time, Side::After));
         let (from, to, at) = (lengths(&from?), lengths(&to?), at?);
         let on_line: Vec<f64> = from.iter().zip(&to).map(|(from, to)| 0.5 * (from + to)).collect();
         let errors = lengths(&at).into_iter().zip(&on_line).map(|(at, line)| (at - line).abs());

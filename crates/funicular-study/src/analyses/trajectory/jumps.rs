@@ -1,0 +1,261 @@
+//! Times at which lengths or their rates jump, each with its cause.
+
+use super::Planned;
+use super::instants::Instant;
+use super::samples::{in_motion, lengths};
+use crate::at_rest::{LEFT, MIN_TENSION};
+use crate::text::significant;
+use anyhow::Result;
+use funicular::path::{PathCorner, Side};
+use funicular::robot::Robot;
+use funicular::statics::{Limit, TensionRule};
+use funicular::trajectory::{AlongPath, InMotion};
+
+/// Number of halvings of the time between two samples in which a tension reaches a limit.
+const HALVINGS: usize = 20;
+
+/// Largest number of changes of limits between two samples, and on the whole path.
+const MAX_CHANGES_BETWEEN: usize = 8;
+const MAX_CHANGES: usize = 100;
+
+/// Jump of a rate [m/s] and of a length [m] that counts: within the period of a servo, 1 ms, the first is 0.01 m/s² and the
+/// second 10 µm/s. Rounding leaves 1e-8 m/s, and 1e-11 m.
+const MIN_RATE: f64 = 1e-5;
+const MIN_LENGTH: f64 = 1e-8;
+
+/// Difference between the change of a length and the integral of its rate from which on a jump is looked for [m]: one of
+/// 1 N in 10 m of rope with 1 MN is 10 µm.
+const MIN_WAY: f64 = 1e-6;
+
+/// Largest number of jumps of a rule that are looked for inside each other.
+const MAX_DEPTH: usize = 4;
+
+/// Robot at one time of a path.
+pub(super) type Sample = (Instant, InMotion);
+
+/// Jump of lengths or of their rates.
+pub(super) struct LengthJump {
+    /// Index of the sample just before it; the next one is just after it.
+    pub(super) before: usize,
+    pub(super) time: f64,
+    pub(super) cause: JumpCause,
+    /// Jump of every length [m], of its rate [m/s], and of the tension at the platform [N].
+    lengths: Vec<f64>,
+    rates: Vec<f64>,
+    tensions: Vec<f64>,
+}
+
+/// Cause of a jump.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum JumpCause {
+    /// Derivative of the path of this order jumps.
+    Path(usize),
+    /// Tensions reach limits (true) or leave them.
+    Limits(Vec<(usize, Limit, bool)>),
+    /// Rule of tensions goes over to other tensions.
+    Rule,
+}
+
+impl LengthJump {
+    /// Jump at a corner of the path between two samples; `None` within a phase, and where lengths and rates go on.
+    pub(super) fn at_corner(planned: &Planned, last: &Sample, next: &Sample, before: usize) -> Option<Self> {
+        if last.0.phase == next.0.phase {
+            return None;
+        }
+        let time = next.0.time;
+        let nearest = |a: &PathCorner, b: &PathCorner| (a.time - time).abs().total_cmp(&(b.time - time).abs());
+        let order = planned.path.corners().into_iter().min_by(nearest)?.order;
+        let jump = Self::of(&last.1, &next.1, time, JumpCause::Path(order), before - 1);
+        (jump.rate_jumps().is_some() || jump.length_jumps().is_some()).then_some(jump)
+    }
+
+    fn of(last: &InMotion, next: &InMotion, time: f64, cause: JumpCause, before: usize) -> Self {
+        let by = |a: Vec<f64>, b: Vec<f64>| a.iter().zip(b).map(|(a, b)| (b - a).abs()).collect();
+        Self {
+            before,
+            time,
+            cause,
+            lengths: by(lengths(last), lengths(next)),
+            rates: by(last.length_rates.clone(), next.length_rates.clone()),
+            tensions: by(tensions(last), tensions(next)),
+        }
+    }
+
+    /// True if a sample is just before this jump or just after it.
+    pub(super) fn is_beside(&self, sample: usize) -> bool {
+        sample == self.before || sample == self.before + 1
+    }
+
+    /// True if the length of a cable jumps.
+    pub(super) fn has_length_jump(&self, cable: usize) -> bool {
+        !matches!(self.cause, JumpCause::Limits(_)) && self.lengths[cable] > MIN_LENGTH
+    }
+
+    /// True if the rate of a cable has no bound, or jumps: its acceleration has none then.
+    pub(super) fn has_rate_jump(&self, cable: usize) -> bool {
+        self.rates[cable] > MIN_RATE || self.has_length_jump(cable)
+    }
+
+    /// Cable whose length jumps most, with the jump [m]; `None` if none does.
+    pub(super) fn length_jumps(&self) -> Option<(usize, f64)> {
+        largest(&self.lengths).filter(|(cable, _)| self.has_length_jump(*cable))
+    }
+
+    /// Cable whose rate jumps most, with the jump [m/s]; `None` if none does.
+    pub(super) fn rate_jumps(&self) -> Option<(usize, f64)> {
+        largest(&self.rates).filter(|(_, jump)| *jump > MIN_RATE)
+    }
+
+    /// Cable whose tension jumps most, with the jump [N].
+    pub(super) fn tension_jump(&self) -> (usize, f64) {
+        largest(&self.tensions).unwrap_or_default()
+    }
+
+    /// Cause as part of a sentence: "the jerk jumps".
+    pub(super) fn because(&self, planned: &Planned) -> String {
+        match &self.cause {
+            JumpCause::Path(2) => "the acceleration of the platform jumps".to_owned(),
+            JumpCause::Path(_) => "the jerk of the platform jumps".to_owned(),
+            JumpCause::Rule => format!("the rule `{}` jumps to other tensions", planned.rule.name()),
+            JumpCause::Limits(changes) => {
+                let (cable, limit, reached) = changes[0];
+                format!(
+                    "cable \"{}\" {} its {} tension under the rule `{}`",
+                    planned.robot.cables[cable].name,
+                    if reached { "reaches" } else { "leaves" },
+                    limit.name(),
+                    planned.rule.name()
+                )
+            }
+        }
+    }
+
+    /// Place and size as part of a sentence.
+    pub(super) fn told(&self, robot: &Robot) -> String {
+        let (what, (cable, jump), unit) = match (self.length_jumps(), self.rate_jumps()) {
+            _ if self.cause == JumpCause::Rule => ("tension", self.tension_jump(), "N"),
+            (Some(of), _) => ("length", of, "m"),
+            (None, Some(of)) => ("rate", of, "m/s"),
+            (None, None) => ("rate", (0, 0.0), "m/s"),
+        };
+        format!(
+            "at {} s the {what} of cable \"{}\" jumps by {} {unit}",
+            significant(self.time, 4),
+            robot.cables[cable].name,
+            significant(jump, 3)
+        )
+    }
+}
+
+/// Tensions at the platform [N].
+fn tensions(of: &InMotion) -> Vec<f64> {
+    of.equilibrium.cables.iter().map(|cable| cable.tension_platform).collect()
+}
+
+fn largest(of: &[f64]) -> Option<(usize, f64)> {
+    of.iter().copied().enumerate().max_by(|a, b| a.1.total_cmp(&b.1))
+}
+
+/// Samples on both sides of every time between two samples at which a tension of choice reaches a limit or leaves it; the
+/// first of each pair has the jump.
+///
+/// # Errors
+/// A time at which the cables do not hold the platform.
+pub(super) fn between(
+    along: &mut AlongPath,
+    planned: &Planned,
+    last: &Sample,
+    next: &Sample,
+    found: usize,
+) -> Result<Vec<(Sample, Option<LengthJump>)>> {
+    let mut samples = Vec::new();
+    // Tensions that are no matter of choice pass their limits smoothly.
+    if !planned.judged.choice || last.0.phase != next.0.phase || found >= MAX_CHANGES {
+        return Ok(samples);
+    }
+
+    if matches!(planned.rule, TensionRule::Middle | TensionRule::Stiffest) {
+        samples = of_rule(along, planned, last, next, MAX_DEPTH)?;
+    }
+    let mut last = samples.last().map_or_else(|| last.clone(), |(sample, _): &(Sample, _)| sample.clone());
+    for _ in 0..MAX_CHANGES_BETWEEN {
+        if last.1.at_limit == next.1.at_limit {
+            break;
+        }
+        let (mut from, mut to) = (last.clone(), next.clone());
+        for _ in 0..HALVINGS {
+            let time = 0.5 * (from.0.time + to.0.time);
+            let at = (Instant { time, is_row: false, ..from.0 }, in_motion(along, planned, time, Side::After)?);
+            if at.1.at_limit == last.1.at_limit { from = at } else { to = at }
+        }
+        for of in [&mut from, &mut to] {
+            of.0.is_row = false;
+        }
+
+        let jump = LengthJump::of(&from.1, &to.1, to.0.time, JumpCause::Limits(changes(&from.1, &to.1)), 0);
+        last = to.clone();
+        samples.push((from, Some(jump)));
+        samples.push((to, None));
+    }
+    Ok(samples)
+}
+
+/// Samples on both sides of every jump of a rule between two samples: where the tensions change as much within ever
+/// shorter times. Kinks and steep changes become smaller.
+fn of_rule(
+    along: &mut AlongPath,
+    planned: &Planned,
+    last: &Sample,
+    next: &Sample,
+    depth: usize,
+) -> Result<Vec<(Sample, Option<LengthJump>)>> {
+    let changes = |a: &Sample, b: &Sample| {
+        let pairs = tensions(&a.1).into_iter().zip(tensions(&b.1));
+        pairs.map(|(a, b)| (b - a).abs()).fold(0.0, f64::max)
+    };
+    let initial = changes(last, next);
+    if depth == 0 || initial < MIN_TENSION * tensions(&next.1).into_iter().fold(0.0, f64::max) || fits(last, next) {
+        return Ok(Vec::new());
+    }
+
+    let (mut from, mut to) = (last.clone(), next.clone());
+    for _ in 0..HALVINGS {
+        let time = 0.5 * (from.0.time + to.0.time);
+        let at = (Instant { time, is_row: false, ..from.0 }, in_motion(along, planned, time, Side::After)?);
+        if changes(&from, &at) > changes(&at, &to) {
+            to = at
+        } else {
+            from = at
+        }
+        if changes(&from, &to) < LEFT * initial {
+            return Ok(Vec::new());
+        }
+    }
+    for of in [&mut from, &mut to] {
+        of.0.is_row = false;
+    }
+    let mut found = of_rule(along, planned, last, &from, depth - 1)?;
+    let after = of_rule(along, planned, &to, next, depth - 1)?;
+    let jump = LengthJump::of(&from.1, &to.1, to.0.time, JumpCause::Rule, 0);
+    found.push((from, Some(jump)));
+    found.push((to, None));
+    found.extend(after);
+    Ok(found)
+}
+
+/// True if the lengths change between two samples as their rates say: by the trapezoidal rule.
+fn fits(last: &Sample, next: &Sample) -> bool {
+    let time = next.0.time - last.0.time;
+    let rates = last.1.length_rates.iter().zip(&next.1.length_rates);
+    let ways = lengths(&last.1).into_iter().zip(lengths(&next.1)).map(|(a, b)| b - a);
+    rates.zip(ways).all(|((a, b), way)| (way - 0.5 * time * (a + b)).abs() < MIN_WAY)
+}
+
+/// Limits that are left and reached between two samples.
+fn changes(before: &InMotion, after: &InMotion) -> Vec<(usize, Limit, bool)> {
+    let pairs = before.at_limit.iter().zip(&after.at_limit).enumerate();
+    let each = pairs
+        .filter(|(_, (before, after))| before != after)
+        .flat_map(|(i, (before, after))| [before.map(|limit| (i, limit, false)), after.map(|limit| (i, limit, true))]);
+    each.flatten().collect()
+}
