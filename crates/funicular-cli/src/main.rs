@@ -8,6 +8,7 @@ mod number_table;
 mod output;
 mod pose_csv;
 mod progress;
+mod read_files;
 mod robot_file;
 mod shell;
 mod sweep_run;

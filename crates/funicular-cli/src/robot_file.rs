@@ -1,6 +1,7 @@
 //! Reading of the robot file's text. The study crate interprets it.
 
 use crate::args::ChangeArgs;
+use crate::read_files;
 use anyhow::{Context, Result, bail};
 use funicular_files::{Guard, beside};
 use funicular_study::request::RobotText;
@@ -19,26 +20,38 @@ pub(crate) fn read(path: Option<&Path>, changes: &ChangeArgs) -> Result<RobotTex
         Some(path) if path.as_os_str() == "-" => {
             let name = "<stdin>".to_owned();
             let text = limited(io::stdin().lock(), &name)?;
-            let text = robot_file::with_meshes(&name, text, beside(Path::new("")))?;
+            let text = with_meshes(&name, text, Path::new(""))?;
             (name, text)
         }
         Some(path) => {
             let name = path.display().to_string();
             let text = limited(open(path, &name)?, &name)?;
-            let text = robot_file::with_meshes(&name, text, beside(path.parent().unwrap_or(Path::new(""))))?;
+            read_files::note("the robot file", path);
+            let text = with_meshes(&name, text, path.parent().unwrap_or(Path::new("")))?;
             (name, text)
         }
     };
     Ok(RobotText { name, text, set: changes.set.clone() })
 }
 
-/// Guard of a command's files that knows the robot file, also if it is standard input.
+/// Text of a robot file in this folder with the meshes that it names.
+fn with_meshes(name: &str, text: String, folder: &Path) -> Result<String> {
+    let read = beside(folder);
+    robot_file::with_meshes(name, text, |mesh| {
+        read_files::note("the mesh", &folder.join(mesh));
+        read(mesh)
+    })
+}
+
+/// Guard of a command's files that knows the robot file, also if it is standard input, and what has been read by the names
+/// in other files.
 pub(crate) fn guard(path: Option<&Path>) -> Guard {
     let mut guard = Guard::default();
     if let Some(path) = path {
         let path = if path.as_os_str() == "-" { Path::new("/dev/stdin") } else { path };
         guard.reads("the robot file", path);
     }
+    read_files::tell(&mut guard);
     guard
 }
 

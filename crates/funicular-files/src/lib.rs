@@ -35,6 +35,8 @@ mod uncertainty;
 mod vti;
 mod workspace;
 
+/// Checksum of a file: the CRC-32 of a journal's frames.
+pub use crc32fast::Hasher as Checksum;
 pub use guard::Guard;
 pub use merge::merge;
 pub use mesh_files::beside;

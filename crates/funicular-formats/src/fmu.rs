@@ -56,6 +56,7 @@ struct Description {
     identifier: &'static str,
     units: BTreeSet<String>,
     step: f64,
+    tolerance: f64,
     inputs: Vec<(String, String)>,
     outputs: Vec<(String, String)>,
     states: Vec<String>,
@@ -121,7 +122,7 @@ pub fn texts(of: &UnitModel) -> Result<UnitTexts> {
         outputs: outputs.len(),
         states,
         matrices: matrices.map(|(name, matrix)| sparse(name, matrix)).into(),
-        nominals: nominals(of.space),
+        nominals: nominals(of.space, &of.inputs),
     };
     let description = Description {
         name: names("robot", std::iter::once(of.robot), &[], &mut Vec::new()).remove(0),
@@ -131,7 +132,8 @@ pub fn texts(of: &UnitModel) -> Result<UnitTexts> {
         identifier: IDENTIFIER,
         units: units.collect(),
         step: 1.0 / (STEPS_PER_PERIOD * of.below_hz),
-        nominals: nominals(of.space),
+        tolerance: TOLERANCE,
+        nominals: nominals(of.space, &of.inputs),
         first_state: signals.len() + outputs.len(),
         inputs: signals,
         outputs,
@@ -140,23 +142,46 @@ pub fn texts(of: &UnitModel) -> Result<UnitTexts> {
     Ok(UnitTexts { description: description.render()? + "\n", source: source.render()? + "\n", warnings })
 }
 
-/// Sizes of the states under an input of one: integrators compare their errors with them, and the states of a robot under a
-/// newton are far below one. A state without an input of its own has the size of the states that drive it.
-fn nominals(space: &StateSpace) -> Vec<f64> {
+/// Relative tolerance of the default experiment, which importers take unless told otherwise. With 1e-5, the default of many,
+/// a lightly damped mode gains or loses a tenth in a hundred periods.
+const TOLERANCE: f64 = 1e-8;
+
+/// Part of the largest size that a state has under one of the inputs below which an input does not decide about its size: it
+/// hardly moves the state.
+const MIN_SHARE: f64 = 1e-3;
+
+/// Usual size of a command by its unit: a millimetre or ten newtons move a robot as far.
+fn usual_size(unit: &str) -> f64 {
+    match unit {
+        "N" | "N m" => 10.0,
+        "m" | "rad" => 1e-3,
+        _ => 1.0,
+    }
+}
+
+/// Sizes of the states under a usual size of an input: integrators compare their errors with them. Of several inputs that
+/// which moves the state least decides, because a simulation may use it alone. A state without an input of its own has the
+/// size of the states that drive it.
+fn nominals(space: &StateSpace, inputs: &[(String, String)]) -> Vec<f64> {
     let states = space.a.nrows();
     let rates: Vec<f64> = (0..states).map(|i| space.a.row(i).amax()).collect();
-    let mut sizes: Vec<f64> =
-        (0..states).map(|i| if rates[i] > 0.0 { space.b.row(i).amax() / rates[i] } else { 0.0 }).collect();
-    let driven = |i: usize| space.a.row(i).iter().zip(&sizes).map(|(a, size)| (a * size).abs()).fold(0.0, f64::max);
-    let by_others: Vec<f64> = (0..states).map(|i| if rates[i] > 0.0 { driven(i) / rates[i] } else { 0.0 }).collect();
-
-    for (size, other) in sizes.iter_mut().zip(by_others) {
-        *size = size.max(other);
-        if *size == 0.0 {
-            *size = 1.0;
-        }
-    }
-    sizes
+    let under = |j: usize| -> Vec<f64> {
+        let size = usual_size(&inputs[j].1);
+        let own = |i: usize| if rates[i] > 0.0 { size * space.b[(i, j)].abs() / rates[i] } else { 0.0 };
+        let mut sizes: Vec<f64> = (0..states).map(own).collect();
+        let driven = |i: usize| space.a.row(i).iter().zip(&sizes).map(|(a, size)| (a * size).abs()).fold(0.0, f64::max);
+        let by_others: Vec<f64> =
+            (0..states).map(|i| if rates[i] > 0.0 { driven(i) / rates[i] } else { 0.0 }).collect();
+        sizes.iter_mut().zip(by_others).for_each(|(size, other)| *size = size.max(other));
+        sizes
+    };
+    let each: Vec<Vec<f64>> = (0..inputs.len()).map(under).collect();
+    let of_state = |i: usize| {
+        let most = each.iter().map(|sizes| sizes[i]).fold(0.0, f64::max);
+        let deciding = each.iter().map(|sizes| sizes[i]).filter(|size| *size >= MIN_SHARE * most);
+        if most > 0.0 { deciding.fold(most, f64::min) } else { 1.0 }
+    };
+    (0..states).map(of_state).collect()
 }
 
 fn sparse(name: &'static str, matrix: &DMat) -> SparseMatrix {
@@ -231,6 +256,23 @@ mod tests {
         let guid = document.root_element().attribute("guid").unwrap();
         assert!(texts.source.contains(guid) && texts.source.contains("a < b * / _"), "{}", texts.source);
         assert!(texts.source.contains("{ 0, 1, 2e0 }, { 1, 0, -2e0 }, { 1, 1, -1e-1 }"), "{}", texts.source);
+    }
+
+    /// The size of a state is that under a millimetre or ten newtons, whichever moves it less; an input that hardly moves it
+    /// does not count.
+    #[test]
+    fn nominals_are_those_of_usual_commands() {
+        let mut space = model();
+        space.b = DMat::from_row_slice(2, 3, &[0.0, 0.0, 0.0, 1.0, 50.0, 1e-9]);
+        let input = |name: &str, unit: &str| (name.to_owned(), unit.to_owned());
+        let nominals = nominals(&space, &[input("fz", "N"), input("length:1", "m"), input("mx", "N m")]);
+        // A step of 1 mm moves both states by 50 · 1e-3 / 2.
+        assert!(nominals.iter().all(|nominal| (nominal - 0.025).abs() < 1e-12), "{nominals:?}");
+        let texts = texts(&unit(&space, "robot")).unwrap();
+        let document = roxmltree::Document::parse(&texts.description).unwrap();
+        let experiment = document.descendants().find(|node| node.has_tag_name("DefaultExperiment")).unwrap();
+        let tolerance: f64 = experiment.attribute("tolerance").unwrap().parse().unwrap();
+        assert!(tolerance <= 1e-8);
     }
 
     #[test]

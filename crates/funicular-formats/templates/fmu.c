@@ -58,7 +58,7 @@ typedef struct { int row, column; double value; } Entry;
 {%- for matrix in matrices %}
 static const Entry {{ matrix.name }}[] = { {% for e in matrix.entries %}{ {{ e.0 }}, {{ e.1 }}, {{ e.2|fmt("{:e}") }} }, {% endfor %}{ 0, 0, 0.0 } };
 {%- endfor %}
-/* Sizes of the states under an input of one, for the tolerances of integrators. */
+/* Sizes of the states under usual inputs (1 mm, 10 N), for the tolerances of integrators. */
 static const double NOMINALS[] = { {% for value in nominals %}{{ value|fmt("{:e}") }}, {% endfor %}};
 enum { COUNT_A = sizeof A / sizeof *A, COUNT_B = sizeof B / sizeof *B, COUNT_C = sizeof C / sizeof *C, COUNT_D = sizeof D / sizeof *D };
 

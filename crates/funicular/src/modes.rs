@@ -23,7 +23,7 @@ pub use lowest::{LowestError, PlatformModeError, Search, Wanted, doubled, lowest
 pub use mac::mac;
 pub use release::Release;
 pub use rigid_cables::{RigidCablesError, with_rigid_cables};
-pub use stretch::caveat_of_stretch;
+pub use stretch::{StretchOfMode, caveat_of_stretch, stretch_of_platform};
 
 pub use certificate::{MAX_MODES, TooMany, check_count, damped_partners};
 

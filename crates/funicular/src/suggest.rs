@@ -104,10 +104,36 @@ pub fn visible(text: &str) -> String {
 /// ```
 pub fn shown(message: &str) -> String {
     let line = |line: &str| {
-        let words: Vec<String> = line.split(' ').map(|word| cut(word, WORD)).collect();
+        let words: Vec<String> = line.split(' ').map(|word| cut(&with_exponents(word), WORD)).collect();
         cut(&words.join(" "), LINE)
     };
     visible(message).split('\n').map(line).collect::<Vec<_>>().join("\n")
+}
+
+/// Maximum number of characters of a number without an exponent: with every digit, 1e-9 has fewer.
+const NUMBER: usize = 27;
+
+/// Word in which very small and very large numbers have an exponent instead of hundreds of zeros.
+fn with_exponents(word: &str) -> String {
+    if word.len() <= NUMBER {
+        return word.to_owned();
+    }
+    let is_part = |c: char| c.is_ascii_digit() || c == '.';
+    let mut out = String::new();
+    let mut rest = word;
+    while let Some(from) = rest.find(|c: char| c.is_ascii_digit()) {
+        let (before, digits) = rest.split_at(from);
+        let until = digits.find(|c: char| !is_part(c)).unwrap_or(digits.len());
+        // A full stop ends the sentence.
+        let number = digits[..until].trim_end_matches('.');
+        out.push_str(before);
+        match number.parse::<f64>() {
+            Ok(value) if number.len() > NUMBER && value.is_finite() => out.push_str(&format!("{value:e}")),
+            _ => out.push_str(number),
+        }
+        rest = &digits[number.len()..];
+    }
+    out + rest
 }
 
 /// Text without its middle if it has more than `maximum` characters; `kept` remain at either end.
@@ -128,6 +154,20 @@ fn cut(text: &str, (maximum, kept): (usize, usize)) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn numbers_with_hundreds_of_zeros_have_an_exponent() {
+        let message = |x: f64| format!("it is {x} m (x={x}): give more than {x}.");
+        for x in [1e-300, 2.5e-30, -1e100, 1.234e-40] {
+            assert_eq!(shown(&message(x)), format!("it is {x:e} m (x={x:e}): give more than {x:e}."));
+        }
+        for x in [1e-9, 0.1 + 0.2, 1e15, 1.234_567_890_123_456_7e-7] {
+            assert_eq!(shown(&message(x)), message(x));
+        }
+        // Digits that are no number, and a sentence that ends in one.
+        let text = format!("{}.toml v1.2.3.{}", "7".repeat(20), "1.2".repeat(12));
+        assert_eq!(shown(&text), text);
+    }
 
     #[test]
     fn an_earlier_name_is_answered_with_the_name_of_today() {

@@ -7,13 +7,14 @@ use crate::args::{Cli, DrawArgs, OutputArgs, SimulateArgs};
 use crate::number_table;
 use crate::output::{FigureSink, Printed};
 use crate::progress::TerminalProgress;
+use crate::read_files;
 use crate::table::{Table, counted, significant};
-use anyhow::{Context, Result, anyhow};
+use anyhow::{Context, Result};
 use funicular_files::Begin;
 use funicular_files::Guard;
 use funicular_pages::figures;
 use funicular_study::Cancelled;
-use funicular_study::analyses::simulate::{self, ColumnError, Peak, RowNames, Simulated, SimulatedRow};
+use funicular_study::analyses::simulate::{self, ColumnError, Peak, RowNames, Simulated, SimulatedRow, StretchLossRow};
 use funicular_study::request::{Request, Scenario, SimulateRequest};
 use funicular_study::wording::{Words, worded};
 use partial::PartialRows;
@@ -40,8 +41,12 @@ pub(super) fn scenario(path: &Path) -> Result<Scenario> {
     let shown = path.display();
     let text = fs::read_to_string(path).with_context(|| format!("cannot read the scenario {shown}"))?;
     let folder = path.parent().unwrap_or(Path::new("")).to_owned();
-    let table = |name: &str| number_table::read(&folder.join(name), "the table", |_| Ok(()));
-    simulate::scenario_from_toml(&text, table).map_err(|error| anyhow!("the scenario {shown}: {error}"))
+    let table = |name: &str| {
+        let path = folder.join(name);
+        read_files::note("the table", &path);
+        number_table::read(&path, "the table", |_| Ok(()))
+    };
+    simulate::scenario_from_toml(&text, table).with_context(|| format!("the scenario {shown}"))
 }
 
 /// Runs `simulate`. Rows of a CSV file are written as they become ready.
@@ -111,13 +116,18 @@ impl Printed for Simulated {
             let _ = writeln!(text, "{}", nearest.in_words());
         }
         let _ = write!(text, "\n{table}\n{} of {} shown.\n", shown.len(), counted(self.rows.len(), "row"));
+        if !self.stretch_losses.is_empty() {
+            let losses = Table::of(&StretchLossRow::columns(), &self.stretch_losses);
+            let _ =
+                write!(text, "\nDamping ratios by the loss of the stretch, by the robot file and in time\n{losses}");
+        }
         let _ = write!(text, "\nLargest tensions\n{}", Table::of(&Peak::columns(), &self.peaks));
         if self.errors.is_empty() {
             let _ = writeln!(text, "\nThe error is not known: the run was not repeated with a finer mesh.");
         } else {
             let _ = write!(
                 text,
-                "\nDifference from a run with a finer mesh and tolerance\n{}",
+                "\nErrors, at most, by a run with a finer mesh and tolerance\n{}",
                 Table::of(&ColumnError::columns(), &self.errors)
             );
         }

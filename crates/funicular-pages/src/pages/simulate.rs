@@ -75,7 +75,7 @@ pub fn page(found: &Simulated, command_line: String) -> anyhow::Result<String> {
         spectrum: of_motion.map(|of| spectrum(&of)),
         peaks: PageTable::of("table-peaks", "Largest tensions of each cable.", &Peak::columns(), &found.peaks),
         errors: (!found.errors.is_empty()).then(|| {
-            let caption = "Difference of each column from a run with a finer mesh and tolerance.";
+            let caption = "Bound of the error of each column, by a run with a finer mesh and tolerance.";
             PageTable::of("table-errors", caption, &ColumnError::columns(), &found.errors)
         }),
         found,

@@ -17,7 +17,7 @@ pub use spectrum::MotionSpectrum;
 use super::found;
 use super::shared::Origin;
 use crate::at_rest::{self, AtRest};
-use crate::columns::{ResultTable, Tabled};
+use crate::columns::{Columns, ResultTable, Tabled, column};
 use crate::error::{Cancelled, NoSolution};
 use crate::request::{PointValue, SimulateRequest};
 use crate::table::Column;
@@ -28,7 +28,9 @@ use anyhow::{Result, anyhow, bail};
 use error::errors;
 use funicular::clearance::Surroundings;
 use funicular::robot::{PlatformMotion, Robot};
-use funicular::simulation::{ElementMesh, Simulation, SimulationError, SimulationSettings, StepCounts};
+use funicular::simulation::{
+    ElementMesh, LossOfMode, RestFault, Simulation, SimulationError, SimulationSettings, StepCounts,
+};
 use keeping::STATE_ROWS;
 use serde::Serialize;
 
@@ -63,9 +65,12 @@ pub struct Simulated {
     pub nearest: Option<NearestRow>,
     /// What the books of the energy are off by, at most [J].
     pub energy_defect_j: f64,
-    /// True if slack ropes make the history depend on the mesh, so that its peaks are statistics.
+    /// True if slack ropes with mass make the history depend on the mesh, so that its peaks are statistics.
     pub is_statistical: bool,
-    /// Difference of each column from a finer run; absent without one.
+    /// Loss of the stretch in each mode of the platform at the start; absent without a loss factor.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub stretch_losses: Vec<StretchLossRow>,
+    /// Bound of the error of each column, from its difference from a finer run; absent without one.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub errors: Vec<ColumnError>,
     /// Largest tensions, and root mean squares, of this run and of the finer one.
@@ -122,6 +127,46 @@ impl NearestRow {
     }
 }
 
+/// Loss of the stretch of ropes in one mode of the platform. In time it is a damping time, which has the loss factor at one
+/// frequency only.
+#[derive(Serialize)]
+pub struct StretchLossRow {
+    pub frequency_hz: f64,
+    /// Share of the stretch of the ropes in the energy of deformation.
+    pub stretch_share: f64,
+    /// Damping ratio by the loss factors and damping times of the robot file.
+    pub damping_ratio: f64,
+    /// Damping ratio in this run.
+    pub damping_ratio_in_time: f64,
+}
+
+impl StretchLossRow {
+    fn of(loss: &LossOfMode) -> Self {
+        let LossOfMode { frequency_hz, stretch_share, ratio, ratio_in_time } = *loss;
+        Self { frequency_hz, stretch_share, damping_ratio: ratio, damping_ratio_in_time: ratio_in_time }
+    }
+
+    /// Columns of the table of losses.
+    pub fn columns() -> Columns<Self> {
+        Columns::new([
+            column("frequency_hz", "Hz", "natural frequency of the platform on massless ropes", |row: &Self| {
+                row.frequency_hz
+            })
+            .significant("mode", "Hz", 4),
+            column("stretch_share", "1", "share of the stretch in the energy of deformation", |row: &Self| {
+                row.stretch_share
+            })
+            .significant("stretch", "", 2),
+            column("damping_ratio", "1", "damping ratio by the losses of the robot file", |row: &Self| {
+                row.damping_ratio
+            })
+            .significant("ratio", "", 2),
+            column("damping_ratio_in_time", "1", "damping ratio in this run", |row: &Self| row.damping_ratio_in_time)
+                .significant("in time", "", 2),
+        ])
+    }
+}
+
 /// Cable that failed.
 #[derive(Serialize)]
 pub struct CutRow {
@@ -158,6 +203,7 @@ pub fn run_with(
     let course = Course { at_rest: &vibrating, events: &events, times: &times, points: &request.point };
 
     let first = course.history(&settings, watch, keeper, begun)?;
+    let mut without_finer = None;
     let finer = if request.once || first.rows.len() < times.len() {
         None
     } else {
@@ -166,11 +212,23 @@ pub fn run_with(
             tolerance: FINER * settings.tolerance,
             ..settings.clone()
         };
-        // A run that is stopped here still has its rows.
-        let finer = course.history(&settings, watch, &mut NothingKept, None);
-        finer.ok().filter(|finer| finer.rows.len() == times.len())
+        // A run that is stopped or fails here still has the rows of the first one.
+        match course.history(&settings, watch, &mut NothingKept, None) {
+            Ok(finer) => Some(finer).filter(|finer| finer.rows.len() == times.len()),
+            Err(error) if error.is::<Cancelled>() => None,
+            Err(error) => {
+                without_finer = Some(format!(
+                    "the error is not known, because the run with a finer mesh and tolerance failed: {error:#}; the rows \
+                     of the first run may be as wrong: give a larger ⟪tolerance_m⟫, or other ⟪elements⟫"
+                ));
+                None
+            }
+        }
     };
-    Ok(found(&at_rest, request, first, finer.as_ref()))
+    let idle = events::idle(&vibrating, &events.list, &events.labels, &first.cuts);
+    let mut found = found(&at_rest, request, first, finer.as_ref());
+    found.warnings.extend(idle.into_iter().chain(without_finer));
+    Ok(found)
 }
 
 /// Rows of one run.
@@ -180,6 +238,7 @@ struct History {
     slack: Vec<SlackRow>,
     cuts: Vec<CutRow>,
     nearest: Option<NearestRow>,
+    losses: Vec<StretchLossRow>,
     counts: StepCounts,
 }
 
@@ -308,6 +367,7 @@ impl History {
         Self {
             slack: slack.collect(),
             cuts: simulation.cuts().iter().map(|(i, t_s)| CutRow { cable: name(*i), t_s: *t_s }).collect(),
+            losses: simulation.losses().iter().map(StretchLossRow::of).collect(),
             counts: simulation.counts(),
             nearest: None,
             rows,
@@ -318,8 +378,12 @@ impl History {
 
 fn found(at_rest: &AtRest, request: &SimulateRequest, first: History, finer: Option<&History>) -> Simulated {
     let RowNames { cables, points, .. } = RowNames::of(&at_rest.robot, &request.point);
-    let is_statistical = !first.slack.is_empty();
-    let (errors, peaks) = errors(&cables, &first.rows, finer.map(|finer| &finer.rows[..]));
+    let has_mass = |name: &str| {
+        at_rest.robot.cables.iter().any(|cable| cable.name == name && cable.material.mass_per_length > 0.0)
+    };
+    let is_statistical = first.slack.iter().any(|slack| has_mass(&slack.cable));
+    let mesh = ElementMesh { elements: request.elements, degree: request.degree };
+    let (errors, peaks) = errors(&cables, &first.rows, finer.map(|finer| &finer.rows[..]), mesh);
     let reached = first.rows.last().map_or(0.0, |row| row.t_s);
     let is_whole = reached >= request.duration_s * (1.0 - 1e-12);
     let mut warnings: Vec<String> = at_rest.implausible().collect();
@@ -342,7 +406,7 @@ fn found(at_rest: &AtRest, request: &SimulateRequest, first: History, finer: Opt
     }
     if is_statistical {
         warnings.push(
-            "ropes go slack: from the first time on at which one is taut again the history depends on the mesh, and \
+            "ropes with mass go slack: from the first time on at which one is taut again the history depends on the mesh, and \
              peaks and root mean squares of the tensions are statistics, whose spread `peaks` shows"
                 .to_owned(),
         );
@@ -362,6 +426,7 @@ fn found(at_rest: &AtRest, request: &SimulateRequest, first: History, finer: Opt
         cuts: first.cuts,
         nearest: first.nearest,
         is_statistical,
+        stretch_losses: first.losses,
         errors,
         peaks,
         cables,
@@ -407,7 +472,10 @@ impl ScenarioEvents {
             SimulationError::Event { event, fault } => {
                 anyhow!("{} of ⟪scenario⟫: {fault}", self.labels.get(event).map_or("an event", String::as_str))
             }
-            SimulationError::NoRest => NoSolution(error.to_string()).into(),
+            SimulationError::NoRest(RestFault::Coarse { .. } | RestFault::NotFound) => {
+                NoSolution(format!("{error} (⟪elements⟫)")).into()
+            }
+            SimulationError::NoRest(_) => NoSolution(error.to_string()).into(),
             SimulationError::NoFrequency => anyhow!("{error} (⟪damping_frequency_hz⟫)"),
             SimulationError::TooFast { .. } => anyhow!("{error} (⟪tolerance_m⟫, ⟪elements⟫, ⟪stretch_damping_time_s⟫)"),
             other => anyhow!("{other}"),

@@ -98,7 +98,7 @@ function errorOf({ errors, is_statistical: isStatistical }) {
   const tension = Math.max(...errors.map(({ relative }) => relative ?? 0));
   const slack = isStatistical ? " Cables go slack: what follows is one of many possible histories." : "";
   return (
-    ` A run with a finer mesh differs by at most ${short(1000 * position.largest, 2)} mm and ` +
+    ` The error, by a run with a finer mesh, is at most ${short(1000 * position.largest, 2)} mm and ` +
     `${short(100 * tension, 2)} % of a tension.${slack}`
   );
 }

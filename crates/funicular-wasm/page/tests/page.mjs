@@ -1106,7 +1106,7 @@ test("a simulated release and a simulated stop move the robot as the program say
   await page.fill("#simulate-value", "1");
   await page.fill("#simulate-time", "0.3");
   await page.click("#simulate-form button:first-of-type");
-  await page.waitForFunction(() => /A run with a finer mesh/.test(document.getElementById("simulate").textContent));
+  await page.waitForFunction(() => /run with a finer mesh/.test(document.getElementById("simulate").textContent));
   const place = () => page.evaluate(() => window.funicular.view.platform.position.toArray().join());
   const start = await place();
   await page.waitForFunction((at) => window.funicular.view.platform.position.toArray().join() !== at, start);

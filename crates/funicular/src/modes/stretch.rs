@@ -1,13 +1,54 @@
 //! Modes whose stiffness is stretch of the ropes, and the loss that they lack.
 
-use super::Mode;
+use super::{Mode, below};
+use crate::cable::CableModel;
+use crate::dynamics::{Dynamics, Linearisation};
+use crate::math::Vec3;
 use crate::robot::Robot;
+use crate::statics::{CableState, Equilibrium};
+use std::f64::consts::TAU;
 
 /// Minimum share of the stretch of ropes without loss in a mode of which the caveat tells.
 const MOSTLY_STRETCH: f64 = 0.5;
 
 /// Damping ratio from which on something else damps such a mode: what a loss factor of 0.01 gives.
 const DAMPED_OTHERWISE: f64 = 0.005;
+
+/// Limit below which the modes of the platform are sought [Hz]: far above those of any robot.
+const MAX_HZ: f64 = 1e5;
+
+/// Stretch of the ropes in one mode of the platform.
+#[derive(Debug, Clone, PartialEq)]
+pub struct StretchOfMode {
+    /// Natural frequency [Hz].
+    pub frequency_hz: f64,
+    /// Share of the stretch of each cable in the energy of deformation, in file order.
+    pub shares: Vec<f64>,
+}
+
+/// Modes of the platform on massless ropes, lowest first, with the stretch of each cable: its tension changes by the same
+/// amount all along it, `δT = t·K δp`, which stretches it by `δT L₀/EA`. Empty if the robot has no such modes.
+pub fn stretch_of_platform(robot: &Robot, equilibrium: &Equilibrium) -> Vec<StretchOfMode> {
+    let linearisation = Linearisation { cable_model: CableModel::CatenaryStatic, ..Linearisation::default() };
+    let Ok(dynamics) = Dynamics::about(robot, equilibrium, linearisation, MAX_HZ) else { return Vec::new() };
+    let of_mode = |mode: &Mode| {
+        let [x, y, z, a, b, c] = mode.shape;
+        let (translation_w, turn_w) = (Vec3::new(x, y, z), Vec3::new(a, b, c));
+        let deformation = (TAU * mode.frequency_hz).powi(2) * mode.modal_mass;
+        let share = |(state, cable): (&CableState, &crate::robot::Cable)| {
+            let size = state.tension_platform;
+            let Some(tangent_w) = state.tangent_w().filter(|_| size > 0.0) else { return 0.0 };
+            let along_w = state.force_on_platform_w / size;
+            let moved_w = translation_w + turn_w.cross(&state.lever_w);
+            let change = along_w.dot(&(tangent_w * moved_w));
+            let compliance = state.unstrained_length / cable.material.axial_stiffness;
+            (change * change * compliance / deformation).min(1.0)
+        };
+        let shares = equilibrium.cables.iter().zip(&robot.cables).map(share).collect();
+        StretchOfMode { frequency_hz: mode.frequency_hz, shares }
+    };
+    below(&dynamics, MAX_HZ).modes.iter().filter(|mode| mode.modal_mass > 0.0).map(of_mode).collect()
+}
 
 /// Caveat about the first mode of the platform whose stiffness is mostly stretch of ropes without loss and that hardly
 /// anything else damps; it names the ropes. `damping` has the damping ratio of each mode, and `platform_share` is the

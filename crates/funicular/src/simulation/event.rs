@@ -117,6 +117,12 @@ pub enum EventFault {
         /// Given duration [s].
         duration: f64,
     },
+    /// A push without force and moment.
+    #[error("it pushes with no force and no moment: give `force_n` or `moment_n_m`")]
+    NoPush,
+    /// A command that names no cable, or changes none.
+    #[error("it changes nothing: give the cables by their names, with a change of length or a tension for each")]
+    NoCable,
     /// The rise of a push is longer than half of it.
     #[error("its rise takes {rise} s at each end: give at most half of its duration of {duration} s")]
     Rise {
@@ -314,6 +320,12 @@ impl SimulationEvent {
             Self::Push { duration, rise, .. } if !(0.0..=0.5 * duration).contains(rise) => {
                 Err(EventFault::Rise { rise: *rise, duration: *duration })
             }
+            Self::Push { force_w, moment_w, .. } if force_w.norm() == 0.0 && moment_w.norm() == 0.0 => {
+                Err(EventFault::NoPush)
+            }
+            Self::Ramp { changes, .. } if changes.iter().all(|change| *change == 0.0) => Err(EventFault::NoCable),
+            Self::Tension { tensions, .. } if tensions.iter().all(Option::is_none) => Err(EventFault::NoCable),
+            Self::Stop { cables, .. } if cables.is_empty() => Err(EventFault::NoCable),
             Self::Push { force_w, moment_w, point_p, .. } => {
                 let load = crate::robot::Load { force_w: *force_w, moment_w: *moment_w, point_p: *point_p };
                 Ok(load.check(&robot.platform.motion)?)

@@ -236,15 +236,16 @@ impl Feed {
         self.is_locked = self.is_locked || self.has_integral() || self.motor.is_none_or(|motor| motor.servo.is_none());
     }
 
-    /// Lets the last station go after the start has been found; `forces` are those at rest. A motor with constant `torque`
-    /// holds the tension `exit` of the exit point or that at the drum; `lengths` are the commanded length and that of the
-    /// last station.
-    pub(super) fn let_go(&mut self, forces: &FeedForces, exit: f64, torque: bool, lengths: [f64; 2]) {
-        if let (Some(_), true, Some(last)) = (self.motor, self.follows_command(), forces.needed.last()) {
-            self.bias = -last / self.stretch;
+    /// Lets the last station go after the start has been found. `needed` is the force that it needs there from all that is
+    /// attached to it, the free span included where the drum is at the anchor [N]; `forces` are those of the feed alone. A
+    /// motor balances this force by itself, and a winch without inertia that pulls with a constant `torque` holds the
+    /// tension at its drum. `lengths` are the commanded length and that of the last station.
+    pub(super) fn let_go(&mut self, needed: f64, forces: &FeedForces, torque: bool, lengths: [f64; 2]) {
+        if self.motor.is_some() && self.follows_command() {
+            self.bias = -needed / self.stretch;
         }
         if torque && self.motor.is_none() {
-            let tension = forces.tension_drum.unwrap_or(exit);
+            let tension = forces.tension_drum.unwrap_or_else(|| tension_of(-needed, self.stretch_at(-needed)));
             let hold = WinchHold::Tension { from: 0.0, duration: 0.0, before: tension, after: tension };
             self.hold_tension(hold, lengths);
         }
@@ -259,6 +260,16 @@ impl Feed {
     /// True if the rope behind the last station follows a commanded length or tension.
     fn is_open(&self) -> bool {
         self.links.len() == self.masses.len()
+    }
+
+    /// Energy per unstrained length that rope on a drum at the exit point keeps [N]: that of the stretch with which it was
+    /// wound. Zero if rope lies between them.
+    fn stored_at_exit(&self) -> f64 {
+        let is_drum = match self.links.first() {
+            None => self.motor.is_some(),
+            Some(link) => matches!(link, FeedLink::Shaft(_)),
+        };
+        if is_drum { 0.5 * self.axial_stiffness * (self.stretch - 1.0).powi(2) } else { 0.0 }
     }
 
     /// True if a motor with a servo holds its place at rest, whatever the tension.
@@ -342,6 +353,10 @@ impl Feed {
             coupling: vec![0.0; count],
             ..FeedForces::default()
         };
+        // The free span is the only neighbour of a drum at the exit point, and the rope that enters it brings its stretch.
+        let stored = self.stored_at_exit();
+        out.needed[0] -= stored;
+        out.power += stored * v[0];
         for j in 0..self.links.len() {
             let is_last = j + 1 == count;
             let tension = if is_last { self.hold.tension(time) } else { None };

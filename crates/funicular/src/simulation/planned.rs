@@ -51,6 +51,14 @@ impl CommandedLengths {
         self.windings[cable].at(time)
     }
 
+    /// True if a cable's length changes after a time [s].
+    pub fn moves_after(&self, cable: usize, time: f64) -> bool {
+        let winding = &self.windings[cable];
+        let now = winding.at(time).value;
+        let later = winding.knots(PARTS).into_iter().filter(|knot| *knot > time);
+        later.into_iter().any(|knot| (winding.at(knot).value - now).abs() > 0.0)
+    }
+
     /// Times [s] between which every length is a cubic polynomial, rising; none if no length changes. The first is the
     /// beginning of the first change, the last the end of the last one.
     pub fn knots(&self) -> Vec<f64> {

@@ -6,7 +6,7 @@ use super::esdirk::{StepCounts, Stepper};
 use super::event::{CutAt, EventFault, Faulty, SimulationEvent};
 use super::planned::CommandedLengths;
 use super::rope::WoundLength;
-use super::start::{SimulationError, SimulationSettings, at_rest};
+use super::start::{LossOfMode, SimulationError, SimulationSettings, at_rest};
 use super::system::{BODY, MotionNumbers, RopeEnd};
 use super::winding::Winding;
 use crate::math::{Rotation, Vec3, Vec6};
@@ -91,6 +91,7 @@ pub struct Simulation {
     stepper: Stepper,
     settings: SimulationSettings,
     names: Vec<String>,
+    losses: Vec<LossOfMode>,
     /// Sudden events that are to come, by time: index and event.
     sudden: Vec<(usize, SimulationEvent)>,
     /// Cables that fail at a tension: index of the event, cable, tension [N].
@@ -124,13 +125,14 @@ impl Simulation {
         let CommandedLengths { windings, order } = CommandedLengths::new(robot, rest, events, duration)?;
         let mut breaks: Vec<f64> = windings.iter().flat_map(Winding::breaks).collect();
         let holds_tension = |i: usize| events.iter().any(|event| event.tension_of(i).is_some());
-        let stepper = at_rest(robot, rest, settings, (windings, &holds_tension), duration)?;
+        let (stepper, losses) = at_rest(robot, rest, settings, (windings, &holds_tension), duration)?;
 
         let (count, size) = (robot.cables.len(), stepper.system.size);
         let mut simulation = Self {
             stepper,
             settings: settings.clone(),
             names: robot.cables.iter().map(|cable| cable.name.clone()).collect(),
+            losses,
             sudden: Vec::new(),
             fuses: Vec::new(),
             cuts: Vec::new(),
@@ -484,6 +486,12 @@ impl Simulation {
     /// Cables that failed so far: index and time [s].
     pub fn cuts(&self) -> &[(usize, f64)] {
         &self.cuts
+    }
+
+    /// Loss of the stretch in each mode of the platform at the start, lowest frequency first; empty if no rope has a loss
+    /// factor.
+    pub fn losses(&self) -> &[LossOfMode] {
+        &self.losses
     }
 
     /// Steps so far.

@@ -6,14 +6,16 @@ use super::body::MovingBody;
 use super::esdirk::Stepper;
 use super::event::EventFault;
 use super::far_end::FarEnd;
+use super::resting::RestingRope;
 use super::rope::RopeMesh;
 use super::side_by_side::RopePack;
 use super::system::{BODY, MotionNumbers, MovingSupport, RopeEnd, System};
 use super::winding::Winding;
+use crate::catenary::space::HangingCable;
 use crate::math::Vec3;
-use crate::modes;
+use crate::modes::{self, StretchOfMode};
 use crate::robot::{Cable, Control, Damping, Material, Robot, Winch};
-use crate::statics::{CableState, Equilibrium};
+use crate::statics::{CableState, Equilibrium, Stability};
 use std::f64::consts::TAU;
 use std::rc::Rc;
 use thiserror::Error;
@@ -102,12 +104,9 @@ pub enum SimulationError {
     /// The equilibrium has no hanging cables.
     #[error("a simulation begins at an equilibrium of elastic cables: choose the static model `catenary`")]
     NotElastic,
-    /// The start is no stable equilibrium of the mesh.
-    #[error(
-        "the equilibrium at the start is not stable, or a cable carries nothing there, or its mesh is too coarse for its \
-         sag: begin at a pose that the cables hold with tension, or give more elements"
-    )]
-    NoRest,
+    /// The robot does not come to rest at its start.
+    #[error("{0}")]
+    NoRest(RestFault),
     /// The damping ratio of ropes has no frequency.
     #[error(
         "the damping ratio of the ropes holds at one frequency, and the robot has no first natural frequency at the \
@@ -136,6 +135,43 @@ pub enum SimulationError {
         /// Tolerance [m].
         tolerance: f64,
     },
+}
+
+/// Reason why a robot does not come to rest at its start.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum RestFault {
+    /// The equilibrium of statics is not stable.
+    #[error("the equilibrium at the start is not stable: begin at a pose that the cables hold")]
+    Unstable,
+    /// A rope without mass carries nothing, so that nothing holds the wheel or winch behind it.
+    #[error(
+        "cable \"{cable}\" has no mass and carries nothing at the start, so that nothing holds its wheel or winch: give \
+         `mass_kg_per_m` in [materials.*], or begin at a pose at which the cable is taut"
+    )]
+    Slack {
+        /// Name of the cable.
+        cable: String,
+    },
+    /// The mesh of a rope is too coarse for its bend.
+    #[error(
+        "the mesh does not come to rest at the start: cable \"{cable}\" hangs there in a bend with a radius of {radius_m} m, \
+         and its nodes are {apart_m} m apart: give {elements} elements"
+    )]
+    Coarse {
+        /// Name of the cable with the narrowest bend for its mesh.
+        cable: String,
+        /// Radius [m].
+        radius_m: String,
+        /// Mean distance of the nodes [m].
+        apart_m: String,
+        /// Number of elements with nodes that are as near as the radius is long.
+        elements: usize,
+    },
+    /// No bend is narrow for the mesh.
+    #[error(
+        "the mesh does not come to rest at the start, though statics does: give more elements, or begin at another pose"
+    )]
+    NotFound,
 }
 
 /// Inertia of a rope without mass whose far end moves, over the mass of the platform. Frequencies of the platform change by
@@ -171,29 +207,73 @@ struct RopeDamping {
     stretch_time: f64,
 }
 
-/// Damping of each rope, and the angular frequency at which ratios hold [rad/s]. A damping ratio and a loss factor are the
-/// same at all frequencies, and a motion in time has them at one frequency.
-fn damping(
-    robot: &Robot,
-    rest: &Equilibrium,
-    settings: &SimulationSettings,
-) -> Result<(Vec<RopeDamping>, f64), SimulationError> {
-    let needs_frequency = |rope: &Material| {
-        matches!(rope.damping, Damping::Ratio(ratio) if ratio > 0.0 && rope.mass_per_length > 0.0)
-            || (rope.stretch_loss.factor > 0.0 && settings.stretch_damping_time.is_none())
+/// Loss of the stretch of ropes with a loss factor, in one mode of the platform.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LossOfMode {
+    /// Natural frequency with massless ropes [Hz].
+    pub frequency_hz: f64,
+    /// Share of the stretch of all ropes in the energy of deformation.
+    pub stretch_share: f64,
+    /// Damping ratio by the loss factors and damping times of the robot.
+    pub ratio: f64,
+    /// Damping ratio in time, where a loss factor is a damping time.
+    pub ratio_in_time: f64,
+}
+
+/// Damping of all ropes in time.
+pub(super) struct DampingInTime {
+    ropes: Vec<RopeDamping>,
+    /// Angular frequency at which damping ratios hold [rad/s].
+    omega: f64,
+    /// Modes of the platform, if ropes have a loss factor.
+    pub(super) losses: Vec<LossOfMode>,
+}
+
+/// Shares of the stretch that differ by less count as equal: the lower frequency is then taken.
+const EQUAL_SHARES: f64 = 1e-6;
+
+/// Angular frequency at which the loss factors hold [rad/s]: that of the mode with the largest share of the stretch of
+/// ropes with a loss factor. `None` if no mode stretches them.
+fn omega_of_stretch(robot: &Robot, modes: &[StretchOfMode]) -> Option<f64> {
+    let lossy = |mode: &StretchOfMode| -> f64 {
+        let shares = mode.shares.iter().zip(&robot.cables);
+        shares.filter(|(_, cable)| cable.material.stretch_loss.factor > 0.0).map(|(share, _)| share).sum()
     };
+    let most = modes.iter().map(lossy).fold(0.0, f64::max);
+    let mode = modes.iter().find(|mode| most > 0.0 && lossy(mode) >= most - EQUAL_SHARES)?;
+    Some(TAU * mode.frequency_hz)
+}
+
+/// Damping of each rope. A damping ratio and a loss factor are the same at all frequencies, and a motion in time has them at
+/// one frequency: a ratio of moving ropes at the first natural frequency, a loss factor of their stretch at the frequency of
+/// the mode of the platform that stretches them most.
+///
+/// # References
+/// docs/theory.md, equation (97e2).
+fn damping(robot: &Robot, rest: &Equilibrium, settings: &SimulationSettings) -> Result<DampingInTime, SimulationError> {
+    let has_factor =
+        |cable: &Cable| cable.material.stretch_loss.factor > 0.0 && settings.stretch_damping_time.is_none();
+    let has_ratio = |cable: &Cable| {
+        let rope = &cable.material;
+        matches!(rope.damping, Damping::Ratio(ratio) if ratio > 0.0 && rope.mass_per_length > 0.0)
+    };
+    let lossy = robot.cables.iter().any(has_factor);
+    let modes = if lossy { modes::stretch_of_platform(robot, rest) } else { Vec::new() };
+    let of_stretch = settings.damping_frequency_hz.map(|hz| TAU * hz).or_else(|| omega_of_stretch(robot, &modes));
+
     let mut omega = 0.0;
     let supports = robot.supports.iter().any(|support| support.damping_ratio > 0.0);
-    if supports || robot.cables.iter().any(|cable| needs_frequency(&cable.material)) {
+    if supports || robot.cables.iter().any(has_ratio) || (lossy && of_stretch.is_none()) {
         let frequency_hz = match settings.damping_frequency_hz {
             Some(frequency_hz) => frequency_hz,
             None => modes::first(robot, rest).map_err(|_| SimulationError::NoFrequency)?.frequency_hz,
         };
         omega = TAU * frequency_hz;
     }
+    let of_stretch = of_stretch.unwrap_or(omega);
     let of = |cable: &Cable| {
         let Material { damping, mass_per_length, stretch_loss, .. } = &cable.material;
-        let of_factor = if stretch_loss.factor > 0.0 { stretch_loss.factor / omega } else { 0.0 };
+        let of_factor = if stretch_loss.factor > 0.0 { stretch_loss.factor / of_stretch } else { 0.0 };
         RopeDamping {
             viscous: match *damping {
                 Damping::Ratio(ratio) => 2.0 * ratio * mass_per_length * omega,
@@ -202,7 +282,24 @@ fn damping(
             stretch_time: settings.stretch_damping_time.unwrap_or(stretch_loss.time + of_factor),
         }
     };
-    Ok((robot.cables.iter().map(of).collect(), omega))
+    let ropes: Vec<RopeDamping> = robot.cables.iter().map(of).collect();
+
+    let loss = |mode: &StretchOfMode| {
+        let omega = TAU * mode.frequency_hz;
+        let sum = |of: &dyn Fn(usize) -> f64| 0.5 * (0..ropes.len()).map(|i| mode.shares[i] * of(i)).sum::<f64>();
+        let of_file = |i: usize| {
+            let loss = &robot.cables[i].material.stretch_loss;
+            loss.factor + omega * loss.time
+        };
+        LossOfMode {
+            frequency_hz: mode.frequency_hz,
+            stretch_share: mode.shares.iter().sum(),
+            ratio: sum(&of_file),
+            ratio_in_time: sum(&|i| omega * ropes[i].stretch_time),
+        }
+    };
+    let losses = modes.iter().map(loss).collect();
+    Ok(DampingInTime { ropes, omega, losses })
 }
 
 /// Ropes as meshes.
@@ -246,9 +343,9 @@ pub(super) fn at_rest(
     settings: &SimulationSettings,
     (windings, holds_tension): (Vec<Winding>, &dyn Fn(usize) -> bool),
     duration: f64,
-) -> Result<Stepper, SimulationError> {
+) -> Result<(Stepper, Vec<LossOfMode>), SimulationError> {
     check_parts(robot)?;
-    let (damping, omega) = damping(robot, rest, settings)?;
+    let DampingInTime { ropes: damping, omega, losses } = damping(robot, rest, settings)?;
     let ropes = ropes(robot, rest, settings, &damping, holds_tension);
     let far_ends: Vec<Option<FarEnd>> =
         (0..ropes.len()).map(|i| FarEnd::of(robot, i, &rest.cables[i], holds_tension(i))).collect();
@@ -283,10 +380,40 @@ pub(super) fn at_rest(
     lock(&mut system, &now);
     let mut stepper = Stepper::new(system, now, settings.tolerance, robot.platform_length());
     if !stepper.settle() {
-        return Err(SimulationError::NoRest);
+        return Err(SimulationError::NoRest(rest_fault(robot, rest, &stepper.system)));
     }
     let_go(robot, &mut stepper, holds_tension);
-    Ok(stepper)
+    Ok((stepper, losses))
+}
+
+/// Most likely reason why a robot does not come to rest.
+fn rest_fault(robot: &Robot, rest: &Equilibrium, system: &System) -> RestFault {
+    if !matches!(rest.stability, Stability::Stable { .. }) {
+        return RestFault::Unstable;
+    }
+    let name = |i: usize| robot.cables[i].name.clone();
+    let is_slack = |i: &usize| {
+        robot.cables[*i].material.mass_per_length == 0.0 && rest.cables[*i].is_slack() && system.far_ends[*i].is_some()
+    };
+    if let Some(i) = (0..robot.cables.len()).find(is_slack) {
+        return RestFault::Slack { cable: name(i) };
+    }
+    // Distance of the nodes over the radius of the bend, whose least value is H/w.
+    let narrow = |i: usize| {
+        let catenary = &rest.cables[i].hanging.as_ref()?.catenary;
+        let weight = catenary.rope().weight_per_length;
+        let (radius, length) = (catenary.parallel_tension() / weight, catenary.rope().unstrained_length);
+        let (elements, degree) = (system.ropes[i].elements as f64, system.ropes[i].basis.degree as f64);
+        (radius > 0.0 && weight > 0.0).then_some((i, radius, length / (elements * degree), length / (degree * radius)))
+    };
+    let narrowest = (0..robot.cables.len()).filter_map(narrow).max_by(|a, b| (a.2 / a.1).total_cmp(&(b.2 / b.1)));
+    match narrowest {
+        Some((i, radius, apart, elements)) if apart > radius && elements < ElementMesh::MAX_ELEMENTS as f64 => {
+            let [radius_m, apart_m] = [radius, apart].map(|length| format!("{length:.2}"));
+            RestFault::Coarse { cable: name(i), radius_m, apart_m, elements: elements.ceil() as usize }
+        }
+        _ => RestFault::NotFound,
+    }
 }
 
 /// Minimum number of pieces of a rope at which gusts are drawn. For the camera of the tests, on ropes of 150 m, the root mean
@@ -328,8 +455,9 @@ fn let_go(robot: &Robot, stepper: &mut Stepper, holds_tension: &dyn Fn(usize) ->
         let Some(far) = stepper.system.far_ends[i].as_mut().filter(|_| !is_plain) else { continue };
         let at = far.places().feed.unwrap_or_default();
         if let Some(feed) = &mut far.feed {
-            let last = stepper.now.x[from + at + feed.count() - 1];
-            feed.let_go(&forces.feed, forces.exit_w.norm(), torque, [given.value, last]);
+            let last = from + at + feed.count() - 1;
+            let lengths = [given.value, stepper.now.x[last]];
+            feed.let_go(stepper.needed[last], &forces.feed, torque, lengths);
         }
     }
 }
@@ -343,14 +471,10 @@ fn hanging(robot: &Robot, system: &System, rest: &Equilibrium) -> Result<MotionN
     for (i, rope) in system.ropes.iter().enumerate() {
         let hanging = rest.cables[i].hanging.as_ref().ok_or(SimulationError::NotElastic)?;
         let length = hanging.catenary.rope().unstrained_length;
-        let degree = rope.basis.degree;
-        for node in 0..=rope.last() {
-            let (e, q) = (node / degree, node % degree);
-            let sigma = (e as f64 + rope.basis.nodes[q]) / rope.elements as f64;
-            let at = if node == rope.last() { hanging.end_w } else { hanging.point_w(sigma * length) };
-            put(&mut motion, system.offsets[i] + 3 * node, &at);
-        }
         let state = &rest.cables[i];
+        for (node, at) in nodes_at_rest(rope, hanging, state).iter().enumerate() {
+            put(&mut motion, system.offsets[i] + 3 * node, at);
+        }
         if let Some(index) = robot.cables[i].anchor.support {
             put(&mut motion, System::of_support(index).start, &state.displacement_w);
         }
@@ -362,4 +486,20 @@ fn hanging(robot: &Robot, system: &System, rest: &Equilibrium) -> Result<MotionN
         }
     }
     Ok(motion)
+}
+
+/// Nodes of a rope on its catenary. Where the mesh is too coarse to follow its bend, they are those of the mesh at rest
+/// between the same ends.
+fn nodes_at_rest(rope: &RopeMesh, hanging: &HangingCable, state: &CableState) -> Vec<Vec3> {
+    let (length, degree) = (hanging.catenary.rope().unstrained_length, rope.basis.degree);
+    let on_catenary = |node: usize| {
+        let (e, q) = (node / degree, node % degree);
+        let sigma = (e as f64 + rope.basis.nodes[q]) / rope.elements as f64;
+        if node == rope.last() { hanging.end_w } else { hanging.point_w(sigma * length) }
+    };
+    let nodes_w: Vec<Vec3> = (0..=rope.last()).map(on_catenary).collect();
+    let ends_w = [nodes_w[0], hanging.end_w];
+    let resting = RestingRope { rope, length, load_w: hanging.load_w(), ends_w };
+    let found = if resting.is_coarse(&nodes_w) { resting.nodes(&state.force_on_platform_w) } else { None };
+    found.unwrap_or(nodes_w)
 }

@@ -1,14 +1,16 @@
 //! Events of a scenario: from the words of a file to what the simulation knows.
 
+use super::CutRow;
 use crate::analyses::timed_rows::{Holds, TimedRows};
 use crate::at_rest::AtRest;
 use crate::names::suggestion;
 use crate::request::{self, CutEvent, LengthsEvent, NumberColumns, Scenario, check_scenario};
+use crate::text::significant;
 use crate::values::finite;
 use anyhow::{Context, Result, anyhow, bail};
 use funicular::math::Vec3;
 use funicular::robot::{Robot, State};
-use funicular::simulation::{CutAt, SimulationEvent};
+use funicular::simulation::{CommandedLengths, CutAt, SimulationEvent};
 use funicular::statics;
 use serde_json::Value;
 
@@ -88,6 +90,51 @@ impl ScenarioEvents {
     }
 }
 
+/// Warnings about events that change nothing: brakes of winches that rest, and commands to winches whose cables have failed.
+pub(super) fn idle(at_rest: &AtRest, list: &[SimulationEvent], labels: &[String], cuts: &[CutRow]) -> Vec<String> {
+    let AtRest { robot, equilibrium, .. } = at_rest;
+    let cut = |i: usize, time: f64| cuts.iter().find(|cut| cut.cable == robot.cables[i].name && cut.t_s <= time);
+    let mut warnings = Vec::new();
+    for (k, (event, label)) in list.iter().zip(labels).enumerate() {
+        let (time, cables) = match event {
+            SimulationEvent::Ramp { time, changes, .. } => (*time, indices(changes, |change| *change != 0.0)),
+            SimulationEvent::Follow { time, lengths, .. } => (*time, indices(lengths, Option::is_some)),
+            SimulationEvent::Tension { time, tensions, .. } => (*time, indices(tensions, Option::is_some)),
+            SimulationEvent::Stop { time, cables, .. } => (*time, cables.clone()),
+            _ => continue,
+        };
+        if matches!(event, SimulationEvent::Stop { .. }) {
+            let before: Vec<SimulationEvent> =
+                list.iter().enumerate().filter(|(j, _)| *j != k).map(|(_, of)| of.clone()).collect();
+            let moves = CommandedLengths::new(robot, equilibrium, &before, f64::MAX)
+                .is_ok_and(|lengths| cables.iter().any(|i| lengths.moves_after(*i, time)));
+            if !moves {
+                let time = significant(time, 6);
+                warnings.push(format!("{label} of ⟪scenario⟫ brakes nothing: its winches rest from {time} s on"));
+            }
+            continue;
+        }
+        // A table commands all winches, also those that it need not mention.
+        let is_table = matches!(event, SimulationEvent::Follow { .. });
+        for (i, cut) in cables.iter().filter(|_| !is_table).filter_map(|i| Some((*i, cut(*i, time)?))) {
+            let massless = robot.cables[i].material.mass_per_length == 0.0;
+            let effect = if massless { "nothing" } else { "only the rope that is left at its winch" };
+            warnings.push(format!(
+                "{label} of ⟪scenario⟫ moves {effect} at cable \"{}\", which fails at {} s, before {} s",
+                cut.cable,
+                significant(cut.t_s, 4),
+                significant(time, 4)
+            ));
+        }
+    }
+    warnings
+}
+
+/// Indices of the entries for which something is true.
+fn indices<T>(list: &[T], is: impl Fn(&T) -> bool) -> Vec<usize> {
+    list.iter().enumerate().filter(|(_, entry)| is(entry)).map(|(i, _)| i).collect()
+}
+
 fn number(key: &str, value: f64) -> Result<f64> {
     finite(value).map_err(|reason| anyhow!("`{key}`: {reason}"))
 }
@@ -159,7 +206,7 @@ fn follow(time: f64, table: &NumberColumns, at_rest: &AtRest) -> Result<Simulati
 /// # Errors
 /// Text that is not TOML, an unknown key, or a value of the wrong type; the message says where.
 pub fn scenario_from_toml(text: &str, table: impl Fn(&str) -> Result<NumberColumns>) -> Result<Scenario> {
-    let document: toml_edit::DocumentMut = text.parse().map_err(|error| anyhow!("it is not TOML: {error}"))?;
+    let document: toml_edit::DocumentMut = text.parse().map_err(|error| not_toml(text, &error))?;
     let mut value = of_item(document.as_item())?;
     if let Some(Value::Array(list)) = value.get_mut("lengths") {
         for event in list {
@@ -171,6 +218,22 @@ pub fn scenario_from_toml(text: &str, table: impl Fn(&str) -> Result<NumberColum
     }
     check_scenario(&value)?;
     request::read(value)
+}
+
+/// Error of a text that is not TOML, in one line, with its place.
+fn not_toml(text: &str, error: &toml_edit::TomlError) -> anyhow::Error {
+    let at = error.span().map_or(0, |span| span.start.min(text.len()));
+    let before = text.get(..at).unwrap_or_default();
+    let line = before.matches('\n').count() + 1;
+    let column = before.rsplit('\n').next().unwrap_or_default().chars().count() + 1;
+    let written = text.lines().nth(line - 1).unwrap_or_default().trim();
+    let is_comma = written.split_once('=').is_some_and(|(_, value)| {
+        let parts: Vec<&str> = value.trim().split(',').collect();
+        parts.len() == 2 && parts.iter().all(|part| !part.is_empty() && part.bytes().all(|b| b.is_ascii_digit()))
+    });
+    let help = if is_comma { "; write numbers with a decimal point, not a comma: 1.95" } else { "" };
+    let message = error.message().trim().replace('\n', ", ");
+    anyhow!("line {line}, column {column}: `{written}` is not TOML: {message}{help}")
 }
 
 fn of_item(item: &toml_edit::Item) -> Result<Value> {

@@ -6,11 +6,11 @@ use funicular::dynamics::{Dynamics, Linearisation};
 use funicular::math::Vec3;
 use funicular::modes;
 use funicular::robot::{Damping, Pose, Robot, State};
-use funicular::simulation::{Simulation, SimulationEvent, SimulationSettings};
+use funicular::simulation::{ElementMesh, Simulation, SimulationEvent, SimulationSettings};
 use funicular::statics::{self, CableState, Equilibrium, StaticModel};
 
 /// Tables of drives, each with what its cables name.
-const DRIVES: [(&str, &str, &str); 12] = [
+const DRIVES: [(&str, &str, &str); 16] = [
     (
         "pulley",
         "pulley = \"wheel\"",
@@ -49,6 +49,27 @@ const DRIVES: [(&str, &str, &str); 12] = [
          [winches.drum]\ndrum_side_length_m = 1.0\ndrum_radius_m = 0.05\ndrum_inertia_kg_m2 = 0.05\ncontrol = \"torque\"\n",
     ),
     ("bare torque", "winch = \"drum\"", "[winches.drum]\ndrum_side_length_m = 0.0\ncontrol = \"torque\"\n"),
+    (
+        "servo with its drum at the anchor",
+        "winch = \"drum\"",
+        "[winches.drum]\ndrum_radius_m = 0.05\ndrum_inertia_kg_m2 = 0.01\ncontrol = \"position\"\nbandwidth_hz = 8\n",
+    ),
+    (
+        "servo on a shaft at the anchor",
+        "winch = \"drum\"",
+        "[winches.drum]\ndrum_radius_m = 0.05\ndrum_inertia_kg_m2 = 0.005\nmotor_inertia_kg_m2 = 0.01\n\
+         stiffness_n_per_m = 8e4\ncontrol = \"position\"\nbandwidth_hz = 8\nintegral_action = \"no\"\n",
+    ),
+    (
+        "torque with its drum at the anchor",
+        "winch = \"drum\"",
+        "[winches.drum]\ndrum_radius_m = 0.05\ndrum_inertia_kg_m2 = 0.05\ncontrol = \"torque\"\n",
+    ),
+    (
+        "shaft at the anchor",
+        "winch = \"drum\"",
+        "[winches.drum]\ndrum_radius_m = 0.05\ndrum_inertia_kg_m2 = 0.01\nstiffness_n_per_m = 5e4\n",
+    ),
     (
         "bare torque behind a pulley",
         "pulley = \"wheel\"\nwinch = \"drum\"",
@@ -111,6 +132,38 @@ fn subjects() -> Vec<(String, Robot, Equilibrium)> {
     all
 }
 
+/// Drives whose winch has yielded at rest.
+const YIELDING: [&str; 4] = ["servo", "delayed servo", "torque on a shaft", "servo on a shaft at the anchor"];
+
+/// One rope that carries a mass, with every kind of drive, with and without a pulley, with one element and with many: it
+/// begins at rest, and stays there.
+#[test]
+fn a_mass_on_one_rope_stays_at_rest_with_every_drive() {
+    let text = |names: &str, tables: &str| {
+        format!(
+            "[platform]\nmass_kg = 50.0\nmotion = \"point-mass\"\n[materials.rope]\naxial_stiffness_n = 1e5\n\
+             mass_kg_per_m = 0.05\n{tables}[[cables]]\nname = \"1\"\n{names}\nmaterial = \"rope\"\n\
+             anchor_m = [0.0, 0.0, 5.0]\nunstrained_length_m = 7.0\n"
+        )
+    };
+    for (name, names, tables) in DRIVES {
+        let robot = Robot::from_toml(&text(names, tables)).unwrap_or_else(|e| panic!("{name}: {e}"));
+        let rest = statics::solve(&robot, StaticModel::Catenary, None).unwrap().equilibrium;
+        for (elements, degree) in [(1, 1), (1, 8), (3, 8), (20, 1)] {
+            let settings =
+                SimulationSettings { mesh: ElementMesh { elements, degree }, ..SimulationSettings::default() };
+            let mut simulation = Simulation::new(&robot, &rest, &[], 0.2, &settings)
+                .unwrap_or_else(|e| panic!("{name}, {elements}, {degree}: {e}"));
+            let [start, end] = [0.0, 0.2].map(|time| simulation.at(time).unwrap());
+            let moved = (end.pose.position_w - start.pose.position_w).norm();
+            let off = (start.pose.position_w - rest.pose.position_w).norm();
+            assert!(moved < 1e-9 && off < 1e-6, "{name}, {elements} of degree {degree}: {moved:e} {off:e}");
+            let tension = rest.cables[0].tension_anchor;
+            assert!((end.cables[0].tension_anchor - tension).abs() < 1e-4 * tension, "{name}");
+        }
+    }
+}
+
 /// The start is the equilibrium of statics, and nothing moves.
 #[test]
 fn drives_at_rest_are_those_of_statics() {
@@ -126,10 +179,7 @@ fn drives_at_rest_are_those_of_statics() {
             assert!((cable.tension_anchor - state.tension_anchor).abs() < 1e-6 * scale, "{name}");
             // A servo without integral action has paid out what it yields, and a motor with constant torque pulls a drum that is
             // behind its shaft.
-            let yielded = state
-                .drive
-                .as_ref()
-                .filter(|_| ["servo", "delayed servo", "torque on a shaft"].contains(&name.as_str()));
+            let yielded = state.drive.as_ref().filter(|_| YIELDING.contains(&name.as_str()));
             let paid_out = yielded.map_or(0.0, |drive| {
                 drive.winch_yield / (1.0 + drive.tension_drum / robot.cables[0].material.axial_stiffness)
             });
@@ -220,7 +270,7 @@ fn damped(robot: &mut Robot) {
 #[test]
 fn after_a_move_the_robot_rests_where_statics_has_it() {
     for (name, mut robot, rest) in subjects() {
-        if name.contains("torque") || ["servo", "two masses"].contains(&name.as_str()) {
+        if name.contains("torque") || ["servo", "two masses"].contains(&name.as_str()) || name.contains("servo ") {
             // Their lengths are not those of the command, or not before a slow integral has acted.
             continue;
         }
