@@ -221,3 +221,57 @@ fn the_linear_equations_of_a_page_give_the_fit_without_a_row() {
         assert!((refitted - row.value).abs() < 1e-8, "{}: {refitted} {}", row.path, row.value);
     }
 }
+
+/// Readings with two of them exchanged in one row.
+fn with_exchange(readings: &Value, row: usize, [a, b]: [usize; 2]) -> Value {
+    let mut wrong = readings.clone();
+    let [of_a, of_b] = [a, b].map(|cable| readings[format!("length_{cable}_m")][row].clone());
+    wrong[format!("length_{a}_m")][row] = of_b;
+    wrong[format!("length_{b}_m")][row] = of_a;
+    wrong
+}
+
+#[test]
+fn a_row_with_exchanged_readings_is_blamed_and_no_other_one() {
+    // With and without a given deviation, for every row and pairs of neighbours and of opposite corners.
+    for row in 0..POSITIONS.len() {
+        let cables = [[1, 2], [1, 3], [2, 3], [3, 4], [2, 4], [1, 4], [1, 2]][row];
+        let readings = readings(1e-3, &mut Draws(row as u64 + 40));
+        let [a, b] = cables.map(|cable| readings[format!("length_{cable}_m")][row].as_f64().unwrap());
+        for more in [json!({ "length_std_m": 1e-3 }), json!({})] {
+            // Readings that hardly differ cannot be told from each other.
+            if (a - b).abs() < 0.2 {
+                continue;
+            }
+            let found = calibrated(&with_exchange(&readings, row, cables), &more);
+            let outliers: Vec<usize> = found.rows.iter().filter(|row| row.outlier).map(|row| row.row).collect();
+            let says = format!("row {}, {cables:?}, {more}: {outliers:?} {:?}", row + 1, found.warnings);
+            assert_eq!(outliers, [row + 1], "{says}");
+            let told = format!("row {} does not agree with the others", row + 1);
+            let pair = format!("with its readings of cables {} and {} exchanged it fits", cables[0], cables[1]);
+            assert!(found.warnings.iter().any(|text| text.starts_with(&told) && text.ends_with(&pair)), "{says}");
+            // Nothing else is blamed: neither columns nor encoders.
+            assert!(!found.warnings.iter().any(|text| text.contains("columns") || text.contains("encoder")), "{says}");
+        }
+    }
+}
+
+#[test]
+fn rows_on_a_line_leave_mirror_images_and_the_warning_says_what_tells_them_apart() {
+    let mut draws = Draws(8);
+    let on_line: Vec<[f64; 2]> = (0..9).map(|k| [0.6 + 0.3 * f64::from(k), 1.1 + 0.1 * f64::from(k)]).collect();
+    let columns = ANCHORS.iter().enumerate().map(|(i, [x, y])| {
+        let column: Vec<f64> = on_line.iter().map(|[px, py]| (px - x).hypot(py - y) + 5e-4 * draws.normal()).collect();
+        (format!("length_{}_m", i + 1), json!(column))
+    });
+    let readings = Value::Object(columns.collect::<Map<_, _>>());
+    let found = calibrated(&readings, &json!({ "length_std_m": 5e-4 }));
+    assert!(!found.is_determined && found.determined.starts_with("Other values fit"), "{}", found.determined);
+    assert!(found.minima.iter().any(|minimum| !minimum.mirrored.is_empty()));
+    let told = found.warnings.iter().find(|text| text.contains("sets of values fit the readings")).unwrap();
+    assert!(told.contains("on the other side of the line on which the rows lie"), "{told}");
+    assert!(told.contains("tells them apart: the readings of the two differ there by"), "{told}");
+    assert!(found.values.iter().all(|value| value.interval_95.is_none()));
+    // The image near the robot file is shown.
+    assert!(found.values.iter().all(|value| (value.value - value.start).abs() < 0.1));
+}

@@ -175,6 +175,7 @@ impl Session {
         let text = json!({
             "no_modes": reason,
             "clearance": nearest(&at_rest),
+            "platform_frequency_hz": vibration.as_ref().and_then(|(dynamics, _)| dynamics.platform_frequency()),
             "tension_rule": at_rest.rule.as_ref().map(statics::TensionRule::name),
             "static_model": at_rest.equilibrium.model.name(),
             "cable_model": linearisation.cable_model.name(),
@@ -393,6 +394,7 @@ fn description(robot: &Robot, text: &str) -> Value {
         "motion": motion,
         "degrees_of_freedom": robot.platform.motion.count(),
         "platform_share": modes::PLATFORM_SHARE,
+        "considerable_share": modes::CONSIDERABLE_SHARE,
         "calibration_unknowns": calibrate::UNKNOWNS,
         "obstacles": bodies(&robot.obstacles),
         "platform_bodies": bodies(&robot.platform.bodies),

@@ -119,8 +119,8 @@ pub struct ModelResult {
     ///
     /// For a constant stiffness the counterpart is the mode with the most similar platform motion, with a MAC of at
     /// least [`SAME_MOTION`] and a frequency within a factor of two. For a dynamic model, most of whose modes hardly
-    /// move the platform, it is the nearest in frequency. If only modes of the platform are compared, the motion
-    /// decides for every model.
+    /// move the platform, modes are paired in the order of their frequencies. If only modes of the platform are compared,
+    /// the motion decides for every model.
     pub matches: Vec<Match>,
     /// Number of compared modes of the reference without a counterpart.
     pub missed: usize,
@@ -234,22 +234,14 @@ impl ModelResult {
         let found = modes.as_ref().map_or(&[][..], |m| &m.modes);
         let matches = match_modes(found, &truth.modes, compared, &dynamics.mass(), model, criterion);
 
-        // How many modes of the reference are hit, and which within the tolerance.
+        // How many modes of the reference are hit, and which within the tolerance: by the pairs that tables show.
         let mut hit = vec![false; truth.modes.len()];
         let mut right = hit.clone();
         for m in &matches {
             hit[m.reference_index] = true;
             right[m.reference_index] |= m.relative_difference.abs() <= criterion.tolerance;
         }
-        let mut missed = compared.iter().filter(|&&i| !hit[i]).count();
-
-        if model.is_dynamic() && criterion.platform_share.is_none() {
-            // A dynamic model also has the cables' resonances. Among dozens of them the platform shapes distinguish
-            // little; each frequency counts as right if the model has it.
-            right = frequencies_within(criterion.tolerance, found, &truth.modes);
-            missed = truth.modes.len().saturating_sub(found.len());
-        }
-
+        let missed = compared.iter().filter(|&&i| !hit[i]).count();
         let within = compared.iter().filter(|&&i| right[i]).count();
         let differences = matches.iter().map(|m| m.relative_difference);
         let largest_difference = differences.max_by(|a, b| a.abs().total_cmp(&b.abs()));
@@ -287,22 +279,9 @@ fn frozen_sag(models: &[ModelResult], clamped_hz: f64, criterion: Criterion) -> 
     })
 }
 
-/// True for each mode of the ascending list `truth` that has its own partner in the ascending list `found`, within a
-/// relative tolerance of frequency.
-fn frequencies_within(tolerance: f64, found: &[Mode], truth: &[Mode]) -> Vec<bool> {
-    let mut left = found.iter().peekable();
-    truth
-        .iter()
-        .map(|wanted| {
-            while left.next_if(|m| m.frequency_hz < wanted.frequency_hz * (1.0 - tolerance)).is_some() {}
-            left.next_if(|m| m.frequency_hz <= wanted.frequency_hz * (1.0 + tolerance)).is_some()
-        })
-        .collect()
-}
-
 /// Pairs every mode with the compared reference mode of the most similar platform motion, weighted by the platform's
-/// energy fraction in that mode; for all modes of a dynamic model, with the nearest in frequency. Each reference mode
-/// is used once.
+/// energy fraction in that mode; all modes of a dynamic model in the order of their frequencies. Each reference mode is
+/// used once.
 ///
 /// If modes of the platform are compared, the platform's energy fraction in the model's own mode has the same weight: a
 /// dynamic model has cable modes with the same platform motion. Of modes that share it the nearest in frequency counts.
@@ -315,7 +294,9 @@ fn match_modes(
     criterion: Criterion,
 ) -> Vec<Match> {
     let of_platform = criterion.platform_share.is_some();
-    let by_frequency = model.is_dynamic() && !of_platform;
+    if model.is_dynamic() && !of_platform {
+        return match_in_order(found, truth, mass);
+    }
     let closeness = if model.is_dynamic() { 1.0 } else { 1e-6 };
     let vector = |m: &Mode| Vec6::from_row_slice(&m.shape);
     let inner = |a: &Vec6, b: &Vec6| a.dot(&(mass * b));
@@ -330,27 +311,17 @@ fn match_modes(
             let (own, other) = (inner(&x, &x), inner(&y, &y));
             // Two vibrations of cables with the platform at rest are the same motion if their frequencies agree.
             let both_at_rest = own == 0.0 && other == 0.0;
-            if !(both_at_rest || own * other > 0.0 || by_frequency) {
+            if !(both_at_rest || own * other > 0.0) {
                 continue;
             }
 
-            let correlation = if both_at_rest { 1.0 } else { modes::mac(&x, &y, inner) };
-
+            let correlation = platform_mac(&x, &y, mass);
             let ratio = ours.frequency_hz / theirs.frequency_hz;
-            let distance = (1.0 - ratio).abs();
-            let score = if by_frequency {
-                if distance > SAME_FREQUENCY {
-                    continue;
-                }
-                // For nearly equal frequencies the MAC decides.
-                -distance + 0.1 * TOLERANCE * correlation
-            } else {
-                if correlation < SAME_MOTION || !(1.0 / SAME_RANGE..=SAME_RANGE).contains(&ratio) {
-                    continue;
-                }
-                let own_share = if of_platform { ours.platform_energy_fraction } else { 1.0 };
-                correlation * theirs.platform_energy_fraction * own_share - closeness * distance
-            };
+            if correlation < SAME_MOTION || !(1.0 / SAME_RANGE..=SAME_RANGE).contains(&ratio) {
+                continue;
+            }
+            let own_share = if of_platform { ours.platform_energy_fraction } else { 1.0 };
+            let score = correlation * theirs.platform_energy_fraction * own_share - closeness * (1.0 - ratio).abs();
             candidates.push((score, correlation, i, j));
         }
     }
@@ -366,18 +337,110 @@ fn best_pairs(found: &[Mode], truth: &[Mode], mut candidates: Vec<(f64, f64, usi
     for (_, correlation, i, j) in candidates {
         if done[i].is_none() && !used[j] {
             used[j] = true;
-            let (frequency_hz, reference_hz) = (found[i].frequency_hz, truth[j].frequency_hz);
-            done[i] = Some(Match {
-                frequency_hz,
-                reference_hz,
-                reference_index: j,
-                relative_difference: frequency_hz / reference_hz - 1.0,
-                correlation,
-            });
+            done[i] = Some(Match::of(&found[i], &truth[j], j, correlation));
         }
     }
 
     done.into_iter().flatten().collect()
+}
+
+impl Match {
+    fn of(ours: &Mode, theirs: &Mode, reference_index: usize, correlation: f64) -> Self {
+        let (frequency_hz, reference_hz) = (ours.frequency_hz, theirs.frequency_hz);
+        let relative_difference = frequency_hz / reference_hz - 1.0;
+        Self { frequency_hz, reference_hz, reference_index, relative_difference, correlation }
+    }
+}
+
+/// MAC of two motions of the platform; two cables that vibrate with the platform at rest have the same one, none.
+fn platform_mac(a: &Vec6, b: &Vec6, mass: &Mat6) -> f64 {
+    let inner = |a: &Vec6, b: &Vec6| a.dot(&(mass * b));
+    if inner(a, a) == 0.0 && inner(b, b) == 0.0 { 1.0 } else { modes::mac(a, b, inner) }
+}
+
+/// Pairs of all modes of a dynamic model. Among dozens of resonances of cables the shapes of the platform distinguish
+/// little: the modes are paired in the order of their frequencies, and the shapes decide between nearly equal ones.
+fn match_in_order(found: &[Mode], truth: &[Mode], mass: &Mat6) -> Vec<Match> {
+    let hz = |modes: &[Mode]| modes.iter().map(|m| m.frequency_hz).collect::<Vec<f64>>();
+    let mut pairs = pairs_in_order(&hz(found), &hz(truth));
+    let vector = |m: &Mode| Vec6::from_row_slice(&m.shape);
+    let mac = |i: usize, j: usize| platform_mac(&vector(&found[i]), &vector(&truth[j]), mass);
+    let score = |i: usize, j: usize| {
+        -relative_distance(found[i].frequency_hz, truth[j].frequency_hz) + NEARLY_EQUAL * mac(i, j)
+    };
+
+    // Neighbours that fit better the other way round. Each exchange raises the sum of the scores.
+    let mut has_changed = true;
+    while has_changed {
+        has_changed = false;
+        for k in 1..pairs.len() {
+            let ((a, b), (c, d)) = (pairs[k - 1], pairs[k]);
+            if score(a, d) + score(c, b) > score(a, b) + score(c, d) + LEAST_GAIN {
+                (pairs[k - 1].1, pairs[k].1) = (d, b);
+                has_changed = true;
+            }
+        }
+    }
+
+    pairs.into_iter().map(|(i, j)| Match::of(&found[i], &truth[j], j, mac(i, j))).collect()
+}
+
+/// Relative distance of frequencies below which the shapes of the platform decide which modes are the same.
+const NEARLY_EQUAL: f64 = 0.1 * TOLERANCE;
+
+/// Gain of a score above which two modes exchange their counterparts: more than rounding.
+const LEAST_GAIN: f64 = 1e-12;
+
+fn relative_distance(ours: f64, theirs: f64) -> f64 {
+    (1.0 - ours / theirs).abs()
+}
+
+/// Pairs of two ascending lists of frequencies, none of which cross, with the least sum of relative differences. A
+/// frequency without a partner counts as half of [`SAME_FREQUENCY`], so that no pair is farther apart than that.
+fn pairs_in_order(found: &[f64], truth: &[f64]) -> Vec<(usize, usize)> {
+    /// Last step of the best way to pair the beginnings of both lists.
+    #[derive(Clone, Copy)]
+    enum Step {
+        Pair,
+        OnlyFound,
+        OnlyTruth,
+    }
+    const ALONE: f64 = 0.5 * SAME_FREQUENCY;
+
+    let width = truth.len() + 1;
+    let mut steps = vec![Step::OnlyTruth; (found.len() + 1) * width];
+    let mut costs: Vec<f64> = (0..width).map(|j| ALONE * j as f64).collect();
+    for (i, ours) in found.iter().enumerate() {
+        let row = (i + 1) * width;
+        let mut next = vec![ALONE * (i + 1) as f64];
+        steps[row] = Step::OnlyFound;
+        for (j, theirs) in truth.iter().enumerate() {
+            let ways = [
+                (costs[j] + relative_distance(*ours, *theirs), Step::Pair),
+                (costs[j + 1] + ALONE, Step::OnlyFound),
+                (next[j] + ALONE, Step::OnlyTruth),
+            ];
+            let (cost, step) = ways.into_iter().fold(ways[0], |best, way| if way.0 < best.0 { way } else { best });
+            next.push(cost);
+            steps[row + j + 1] = step;
+        }
+        costs = next;
+    }
+
+    let (mut i, mut j) = (found.len(), truth.len());
+    let mut pairs = Vec::new();
+    while i > 0 && j > 0 {
+        match steps[i * width + j] {
+            Step::Pair => {
+                (i, j) = (i - 1, j - 1);
+                pairs.push((i, j));
+            }
+            Step::OnlyFound => i -= 1,
+            Step::OnlyTruth => j -= 1,
+        }
+    }
+    pairs.reverse();
+    pairs
 }
 
 /// Results from which a model is recommended.
@@ -521,5 +584,54 @@ impl Advisor<'_> {
             ),
             format!("Of them {}.", reached.join(", ")),
         ]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn modes_are_paired_in_the_order_of_their_frequencies() {
+        // The nearest pair first would leave 14.5458 with 14.7152, farther away than either of its neighbours.
+        assert_eq!(pairs_in_order(&[14.5974, 14.7152], &[14.5458, 14.6387]), [(0, 0), (1, 1)]);
+        // A mode that one of the lists lacks leaves the others in their places.
+        assert_eq!(pairs_in_order(&[1.0, 3.0, 4.0], &[1.0, 2.0, 3.0, 4.0]), [(0, 0), (1, 2), (2, 3)]);
+        assert_eq!(pairs_in_order(&[1.0, 2.0, 3.0], &[1.01, 3.01]), [(0, 0), (2, 1)]);
+        // A mode farther away than any that can be the same.
+        assert!(pairs_in_order(&[1.0], &[1.3]).is_empty());
+        assert!(pairs_in_order(&[], &[1.0]).is_empty());
+    }
+
+    /// Every choice of pairs that do not cross, compared by its cost.
+    #[test]
+    fn no_other_pairs_without_crossing_cost_less() {
+        fn least(found: &[f64], truth: &[f64]) -> f64 {
+            let alone = 0.5 * SAME_FREQUENCY;
+            let (Some((a, found_rest)), Some((b, truth_rest))) = (found.split_first(), truth.split_first()) else {
+                return alone * (found.len() + truth.len()) as f64;
+            };
+            (least(found_rest, truth_rest) + relative_distance(*a, *b))
+                .min(alone + least(found_rest, truth))
+                .min(alone + least(found, truth_rest))
+        }
+        let mut state = 7_u64;
+        let mut list = |length: usize| {
+            let mut values: Vec<f64> = (0..length)
+                .map(|_| {
+                    state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+                    1.0 + (state >> 40) as f64 / (1 << 24) as f64
+                })
+                .collect();
+            values.sort_by(f64::total_cmp);
+            values
+        };
+        for n in 0..40 {
+            let (found, truth) = (list(n % 6), list(n / 6));
+            let pairs = pairs_in_order(&found, &truth);
+            let apart: f64 = pairs.iter().map(|&(i, j)| relative_distance(found[i], truth[j])).sum();
+            let cost = apart + 0.5 * SAME_FREQUENCY * (found.len() + truth.len() - 2 * pairs.len()) as f64;
+            assert!((cost - least(&found, &truth)).abs() < 1e-12, "{found:?} {truth:?} {pairs:?}");
+        }
     }
 }

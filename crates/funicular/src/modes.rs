@@ -76,6 +76,10 @@ impl Kind {
 /// platform: most of the energy. [`Kind`] is stricter, because it leaves room for mixed modes.
 pub const PLATFORM_SHARE: f64 = 0.5;
 
+/// Minimum fraction of the kinetic energy in the platform for a mode that moves it considerably. A motion that is split
+/// over three modes has at least this share in one of them.
+pub const CONSIDERABLE_SHARE: f64 = 0.2;
+
 /// Natural mode. A frequency of multiplicity m appears m times.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Mode {
@@ -134,6 +138,14 @@ impl Modes {
     /// Index of the lowest mode that has at least the fraction `share` of its kinetic energy in the platform.
     pub fn first_platform(&self, share: f64) -> Option<usize> {
         self.modes.iter().position(|mode| mode.platform_energy_fraction >= share)
+    }
+
+    /// Indices of the modes below the first one of the platform that move it considerably, with at least
+    /// [`CONSIDERABLE_SHARE`] of their kinetic energy: a motion of the platform that is split over several modes beside a
+    /// resonance of a cable. All such modes if none has the fraction `share`.
+    pub fn share_platform(&self, share: f64) -> Vec<usize> {
+        let end = self.first_platform(share).unwrap_or(self.modes.len());
+        (0..end).filter(|&i| self.modes[i].platform_energy_fraction >= CONSIDERABLE_SHARE).collect()
     }
 }
 

@@ -105,11 +105,17 @@ impl Printed for Calibrated {
         for minimum in &self.minima {
             let _ = writeln!(
                 text,
-                "Another minimum: χ² {} (best {}), values up to {} m away, row {} moved most.",
+                "Another minimum: χ² {} (best {}), values up to {} m away, row {} moved most{}.",
                 significant(minimum.chi2, 4),
                 significant(self.chi2, 4),
                 significant(minimum.farthest_m, 3),
-                minimum.row
+                minimum.row,
+                match minimum.mirrored.as_slice() {
+                    [] => String::new(),
+                    [one] => format!("; the anchor of cable {one} stands on the other side of the rows"),
+                    several =>
+                        format!("; the anchors of cables {} stand on the other side of the rows", several.join(", ")),
+                }
             );
         }
         if !self.proposals.is_empty() {

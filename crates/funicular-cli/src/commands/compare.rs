@@ -51,9 +51,10 @@ impl Printed for Compared {
                 (None, _) if self.platform_share.is_some() => platform_line(self, model),
                 (None, None) => format!("all {} modes within {} %", reference.len(), short(100.0 * self.tolerance, 6)),
                 (None, Some(first)) => format!(
-                    "{} of {} modes, misses {}, first wrong at {} Hz",
-                    model.modes.len(),
+                    "{} of {} modes within {} %, misses {}, first wrong at {} Hz",
+                    model.within,
                     reference.len(),
+                    short(100.0 * self.tolerance, 6),
                     model.missed,
                     decimals(first, 4)
                 ),

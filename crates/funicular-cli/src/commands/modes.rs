@@ -3,7 +3,7 @@
 use crate::output::Printed;
 use crate::table::{Table, counted, decimals, short};
 use funicular_formats::uff_writing::modes_file;
-use funicular_study::analyses::modes::{Modes, Participation, RIGID};
+use funicular_study::analyses::modes::{FirstPlatformMode, Modes, Participation, RIGID};
 
 impl Printed for Modes {
     fn text(&self) -> String {
@@ -66,17 +66,37 @@ fn certificate(found: &Modes) -> String {
 /// Sentence on the first mode of the platform.
 fn first_platform(found: &Modes) -> String {
     let percent = short(100.0 * found.platform_share, 4);
+    let shared = shared(found);
     match &found.first_platform_mode {
         Some(first) => format!(
-            "First mode with at least {percent} % of its kinetic energy in the platform: {} Hz (no. {}, {} %).",
+            "First mode with at least {percent} % of its kinetic energy in the platform: {} Hz (no. {}, {} %).{shared}",
             decimals(first.frequency_hz, 4),
             first.index + 1,
             decimals(100.0 * first.platform_energy_fraction, 1)
         ),
         None => format!(
             "No mode below {} Hz has at least {percent} % of its kinetic energy in the platform: raise --below-hz or lower \
-             --platform-share.",
+             --platform-share.{shared}",
             found.below_hz
+        ),
+    }
+}
+
+/// Sentence on modes below the first one of the platform that move it, too; empty without.
+fn shared(found: &Modes) -> String {
+    let list = |texts: Vec<String>| match texts.as_slice() {
+        [one] => one.clone(),
+        [first @ .., last] => format!("{} and {last}", first.join(", ")),
+        [] => String::new(),
+    };
+    let of = |text: &dyn Fn(&FirstPlatformMode) -> String| list(found.share_platform.iter().map(text).collect());
+    match found.share_platform.len() {
+        0 => String::new(),
+        count => format!(
+            "\n{} Hz {} the platform, too: {}; cables share their motion.",
+            of(&|mode| decimals(mode.frequency_hz, 4)),
+            if count == 1 { "moves" } else { "move" },
+            of(&|mode| format!("{} %", decimals(100.0 * mode.platform_energy_fraction, 0)))
         ),
     }
 }

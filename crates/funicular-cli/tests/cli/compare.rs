@@ -67,3 +67,25 @@ fn frozen_sag_is_explained_where_it_happens() {
     assert!(json(&["compare", &cogiro, "--below-hz", "4.9", "--tolerance", "0.05"])["frozen_sag"].is_null());
     assert!(json(&["compare", "ROBOT", "--below-hz", "2"])["frozen_sag"].is_null());
 }
+
+/// The line of a model and its column tell the same: the number within the tolerance, and the largest difference.
+#[test]
+fn the_verdict_counts_the_rows_of_the_table() {
+    let cogiro = robot("cogiro.toml");
+    let text = succeed(&["compare", &cogiro, "--below-hz", "14.78", "--tolerance", "0.006"]);
+    let rows: Vec<Vec<&str>> = text
+        .lines()
+        .filter(|line| line.starts_with(' ') && line.trim_start().starts_with(|of: char| of.is_ascii_digit()))
+        .map(|line| line.split_whitespace().collect())
+        .collect();
+    let differs = |row: &Vec<&str>| row.last().unwrap().trim_end_matches('%').parse::<f64>().unwrap();
+    let within = rows.iter().filter(|row| differs(row).abs() <= 0.6).count();
+    assert!(rows.len() == 62 && within < 62, "{text}");
+    assert!(
+        text.contains(&format!("shallow-dynamic   {within} of 62 modes within 0.6 %, misses 0, first wrong")),
+        "{text}"
+    );
+
+    let text = succeed(&["compare", &cogiro, "--below-hz", "14.78"]);
+    assert!(text.contains("all 62 modes within 1 %") && !text.contains(" 1.16%"), "{text}");
+}

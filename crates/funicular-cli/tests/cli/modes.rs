@@ -192,3 +192,28 @@ fn a_second_stiffness_moves_the_frequencies_and_not_the_equilibrium() {
     assert_eq!(refused.status.code(), Some(2));
     assert!(stderr(&refused).contains("has a second one for vibration"), "{}", stderr(&refused));
 }
+
+/// The lowest motion of the platform is split over two modes there, each with less than half of its energy.
+#[test]
+fn modes_below_the_first_platform_mode_that_move_the_platform_are_named() {
+    let cogiro = super::robot("cogiro.toml");
+    let line = ["modes", &cogiro, "--pose", "3.2,0,1.5", "--below-hz", "8"];
+    let found = json(&line);
+    let sharing = found["share_platform"].as_array().unwrap();
+    let (first, list) = (&found["first_platform_mode"], found["modes"].as_array().unwrap());
+    let expected: Vec<usize> = (0..first["index"].as_u64().unwrap() as usize)
+        .filter(|&i| number(&list[i]["platform_energy_fraction"]) >= 0.2)
+        .collect();
+    let indices: Vec<usize> = sharing.iter().map(|mode| mode["index"].as_u64().unwrap() as usize).collect();
+    assert!(indices == expected && indices.len() >= 2, "{indices:?} {expected:?}");
+    let text = succeed(&line);
+    let [a, b] = [0, 1].map(|i| number(&sharing[i]["frequency_hz"]));
+    assert!(
+        text.contains(&format!("\n{a:.4}")) && text.contains(&format!("{b:.4} Hz move the platform, too: ")),
+        "{text}"
+    );
+
+    // Without a first mode below the limit, the modes that move the platform are named as well.
+    let none = succeed(&["modes", &cogiro, "--pose", "3.2,0,1.5", "--below-hz", "5.5"]);
+    assert!(none.contains("No mode below 5.5 Hz") && none.contains("move the platform, too"), "{none}");
+}

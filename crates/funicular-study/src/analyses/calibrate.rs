@@ -12,6 +12,7 @@ mod report;
 mod rows;
 mod table;
 mod words;
+mod wrong;
 
 pub use drawn::{AnchorRow, LinearRows, NetRows};
 pub use rows::LeftOut;
@@ -160,6 +161,11 @@ pub fn run(request: &CalibrateRequest, watch: &mut dyn Watch) -> Result<Calibrat
     let unknowns = unknowns(request, &robot)?;
     for (key, names) in [("profile", &request.profile), ("propose_for", &request.propose_for)] {
         choice::all_chosen(key, names, &unknowns, &robot)?;
+    }
+    let proposed_for = choice::all_chosen("propose_for", &request.propose_for, &unknowns, &robot)?;
+    let is_chosen = |k: usize| request.propose_for.is_empty() || proposed_for[k];
+    if request.wanted_std_m.is_some() && !(0..unknowns.len()).any(|k| is_chosen(k) && unknowns[k].is_length()) {
+        bail!("⟪wanted_std_m⟫ is a length, and none of the chosen values is one: leave it out, or name lengths");
     }
     let deviations = ReadingDeviations {
         reading: request.length_std_m.unwrap_or(ASSUMED_DEVIATION),

@@ -46,6 +46,10 @@ pub struct Modes {
     /// First mode of the platform; absent if none lies below the limit.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub first_platform_mode: Option<FirstPlatformMode>,
+    /// Modes below it that move the platform considerably, with at least a fifth of their kinetic energy: a motion of the
+    /// platform that is split beside a resonance of a cable.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub share_platform: Vec<FirstPlatformMode>,
     pub cable_names: Vec<String>,
     /// Names of the flexible supports; absent on a rigid frame.
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -62,7 +66,7 @@ pub struct Modes {
     pub warnings: Vec<String>,
 }
 
-/// First mode with enough of its kinetic energy in the platform.
+/// Mode that moves the platform, with its share: the first one with enough of it, or one below.
 #[derive(Debug, Clone, Copy, Serialize)]
 pub struct FirstPlatformMode {
     /// Index in the list of modes, from 0.
@@ -74,9 +78,17 @@ pub struct FirstPlatformMode {
 impl FirstPlatformMode {
     /// First mode of the platform in a list.
     pub fn of(found: &modes::Modes, share: f64) -> Option<Self> {
-        let index = found.first_platform(share)?;
+        Some(Self::at(found, found.first_platform(share)?))
+    }
+
+    /// Modes below it that move the platform, too.
+    pub fn below(found: &modes::Modes, share: f64) -> Vec<Self> {
+        found.share_platform(share).into_iter().map(|index| Self::at(found, index)).collect()
+    }
+
+    fn at(found: &modes::Modes, index: usize) -> Self {
         let modes::Mode { frequency_hz, platform_energy_fraction, .. } = found.modes[index];
-        Some(Self { index, frequency_hz, platform_energy_fraction })
+        Self { index, frequency_hz, platform_energy_fraction }
     }
 }
 
@@ -179,6 +191,7 @@ fn about_rigid_cables(at_rest: &AtRest, request: &request::ModesRequest) -> Resu
         decay_percent: None,
         platform_share: request.platform_share,
         first_platform_mode: FirstPlatformMode::of(&found, request.platform_share),
+        share_platform: FirstPlatformMode::below(&found, request.platform_share),
         cable_names: robot.cables.iter().map(|cable| cable.name.clone()).collect(),
         support_names: Vec::new(),
         participation: None,
@@ -236,6 +249,7 @@ fn of_checked(at_rest: &AtRest, request: &request::ModesRequest, pair: Option<Si
         decay_percent: Some(request.decay_percent),
         platform_share: request.platform_share,
         first_platform_mode: FirstPlatformMode::of(&found, request.platform_share),
+        share_platform: FirstPlatformMode::below(&found, request.platform_share),
         cable_names: robot.cables.iter().map(|cable| cable.name.clone()).collect(),
         support_names: robot.supports.iter().map(|support| support.name.clone()).collect(),
         participation,

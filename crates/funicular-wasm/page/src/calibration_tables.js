@@ -65,8 +65,8 @@ export function proposalsTable(proposals) {
       {},
       cell(String(of.number)),
       cell(of.position_m.map((value) => short(value, 4)).join(", ")),
-      cell(short(1000 * of.total_m, 4)),
-      cell(short(1000 * of.largest_m, 3)),
+      cell(of.total_m === undefined ? "" : short(1000 * of.total_m, 4)),
+      cell(of.largest_m === undefined ? "" : short(1000 * of.largest_m, 3)),
       cell(of.largest_of, { class: "left" }),
     );
   const heads = ["next", "position [m]", { narrow: "all then ± [mm]" }, { narrow: "largest ± [mm]" }, { left: "of" }];

@@ -60,7 +60,7 @@ function drawLegend(pen, x, y) {
   pen.fillRect(x, y - 11, 220, 12);
   const numbers = $("legend")
     .firstElementChild.innerText.replace("Tension: ", "")
-    .replace(/\s*\n\s*/g, " – ");
+    .replace(/\s+(maximum|highest) /, " – $1 ");
   write(pen, `Tension: ${numbers}`, { x: x + 236, y, width: WIDTH, size: 17, color: "--soft" });
 }
 

@@ -179,7 +179,7 @@ export function bars({ rows, label, unit }) {
     const breaking = escaped(name).replaceAll(".", ".<wbr>").replaceAll("_", "_<wbr>");
     const extent = `left:${from.toFixed(1)}%;width:${wide.toFixed(1)}%`;
     return (
-      `<li data-path="${escaped(path)}" role="button" tabindex="0" aria-label="${told}"><span>${breaking}</span>` +
+      `<li data-path="${escaped(path)}"><button aria-label="${told}">${breaking}</button>` +
       `<span class="bar-track"><i class="${value < 0 ? "less" : "more"}" style="${extent}"></i>${mark}</span>` +
       `<b>${escaped(words)}</b></li>`
     );

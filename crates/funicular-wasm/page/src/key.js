@@ -5,6 +5,7 @@ import { limitingCable } from "./colors.js";
 import { $, element, short } from "./format.js";
 import { age, put } from "./messages.js";
 import { KINDS } from "./modes.js";
+import { sharingText } from "./platform_modes.js";
 import { on, page } from "./store.js";
 
 const NAMES = [
@@ -45,11 +46,15 @@ function platformFact(frame, delta) {
   const { before } = page;
   const first = (of) => (of.first?.index === undefined ? null : of.modes[of.first.index]);
   const own = first(frame);
+  const sharing = sharingText(frame, page.about.considerable_share);
+  const too = sharing ? `; ${sharing}` : "";
   if (own) {
-    return [`${short(own.hz, 4)} Hz`, `mode ${frame.first.index + 1}${delta(before && first(before.frame)?.hz)}`];
+    return [`${short(own.hz, 4)} Hz`, `mode ${frame.first.index + 1}${delta(before && first(before.frame)?.hz)}${too}`];
   }
   const now = page.view.dragging ? "searched when the platform rests" : "searching";
-  return frame.first ? ["–", frame.first.reason] : ["…", `above the ${frame.modes.length} lowest; ${now}`];
+  return frame.first
+    ? ["–", `${frame.first.reason}${too}`]
+    : ["…", `above the ${frame.modes.length} lowest; ${now}${too}`];
 }
 
 function showKey() {

@@ -64,14 +64,6 @@ function core() {
   return own ? { packed: own.textContent } : { address: new URL("funicular.wasm", location.href).href };
 }
 
-function makeView() {
-  try {
-    page.view = new View($("view"), pose.handles);
-  } catch (error) {
-    throw new Error(`this browser shows no 3D graphics (WebGL): ${error.message}`);
-  }
-}
-
 function makeWorkspace() {
   const workspace = new Workspace({
     request: () => ({ ...statics(), robot: content.robot }),
@@ -122,7 +114,7 @@ async function start() {
   $("version").textContent = VERSION;
   page.engine = prepare(WORKER, core());
   await page.engine.running;
-  makeView();
+  page.view = new View($("view"), pose.handles);
   makeWorkspace();
 
   // The order of listeners is the order in which a frame is shown: the view first, whose colours the table takes.

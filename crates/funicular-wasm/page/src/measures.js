@@ -2,22 +2,23 @@
 
 /**
  * Names and columns of the core's maps, words, and the value of a frame. A frame has no payload, which takes too long
- * for every picture.
+ * for every picture. The first one is drawn until another is chosen: it is smooth, while the first resonance of the
+ * platform jumps where a motion is split over two modes.
  */
 export const MEASURES = [
+  {
+    name: "platform-frequency",
+    column: "platform_frequency_hz",
+    label: "Frequency of the platform, smooth",
+    unit: "Hz",
+    of: (frame) => frame.about.platform_frequency_hz ?? undefined,
+  },
   {
     name: "first-platform-frequency",
     column: "first_platform_frequency_hz",
     label: "First resonance of the platform",
     unit: "Hz",
     of: (frame) => frame.modes[frame.first?.index]?.hz,
-  },
-  {
-    name: "platform-frequency",
-    column: "platform_frequency_hz",
-    label: "Frequency of the platform, smooth",
-    unit: "Hz",
-    of: () => undefined,
   },
   {
     name: "tension-max",

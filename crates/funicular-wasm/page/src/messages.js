@@ -16,10 +16,20 @@ export function tell(text, note = false) {
   place.hidden = $("message-box").hidden = shown === null;
   $("message-box").classList.toggle("note", error === null);
   place.textContent = shown ?? "";
+  showWhole(false);
+  $("message-more").hidden = place.scrollHeight <= place.clientHeight;
 }
 
-/** Lets a person close the message, which lies over the page. */
+/** Shows a message whole, or its first two lines. */
+function showWhole(whole) {
+  $("message-box").classList.toggle("whole", whole);
+  $("message-more").setAttribute("aria-expanded", String(whole));
+  $("message-more").textContent = whole ? "less" : "more";
+}
+
+/** Lets a person read a long message, and close it. */
 export function listen() {
+  $("message-more").addEventListener("click", () => showWhole(!$("message-box").classList.contains("whole")));
   $("message-close").addEventListener("click", () => tell(null));
 }
 

@@ -74,6 +74,8 @@ async function saveAs(kind) {
     tell(`There is nothing to save: ${page.reason}.`, true);
   } else if (kind === "card") {
     save(`${name}-card.png`, await card(await address()), "image/png");
+  } else if (kind === "png" && !page.view.isDrawn) {
+    tell("This browser draws no 3D view: save the picture as SVG, which has the same lines.", true);
   } else if (kind === "png") {
     save(`${name}.png`, await page.view.png(), "image/png");
   } else if (kind === "svg") {

@@ -58,6 +58,7 @@ function startWay() {
 /** Shows the curves and the floor that belong to the state; the others are hidden. */
 function show() {
   age("curves", false);
+  $("measure-note").hidden = !measure?.name.endsWith("platform-frequency");
   const { about, frame, view } = page;
   const here = frame && presentPose();
   if (!here || !measure) {

@@ -15,8 +15,8 @@ function showLegend() {
   // The ends of the scale: the limits of the cables, or zero and the highest tension, as the view colours them.
   const of = (name) => span(frame.cables.map((cable) => cable[name]));
   const [low, high] = limits
-    ? [`minimum ${of("minimum")} N`, `${of("maximum")} N maximum`]
-    : ["0 N", `${short(Math.max(...frame.cables.map((cable) => cable.highest)), 3)} N highest`];
+    ? [`minimum ${of("minimum")} N `, ` maximum ${of("maximum")} N`]
+    : ["0 N ", ` highest ${short(Math.max(...frame.cables.map((cable) => cable.highest)), 3)} N`];
   const key = `${low} ${high} ${Object.values(kinds)}`;
   if ($("legend").dataset.key === key) {
     return;

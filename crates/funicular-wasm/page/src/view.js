@@ -30,7 +30,7 @@ import { Line2 } from "three/addons/lines/Line2.js";
 import { LineGeometry } from "three/addons/lines/LineGeometry.js";
 import { LineMaterial } from "three/addons/lines/LineMaterial.js";
 import { CalibrationScene } from "./calibration_scene.js";
-import { canvasOf } from "./canvas.js";
+import { canvasOf, NO_RENDERER } from "./canvas.js";
 import { colorOf, COLORS, isLimited, limitingCable } from "./colors.js";
 import { setCurve } from "./curve.js";
 import { Drives } from "./drives.js";
@@ -66,14 +66,22 @@ export class View {
 
     const { canvas, context, software } = canvasOf();
     this.software = software;
-    this.renderer = new WebGLRenderer({ canvas, context, alpha: true });
+    this.renderer = context ? new WebGLRenderer({ canvas, context, alpha: true }) : NO_RENDERER;
     this.canvas = canvas;
+    this.isDrawn = Boolean(context);
     this.canvas.tabIndex = 0;
     this.canvas.setAttribute("role", "application"); // it takes the arrow keys
     this.labels = document.createElement("div");
     this.labels.className = "names";
     this.labels.setAttribute("aria-hidden", "true");
     place.append(this.canvas, this.labels);
+    if (!this.isDrawn) {
+      this.canvas.hidden = this.labels.hidden = true;
+      const note = document.createElement("p");
+      note.className = "no-view";
+      note.textContent = "No 3D here: type a pose below. This browser has no WebGL; everything else is computed.";
+      place.append(note);
+    }
     this.scene = new Scene();
     this.camera = new PerspectiveCamera(FIELD_OF_VIEW, 1, 0.01, 1000);
     this.camera.up.set(0, 0, 1);
@@ -147,7 +155,7 @@ export class View {
   /** Puts the names of the cables beside them, nearer to the anchors, where they are apart. */
   placeLabels() {
     const [width, height] = this.pixels;
-    this.labels.hidden = !this.frame;
+    this.labels.hidden = !this.frame || !this.isDrawn;
     this.frame?.cables.forEach(({ attachment, anchor }, i) => {
       const place = [0, 1, 2].map((k) => anchor[k] + NAME_AT * (attachment[k] - anchor[k]));
       const point = new Vector3(...place).project(this.camera);

@@ -45,15 +45,32 @@ impl Calibration {
         if frame.free_count() == 0 {
             return None;
         }
-        let eigen = precision.free_covariance.clone().symmetric_eigen();
-        let weakest = eigen.eigenvalues.imax();
-        let deviation = factor * eigen.eigenvalues[weakest].max(0.0).sqrt();
-        let direction = eigen.eigenvectors.column(weakest).into_owned();
+        let (held, variance) = self.weakest_held(frame, precision);
+        let deviation = factor * variance.max(0.0).sqrt();
+        let seen = &precision.free_covariance * &held;
+        let along_held = held.dot(&seen);
+        let direction = if along_held > 0.0 { seen / along_held } else { held.clone() };
         let rise = |step: f64| {
             let along = &direction * (step * deviation);
-            (self.fit_across(fit, frame, &along, &direction).chi2 - fit.chi2) / (factor * factor)
+            (self.fit_across(fit, frame, &along, &held).chi2 - fit.chi2) / (factor * factor)
         };
         Some(WeakWalk { steps: STEPS, rises: STEPS.map(rise) })
+    }
+
+    /// Weakest combination of the free directions with its variance; factors have the weight of lengths.
+    fn weakest_held(&self, frame: &CalibrationFrame, precision: &CalibrationPrecision) -> (DVec, f64) {
+        let mut scaled = frame.free.clone();
+        if (0..self.unknowns.len()).all(|k| self.is_length(k)) {
+            let eigen = precision.free_covariance.clone().symmetric_eigen();
+            let weakest = eigen.eigenvalues.imax();
+            return (eigen.eigenvectors.column(weakest).into_owned(), eigen.eigenvalues[weakest]);
+        }
+        for (k, size) in self.natural_sizes(&precision.covariance).into_iter().enumerate() {
+            scaled.row_mut(k).scale_mut(size);
+        }
+        let eigen = (&scaled * &precision.free_covariance * scaled.transpose()).symmetric_eigen();
+        let weakest = eigen.eigenvalues.imax();
+        (scaled.transpose() * eigen.eigenvectors.column(weakest), eigen.eigenvalues[weakest])
     }
 
     /// Fits everything else again with one unknown held at `value`, for a profile of χ²; from a fit with another value of

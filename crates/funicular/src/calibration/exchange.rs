@@ -1,10 +1,12 @@
 //! Cables whose readings are exchanged.
 
 use super::frame::CalibrationFrame;
+use super::search::ITERATIONS_OF_START;
 use super::{Calibration, CalibrationFit, CalibrationUnknown, MeasuredRow};
+use crate::robot::Pose;
 
-/// Exchanges that are fitted completely, after all were compared with the unknowns held.
-const FITTED: usize = 3;
+/// χ² of an exchange, relative to that before, below which rows look for better poses.
+const WORTH_POLISHING: f64 = 1.0;
 
 /// Exchange of two cables.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -37,21 +39,36 @@ pub fn cable_exchange(of: &Calibration, fit: &CalibrationFit, frame: &Calibratio
         return renamed_anchors(of, fit);
     }
     let start = of.start();
+    let exchanged_rows = |cables: [usize; 2]| of.rows.iter().map(move |row| exchanged(row, cables));
     let by_poses = |cables: [usize; 2]| -> f64 {
-        let rows = of.rows.iter().zip(of.start_poses());
-        rows.map(|(row, pose)| of.pose_of_row(&start, &exchanged(row, cables), &pose).1).sum()
+        let rows = exchanged_rows(cables).zip(of.start_poses());
+        rows.map(|(row, pose)| of.pose_of_row(&start, &row, &pose).1).sum()
     };
     let mut ranked: Vec<CableExchange> =
         pairs(count).map(|cables| CableExchange { cables, chi2: by_poses(cables) }).collect();
     ranked.sort_by(|a, b| a.chi2.total_cmp(&b.chi2));
-    let fitted = ranked.iter().take(FITTED).map(|of_pair| {
+
+    // From rough values of the file the poses alone mislead: every pair is fitted, until one fits as noise.
+    let noise = of.largest_of_noise(frame);
+    let mut best: Option<CableExchange> = None;
+    for ranked in ranked {
         let mut other = of.clone();
-        other.rows = of.rows.iter().map(|row| exchanged(row, of_pair.cables)).collect();
-        let found = other.fit(&start, &of.start_poses(), &frame.free);
-        CableExchange { chi2: found.chi2, ..*of_pair }
-    });
-    let best = fitted.min_by(|a, b| a.chi2.total_cmp(&b.chi2))?;
-    (best.chi2 < BETTER_FIT * fit.chi2).then_some(best)
+        other.rows = exchanged_rows(ranked.cables).collect();
+        let from =
+            |poses: &[Pose]| other.fit_within(ITERATIONS_OF_START, &start, other.states(&start, poses), &frame.free);
+        let (middle, first) = (from(&other.start_poses()), from(&other.poses_first().1));
+        let mut found = if first.chi2 < middle.chi2 { first } else { middle };
+        if found.chi2 > noise && found.chi2 < WORTH_POLISHING * fit.chi2 {
+            found = other.polished(found, frame);
+        }
+        if best.is_none_or(|best| found.chi2 < best.chi2) {
+            best = Some(CableExchange { chi2: found.chi2, ..ranked });
+        }
+        if found.chi2 <= noise {
+            break;
+        }
+    }
+    best.filter(|best| best.chi2 < BETTER_FIT * fit.chi2)
 }
 
 /// Cable whose readings fall while it pays out, with χ² after a change of their sign: it falls by a factor of 10. The search
@@ -78,34 +95,49 @@ pub fn encoder_of_other_sign(of: &Calibration, fit: &CalibrationFit, frame: &Cal
     (best.1 < BETTER_FIT * fit.chi2).then_some(best)
 }
 
-/// Exchange of two cables in one row with which it agrees with the others; `None` if none helps by a factor of 10. The
-/// others are fitted without the row first, because a wrong row drags all values along.
-pub fn row_exchange(
+/// Exchange of two cables in one row with which it agrees with the others, whose fit without this row is given, with χ²
+/// of all rows then. `None` if none does: χ² of the row has to fall by a factor of 10, and that of all rows must not
+/// rise by more than noise of a variance that is at least `least_variance`.
+pub(super) fn row_exchange(
     of: &Calibration,
-    fit: &CalibrationFit,
+    others: &CalibrationFit,
     frame: &CalibrationFrame,
     row: usize,
+    least_variance: f64,
 ) -> Option<CableExchange> {
-    if of.is_elastic() {
-        return None;
-    }
-    let mut others = of.clone();
-    let measured = others.rows.remove(row);
-    let mut poses = fit.poses.clone();
-    poses.remove(row);
-    let found =
-        [others.fit(&fit.values, &poses, &frame.free), others.fit(&others.start(), &others.start_poses(), &frame.free)];
-    let found = found.into_iter().min_by(|a, b| a.chi2.total_cmp(&b.chi2))?;
+    let (measured, start) = (&of.rows[row], of.start_poses()[row]);
+    let (_, now) = of.best_pose_of_row(&others.values, measured, &start);
+    let of_pair =
+        |cables: [usize; 2]| (cables, of.best_pose_of_row(&others.values, &exchanged(measured, cables), &start));
+    let is_read = |[a, b]: &[usize; 2]| measured.readings[*a].is_some() || measured.readings[*b].is_some();
+    let mut held: Vec<([usize; 2], (Pose, f64))> = pairs(of.robot.cables.len()).filter(is_read).map(of_pair).collect();
+    held.retain(|(_, (_, chi2))| *chi2 < BETTER_FIT * now);
+    held.sort_by(|a, b| a.1.1.total_cmp(&b.1.1));
 
-    let start = of.start_poses()[row];
-    let (_, now) = of.pose_of_row(&found.values, &measured, &start);
-    let of_pair = |cables: [usize; 2]| {
-        let (_, chi2) = of.pose_of_row(&found.values, &exchanged(&measured, cables), &start);
+    // The values without the row have deviations of their own: everything is fitted again.
+    let fitted = held.into_iter().take(FITTED).map(|(cables, (pose, _))| {
+        let mut all = of.clone();
+        all.rows[row] = exchanged(measured, cables);
+        let mut poses = others.poses.clone();
+        poses.insert(row, pose);
+        let states = all.states(&others.values, &poses);
+        let chi2 = all.fit_within(ITERATIONS_OF_START, &others.values, states, &frame.free).chi2;
         CableExchange { cables, chi2 }
-    };
-    let best = pairs(of.robot.cables.len()).map(of_pair).min_by(|a, b| a.chi2.total_cmp(&b.chi2))?;
-    (best.chi2 < BETTER_FIT * now).then_some(best)
+    });
+    let best = fitted.min_by(|a, b| a.chi2.total_cmp(&b.chi2))?;
+    let net = of.data_count(measured).saturating_sub(of.row_unknown_count()) as f64;
+    let degrees = (of.degrees(frame) as f64 - net).max(1.0);
+    let variance = (others.chi2 / degrees).max(least_variance);
+    let largest_rise = variance * (net + OF_ROW_NOISE * (2.0 * net).sqrt());
+    (best.chi2 <= others.chi2 + largest_rise).then_some(best)
 }
+
+/// Deviations of χ² of a row above its expectation up to which an exchange explains the row. Of one net row the factor
+/// allows 4 deviations of its residual.
+const OF_ROW_NOISE: f64 = 10.0;
+
+/// Exchanges in a row that are fitted completely, after all were compared with the values held.
+const FITTED: usize = 3;
 
 /// χ² after an exchange, relative to that before, below which the exchange is reported. True exchanges gave 1e-4 and less.
 const BETTER_FIT: f64 = 0.1;

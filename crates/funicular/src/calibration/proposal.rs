@@ -30,14 +30,14 @@ pub struct ProposedPose {
     pub candidate: usize,
     /// Readings of all cables at this pose with the present values [m].
     pub readings: Vec<f64>,
-    /// Root of the sum of the variances of the chosen unknowns after this pose and those before it are measured.
+    /// Root of the sum of the variances of the chosen lengths after this pose and those before it are measured [m].
     pub total: f64,
     /// Standard deviation of each unknown then.
     pub deviations: Vec<f64>,
 }
 
 /// Chooses poses one after the other, each so that the criterion falls most. `weights` are factors of the variances, one
-/// per unknown. At each pose is measured what the rows have: readings of all cables, and the tensions and coordinates that
+/// per unknown; a factor of stiffness or mass counts as one length of mean variance. At each pose is measured what the rows have: readings of all cables, and the tensions and coordinates that
 /// any row has.
 pub fn proposals(
     of: &Calibration,
@@ -60,21 +60,24 @@ pub fn proposals(
             row.fixes_pose().then_some(row.net)
         })
         .collect();
-    let weighted = DMat::from_fn(frame.free.nrows(), frame.free.ncols(), |i, j| weights[i] * frame.free[(i, j)]);
-    let weight = frame.free.transpose() * weighted;
-
     // Along a combination that no row sees, all that is known is the size of the robot.
     let mut covariance = precision.free_covariance.clone();
     for lost in &precision.lost {
         let direction = frame.free.transpose() * DVec::from_column_slice(lost) * of.anchor_spread();
         covariance += &direction * direction.transpose();
     }
+    let sizes = of.natural_sizes(&(&frame.free * &covariance * frame.free.transpose()));
+    let weighted = DMat::from_fn(frame.free.nrows(), frame.free.ncols(), |i, j| {
+        weights[i] * sizes[i] * sizes[i] * frame.free[(i, j)]
+    });
+    let weight = frame.free.transpose() * weighted;
     let proposed = |ChosenRows { candidate, covariance }: ChosenRows| {
         let full = &frame.free * &covariance * frame.free.transpose();
+        let lengths = (0..weights.len()).filter(|&k| of.is_length(k));
         ProposedPose {
             candidate,
             readings: readings[candidate].clone(),
-            total: (&weight * &covariance).trace().max(0.0).sqrt(),
+            total: lengths.map(|k| weights[k] * full[(k, k)]).sum::<f64>().max(0.0).sqrt(),
             deviations: full.diagonal().iter().map(|variance| variance.max(0.0).sqrt()).collect(),
         }
     };

@@ -2,6 +2,7 @@
 //! poses of single rows; mirror images.
 
 use super::frame::CalibrationFrame;
+use super::mirror::OtherMinimum;
 use super::spread::spread;
 use super::{Calibration, CalibrationFit, CalibrationUnknown, MeasuredRow, anchors_from_lengths, null_space};
 use crate::math::{DMat, DVec, Vec3};
@@ -21,10 +22,13 @@ const STARTS_OF_MISFIT: usize = 5;
 const FAR_FROM_NOISE: f64 = 100.0;
 
 /// Iterations of one start. Sound starts arrive within about 50; the best one goes on to its end.
-const ITERATIONS_OF_START: usize = 80;
+pub(super) const ITERATIONS_OF_START: usize = 80;
 
 /// Rise of χ² up to which another minimum is kept, in the variance of the residuals.
 const FITS_AS_WELL: f64 = 20.0;
+
+/// Decrease of χ² by a mirror image, in the variance of the residuals, above which the readings choose it: three deviations.
+const CHOSEN: f64 = 9.0;
 
 /// Distance of two minima, relative to the spread of the anchors, up to which they are one.
 const SAME_MINIMUM: f64 = 1e-5;
@@ -44,8 +48,9 @@ const OTHER_POSES: usize = 6;
 pub struct CalibrationSearch {
     /// Best minimum.
     pub best: CalibrationFit,
-    /// Other minima whose χ² is at most 20 higher, in the variance of the residuals, by χ².
-    pub others: Vec<CalibrationFit>,
+    /// Other minima whose χ² is at most 20 higher, in the variance of the residuals, by χ²; mirror images of single
+    /// anchors among them.
+    pub others: Vec<OtherMinimum>,
     /// Number of starts.
     pub starts: usize,
     /// Number of starts that arrived at the best minimum.
@@ -110,34 +115,61 @@ pub fn search(
     }
     frame.hold(&mut best.values, &of.start());
     let variance = (best.chi2 / of.degrees(frame).max(1) as f64).max(1.0);
-    let others = minima
-        .map(|(other, _)| other)
-        .filter(|other| other.converged && other.chi2 < best.chi2 + FITS_AS_WELL * variance)
+    let largest = best.chi2 + FITS_AS_WELL * variance;
+    let mut others: Vec<OtherMinimum> = minima
+        .map(|(fit, _)| OtherMinimum { fit, mirrored: Vec::new() })
+        .filter(|other| other.fit.converged && other.fit.chi2 < largest)
         .collect();
+    for image in of.mirror_images(&best, frame, largest) {
+        match others.iter_mut().find(|other| of.is_same(&other.fit, &image.fit)) {
+            Some(other) => other.mirrored = image.mirrored,
+            None => others.push(image),
+        }
+    }
+    others.sort_by(|a, b| a.fit.chi2.total_cmp(&b.fit.chi2));
+    // Of minima between which the readings do not choose, the one that the starts found is more like the file.
+    if let Some(first) = others.first_mut()
+        && first.fit.chi2 < best.chi2 - CHOSEN * variance
+    {
+        std::mem::swap(&mut first.fit, &mut best);
+        let turned = first.mirrored.clone();
+        for other in others.iter_mut().skip(1).filter(|other| !other.mirrored.is_empty()) {
+            other.mirrored = symmetric_difference(&other.mirrored, &turned);
+        }
+        others.sort_by(|a, b| a.fit.chi2.total_cmp(&b.fit.chi2));
+    }
     Some(CalibrationSearch { best, others, starts: done, arrivals, from_nothing })
+}
+
+/// Members of one of two sets.
+fn symmetric_difference(a: &[usize], b: &[usize]) -> Vec<usize> {
+    let mut of_one: Vec<usize> =
+        a.iter().filter(|of| !b.contains(of)).chain(b.iter().filter(|of| !a.contains(of))).copied().collect();
+    of_one.sort_unstable();
+    of_one
 }
 
 impl Calibration {
     /// True if two fits are one minimum.
-    fn is_same(&self, a: &CalibrationFit, b: &CalibrationFit) -> bool {
+    pub(super) fn is_same(&self, a: &CalibrationFit, b: &CalibrationFit) -> bool {
         let apart = a.values.iter().zip(&b.values).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
         apart <= SAME_MINIMUM * self.anchor_spread() && (a.chi2 - b.chi2).abs() <= 1e-3 * (1.0 + a.chi2)
     }
 
     /// Number of data less that of the unknowns and the coordinates of all poses.
-    fn degrees(&self, frame: &CalibrationFrame) -> usize {
+    pub(super) fn degrees(&self, frame: &CalibrationFrame) -> usize {
         let data = self.rows.iter().map(|row| self.data_count(row)).sum::<usize>() + self.prior_count();
         data.saturating_sub(frame.free_count() + self.rows.len() * self.row_unknown_count())
     }
 
     /// χ² up to which a fit is one of noise.
-    fn largest_of_noise(&self, frame: &CalibrationFrame) -> f64 {
+    pub(super) fn largest_of_noise(&self, frame: &CalibrationFrame) -> f64 {
         let degrees = self.degrees(frame) as f64;
         degrees + OF_NOISE * (2.0 * degrees).sqrt()
     }
 
     /// Start with the values of the file, and for each row the pose that fits them best.
-    fn poses_first(&self) -> (Vec<f64>, Vec<Pose>) {
+    pub(super) fn poses_first(&self) -> (Vec<f64>, Vec<Pose>) {
         let values = self.start();
         let rows = self.rows.iter().zip(self.start_poses());
         let poses = rows.map(|(row, start)| self.pose_of_row(&values, row, &start).0).collect();
@@ -158,7 +190,7 @@ impl Calibration {
     }
 
     /// Pose in the neighbourhood of another one.
-    fn nearby(&self, pose: &Pose, number: usize) -> Pose {
+    pub(super) fn nearby(&self, pose: &Pose, number: usize) -> Pose {
         let translations = self.translations_w().len();
         let step = DVec::from_fn(self.coordinate_count(), |c, _| {
             let size = if c < translations {
@@ -188,7 +220,7 @@ impl Calibration {
     }
 
     /// Fit in which no row has a better pose elsewhere: rows that have take it, and everything is fitted again.
-    fn polished(&self, mut found: CalibrationFit, frame: &CalibrationFrame) -> CalibrationFit {
+    pub(super) fn polished(&self, mut found: CalibrationFit, frame: &CalibrationFrame) -> CalibrationFit {
         if self.is_elastic() {
             return found;
         }
@@ -236,7 +268,7 @@ impl Calibration {
     }
 
     /// The fit or its mirror image, whichever is more like the file.
-    fn canonical(&self, found: CalibrationFit, frame: &CalibrationFrame) -> CalibrationFit {
+    pub(super) fn canonical(&self, found: CalibrationFit, frame: &CalibrationFrame) -> CalibrationFit {
         if !self.is_free_figure(frame) {
             return found;
         }
@@ -273,7 +305,7 @@ impl Calibration {
     }
 
     /// Coordinates of a point along the translations of the platform.
-    fn place(&self, point: &Vec3) -> DVec {
+    pub(super) fn place(&self, point: &Vec3) -> DVec {
         DVec::from_vec(self.translations_w().iter().map(|along| along.dot(point)).collect())
     }
 

@@ -53,6 +53,11 @@ impl CalibrationUnknown {
         }
     }
 
+    /// True for a length, or the scale of the readings times their mean; false for a factor of stiffness or mass.
+    pub fn is_length(&self) -> bool {
+        self.factor().is_none()
+    }
+
     /// Place of a factor of all cables, of the platform or of all supports among those of [`CalibratedRobot::factors`].
     pub(super) fn factor(&self) -> Option<usize> {
         match self {

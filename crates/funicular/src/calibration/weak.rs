@@ -10,6 +10,9 @@ const NAMED_SHARE: f64 = 0.95;
 /// Number of single unknowns that stand for a combination without named motions.
 const SINGLE: usize = 3;
 
+/// Part of the lengths in a direction up to which it is one of factors alone.
+const PURE_FACTORS: f64 = 1e-6;
+
 /// Motion or number that a weak combination consists of.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum CombinationPart {
@@ -32,6 +35,11 @@ pub enum CombinationPart {
     },
     /// Scale of all readings, times a length [m].
     ScaleOfReadings,
+    /// Factor of stiffness, mass or supports, relative change [1].
+    Factor {
+        /// Index of the unknown.
+        unknown: usize,
+    },
     /// One unknown by itself [m].
     Single {
         /// Index of the unknown.
@@ -42,9 +50,10 @@ pub enum CombinationPart {
 /// Combination of unknowns that the rows determine worst.
 #[derive(Debug, Clone)]
 pub struct WeakCombination {
-    /// Standard deviation along the direction [m].
+    /// Standard deviation along the direction, of its lengths together [m].
     pub deviation: f64,
-    /// Direction over all unknowns, unit vector, in the inner frame.
+    /// Direction over all unknowns, unit vector of its lengths, in the inner frame; a factor stands there with the metres
+    /// for which it counts.
     pub direction: Vec<f64>,
     /// Parts with their amounts for one deviation.
     pub parts: Vec<(CombinationPart, f64)>,
@@ -53,7 +62,8 @@ pub struct WeakCombination {
 }
 
 impl Calibration {
-    /// Weakest combinations of a fit, the weakest first, at most `count`.
+    /// Weakest combinations of a fit, the weakest first, at most `count`. Each factor of stiffness, mass or supports has the
+    /// weight of a length of mean deviation, so that its unit does not decide.
     pub fn weak_combinations(
         &self,
         fit: &CalibrationFit,
@@ -61,12 +71,18 @@ impl Calibration {
         precision: &CalibrationPrecision,
         count: usize,
     ) -> Vec<WeakCombination> {
-        let eigen = frame.inner(&precision.covariance).symmetric_eigen();
+        let mut covariance = frame.inner(&precision.covariance);
+        let sizes = self.natural_sizes(&covariance);
+        for (k, size) in sizes.iter().enumerate() {
+            covariance.row_mut(k).scale_mut(*size);
+            covariance.column_mut(k).scale_mut(*size);
+        }
+        let eigen = covariance.symmetric_eigen();
         let mut order: Vec<usize> = (0..eigen.eigenvalues.len()).collect();
         order.sort_by(|a, b| eigen.eigenvalues[*b].total_cmp(&eigen.eigenvalues[*a]));
         let combination = |&k: &usize| {
             let deviation = eigen.eigenvalues[k].max(0.0).sqrt();
-            self.combination(fit, frame, &eigen.eigenvectors.column(k).into_owned(), deviation)
+            self.combination(fit, frame, (&eigen.eigenvectors.column(k).into_owned(), &sizes), deviation)
         };
         order.iter().take(count.min(frame.free_count())).map(combination).collect()
     }
@@ -76,14 +92,14 @@ impl Calibration {
         let inner = frame.inner_projection() * DVec::from_column_slice(direction);
         let size = inner.norm();
         let direction = if size > 0.0 { inner / size } else { DVec::from_column_slice(direction) };
-        self.combination(fit, frame, &direction, 1.0)
+        self.combination(fit, frame, (&direction, &vec![1.0; direction.len()]), 1.0)
     }
 
     fn combination(
         &self,
         fit: &CalibrationFit,
         frame: &CalibrationFrame,
-        direction: &DVec,
+        (direction, sizes): (&DVec, &[f64]),
         deviation: f64,
     ) -> WeakCombination {
         let named = self.named_motions(fit, frame);
@@ -105,8 +121,31 @@ impl Calibration {
             }
         }
 
-        let (share, parts) = if best.0 > NAMED_SHARE { best } else { largest_numbers(direction, deviation) };
-        WeakCombination { deviation, direction: direction.as_slice().to_vec(), parts, share }
+        let (share, mut parts) = if best.0 > NAMED_SHARE { best } else { self.largest_numbers(direction, deviation) };
+        for (part, amount) in &mut parts {
+            if let CombinationPart::Factor { unknown } = part {
+                *amount /= sizes[*unknown] * self.scale_length;
+            }
+        }
+        let lengths = (0..direction.len()).filter(|&k| self.is_length(k)).map(|k| direction[k] * direction[k]);
+        let part = lengths.sum::<f64>().sqrt();
+        let part = if part > PURE_FACTORS { part } else { 1.0 };
+        let direction = (direction / part).as_slice().to_vec();
+        WeakCombination { deviation: part * deviation, direction, parts, share }
+    }
+
+    /// The largest numbers of a direction.
+    fn largest_numbers(&self, direction: &DVec, deviation: f64) -> (f64, Vec<(CombinationPart, f64)>) {
+        let mut order: Vec<usize> = (0..direction.len()).collect();
+        order.sort_by(|a, b| direction[*b].abs().total_cmp(&direction[*a].abs()));
+        order.truncate(SINGLE);
+        let share = order.iter().map(|&k| direction[k] * direction[k]).sum();
+        let part = |unknown: usize| (self.single(unknown), direction[unknown] * deviation);
+        (share, order.into_iter().map(part).collect())
+    }
+
+    fn single(&self, unknown: usize) -> CombinationPart {
+        if self.is_length(unknown) { CombinationPart::Single { unknown } } else { CombinationPart::Factor { unknown } }
     }
 
     /// Motions that have names, in the inner frame.
@@ -154,6 +193,10 @@ impl Calibration {
         if has(CalibrationUnknown::Scale) {
             motions.push((CombinationPart::ScaleOfReadings, field(&still, &none, 1.0)));
         }
+        let factors = (0..self.unknowns.len()).filter(|&k| !self.is_length(k));
+        motions.extend(factors.map(|k| {
+            (self.single(k), DVec::from_fn(self.unknowns.len(), |other, _| if other == k { 1.0 } else { 0.0 }))
+        }));
 
         let project = frame.inner_projection();
         motions
@@ -162,14 +205,4 @@ impl Calibration {
             .filter(|(_, motion)| motion.norm() > 1e-9)
             .collect()
     }
-}
-
-/// The largest numbers of a direction.
-fn largest_numbers(direction: &DVec, deviation: f64) -> (f64, Vec<(CombinationPart, f64)>) {
-    let mut order: Vec<usize> = (0..direction.len()).collect();
-    order.sort_by(|a, b| direction[*b].abs().total_cmp(&direction[*a].abs()));
-    order.truncate(SINGLE);
-    let share = order.iter().map(|&k| direction[k] * direction[k]).sum();
-    let part = |unknown: usize| (CombinationPart::Single { unknown }, direction[unknown] * deviation);
-    (share, order.into_iter().map(part).collect())
 }

@@ -51,3 +51,37 @@ fn a_cable_without_tension_is_reported_and_not_hidden_behind_another_reference()
     assert_eq!(refused, DynamicsError::CatenaryDynamic { cable: robot.cables[0].name.clone(), reason });
     assert_eq!(linearised(CableModel::CatenaryDynamic), Err(refused));
 }
+
+/// The table, the verdict and the advice speak of the same pairs.
+#[test]
+fn a_model_within_a_tolerance_has_no_larger_difference() {
+    for (name, robot, rest) in super::library::library() {
+        for criterion in [
+            Criterion::default(),
+            Criterion { tolerance: 0.006, platform_share: None },
+            Criterion { platform_share: Some(0.5), ..Criterion::default() },
+        ] {
+            // Few modes of a light robot with long cables lie below 6 Hz, hundreds of one with short cables below 15.
+            for below_hz in [1.5, 2.6, 4.9] {
+                let Ok(found) = compare::compare(&robot, &rest, below_hz, Linearisation::default(), criterion) else {
+                    continue;
+                };
+                for model in found.models.iter().filter(|model| model.modes.is_ok()) {
+                    let says = format!("{name}, {} below {below_hz} Hz, {criterion:?}", model.model);
+                    let near = |m: &&compare::Match| m.relative_difference.abs() <= criterion.tolerance;
+                    if model.model == found.reference {
+                        continue;
+                    }
+                    assert_eq!(model.within, model.matches.iter().filter(near).count(), "{says}");
+                    assert_eq!(model.missed, found.compared.len() - model.matches.len(), "{says}");
+                    let is_enough = model.within == found.compared.len();
+                    assert_eq!(model.first_wrong_hz.is_none(), is_enough, "{says}");
+                    if is_enough {
+                        let largest = model.largest_difference.unwrap_or(0.0).abs();
+                        assert!(largest <= criterion.tolerance, "{says}: {largest}");
+                    }
+                }
+            }
+        }
+    }
+}

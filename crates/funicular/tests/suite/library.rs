@@ -29,6 +29,41 @@ pub(crate) fn library() -> Vec<(String, Robot, Equilibrium)> {
         .collect()
 }
 
+/// Along a line the first platform mode jumps where its motion is split over two modes. Wherever it does, modes below it are
+/// named that move the platform, too.
+#[test]
+fn jumps_of_the_first_platform_mode_are_explained_by_the_modes_that_share_its_motion() {
+    let mut jumps = 0;
+    for (text, height, limit) in [(funicular_robots::COGIRO, 1.5, 9.0), (funicular_robots::IPANEMA2, 1.0, 40.0)] {
+        let robot = Robot::from_toml(text).unwrap();
+        let mut last: Option<(f64, bool)> = None;
+        for step in 0..=14 {
+            let pose = funicular::robot::Pose::new([2.0 + 0.1 * f64::from(step), 0.0, height], [0.0; 3]);
+            let rest = statics::distribute_tensions(&robot, &pose, StaticModel::Catenary, &TensionRule::default());
+            let Ok(rest) = rest else { continue };
+            let dynamics = Dynamics::about(&robot, &rest, Linearisation::default(), limit).unwrap();
+            let found = modes::below(&dynamics, limit);
+            let sharing = found.share_platform(modes::PLATFORM_SHARE);
+            for &i in &sharing {
+                let share = found.modes[i].platform_energy_fraction;
+                assert!((modes::CONSIDERABLE_SHARE..modes::PLATFORM_SHARE).contains(&share), "{share}");
+            }
+            let Some(first) = found.first_platform(modes::PLATFORM_SHARE) else { continue };
+            assert!(sharing.iter().all(|&i| i < first));
+            let (hz, told) = (found.modes[first].frequency_hz, !sharing.is_empty());
+            if let Some((before, was_told)) = last
+                && (hz / before - 1.0).abs() > 0.05
+            {
+                jumps += 1;
+                assert!(told || was_told, "{} at step {step}: {before} Hz, then {hz} Hz", robot.name);
+            }
+            last = Some((hz, told));
+        }
+    }
+    // The line of the large robot has such jumps; without one the test would say nothing.
+    assert!(jumps >= 2, "{jumps}");
+}
+
 /// Robots of reference/independent.json by their ids. Their numbers are compared in the validation; here they are used
 /// like other robots.
 fn independent() -> impl Iterator<Item = (String, Robot)> {

@@ -3,10 +3,10 @@
 use super::reachable::none_left;
 use super::report::{CalibrationReport, MAX_PROPOSALS};
 use super::rows::{ReadingRow, Walk};
+use super::wrong::misses;
 use super::{Calibrated, in_mm};
-use crate::normal::NOISE_DEVIATIONS;
-use crate::text::significant;
-use funicular::calibration::{cable_exchange, encoder_of_other_sign, row_exchange};
+use crate::text::{counted, significant};
+use funicular::calibration::{OtherMinimum, WrongRow, encoder_of_other_sign};
 use funicular::math::DMat;
 use funicular::robot::{PlatformMotion, Robot};
 
@@ -19,11 +19,14 @@ pub(super) fn warnings(of: &CalibrationReport, results: &Calibrated) -> Vec<Stri
     warnings.extend(lost_rank(of));
     warnings.extend(results.walk.as_ref().filter(|_| !of.is_misfit()).and_then(curved));
     warnings.extend(exchanged_cables(of));
+    warnings.extend(of.wrong.rows.iter().map(|row| outlier(of, &results.rows[row.row], Some(row))));
     // One row at a time: a wrong one makes others look wrong.
-    let drop = |row: &ReadingRow| row.chi2_drop.unwrap_or_default();
-    let outliers = results.rows.iter().enumerate().filter(|(_, row)| row.outlier);
-    let worst = outliers.max_by(|(_, a), (_, b)| drop(a).total_cmp(&drop(b)));
-    warnings.extend(worst.map(|(j, row)| outlier(of, j, row)));
+    if of.wrong.rows.is_empty() && of.wrong.columns.is_none() {
+        let drop = |row: &ReadingRow| row.chi2_drop.unwrap_or_default();
+        let outliers = results.rows.iter().filter(|row| row.outlier);
+        let worst = outliers.max_by(|a, b| drop(a).total_cmp(&drop(b)));
+        warnings.extend(worst.map(|row| outlier(of, row, None)));
+    }
     warnings.extend(other_minima(of));
     warnings.extend(poor_frame(of));
     warnings.extend(stretch(of));
@@ -58,17 +61,8 @@ fn curved(walk: &Walk) -> Option<String> {
     ))
 }
 
-/// True if the readings miss the model by more than noise.
-fn misses(of: &CalibrationReport) -> bool {
-    let degrees = of.precision.degrees as f64;
-    degrees > 0.0 && of.found.best.chi2 > degrees + 2.0 * NOISE_DEVIATIONS * (2.0 * degrees).sqrt()
-}
-
 fn exchanged_cables(of: &CalibrationReport) -> Option<String> {
-    if !of.of.is_point() && !misses(of) {
-        return None;
-    }
-    let found = cable_exchange(of.of, &of.found.best, &of.frame)?;
+    let found = of.wrong.columns?;
     let [a, b] = found.cables.map(|cable| of.of.robot.cables[cable].name.as_str());
     Some(if of.of.is_point() {
         format!(
@@ -84,8 +78,8 @@ fn exchanged_cables(of: &CalibrationReport) -> Option<String> {
     })
 }
 
-fn outlier(of: &CalibrationReport, j: usize, row: &ReadingRow) -> String {
-    let remedy = row_exchange(of.of, &of.found.best, &of.frame, j).map_or_else(
+fn outlier(of: &CalibrationReport, row: &ReadingRow, wrong: Option<&WrongRow>) -> String {
+    let remedy = wrong.and_then(|wrong| wrong.exchange).map_or_else(
         || format!("repeat the measurement, or leave the row out (⟪leave_out⟫ {})", row.row),
         |found| {
             let [a, b] = found.cables.map(|cable| of.of.robot.cables[cable].name.as_str());
@@ -103,13 +97,44 @@ fn outlier(of: &CalibrationReport, j: usize, row: &ReadingRow) -> String {
 }
 
 fn other_minima(of: &CalibrationReport) -> Option<String> {
-    let other = of.found.others.first()?;
+    let best = &of.found.best;
+    let image = of.found.others.iter().find(|other| !other.mirrored.is_empty());
+    let other = image.or(of.found.others.first())?;
+    let telling = of.of.telling_row(best, &other.fit).map(|row| {
+        let place: Vec<String> = row.pose.position_w.iter().map(|x| significant(*x, 3)).collect();
+        format!(
+            "a row with the platform at {} m tells them apart: the readings of the two differ there by {} or more",
+            place.join(", "),
+            in_mm(row.difference)
+        )
+    });
+    if let Some(image) = image {
+        let (flat, where_rows_lie) =
+            if of.of.translations_w().len() == 2 { ("line", "line on which") } else { ("plane", "plane in which") };
+        let telling = telling.unwrap_or_else(|| format!("measure a row off this {flat}"));
+        return Some(format!(
+            "{} of values fit the readings, see `minima`: χ² {}, and {} with {} on the other side of the {where_rows_lie} the \
+             rows lie; {telling}",
+            counted(1 + of.found.others.len(), "set"),
+            significant(best.chi2, 4),
+            significant(image.fit.chi2, 4),
+            anchors(of, image),
+        ));
+    }
+    let telling = telling.unwrap_or_else(|| "measure more rows".to_owned());
     Some(format!(
-        "another minimum fits as well: χ² {} beside {}, see `minima`; give poses at which the search begins, or measure \
-         more rows",
-        significant(other.chi2, 4),
-        significant(of.found.best.chi2, 4)
+        "another minimum fits as well: χ² {} beside {}, see `minima`; give poses at which the search begins; {telling}",
+        significant(other.fit.chi2, 4),
+        significant(best.chi2, 4)
     ))
+}
+
+fn anchors(of: &CalibrationReport, image: &OtherMinimum) -> String {
+    let names: Vec<&str> = image.mirrored.iter().map(|cable| of.of.robot.cables[*cable].name.as_str()).collect();
+    match names.as_slice() {
+        [one] => format!("the anchor of cable {one}"),
+        several => format!("the anchors of cables {}", several.join(", ")),
+    }
 }
 
 fn poor_frame(of: &CalibrationReport) -> Option<String> {
@@ -188,7 +213,7 @@ fn not_reached(of: &CalibrationReport, results: &Calibrated) -> Option<String> {
 
 /// Warning of an encoder whose readings fall while its cable pays out.
 fn other_sign(of: &CalibrationReport) -> Option<String> {
-    if !misses(of) {
+    if !misses(of) || of.wrong.columns.is_some() || !of.wrong.rows.is_empty() {
         return None;
     }
     let (cable, chi2) = encoder_of_other_sign(of.of, &of.found.best, &of.frame)?;

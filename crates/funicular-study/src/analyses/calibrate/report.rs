@@ -5,6 +5,7 @@ use super::rows::{
     CableResidual, CalibratedValue, DistanceRow, LeftOut, MinimumRow, ProposalRow, Reachable, ReadingRow, Walk, WeakRow,
 };
 
+use super::wrong::{self, Wrong};
 use super::{Calibrated, in_mm, words};
 use crate::Watch;
 use crate::analyses::candidate_poses::Candidates;
@@ -17,7 +18,7 @@ use crate::text::{counted, significant};
 use anyhow::{Result, anyhow};
 use funicular::calibration::{
     Calibration, CalibrationFit, CalibrationFrame, CalibrationPrecision, CalibrationSearch, CalibrationUnknown,
-    WeakWalk, proposals,
+    OtherMinimum, WeakWalk, proposals,
 };
 use funicular::math::{DMat, Vec3, rotation};
 use funicular::robot::Pose;
@@ -26,7 +27,7 @@ use funicular::robot::Pose;
 const WEAK: usize = 3;
 
 /// Probability that the limit of a row allows for any of the rows.
-const OUTLIER: f64 = 0.05;
+pub(super) const OUTLIER: f64 = 0.05;
 
 /// Minimum factor of the deviations with which the walk along the weakest combination is more than rounding.
 const MIN_FACTOR: f64 = 1e-6;
@@ -61,6 +62,8 @@ pub(super) struct CalibrationReport<'a> {
     /// True for an unknown whose deviation a proposal reduces.
     proposed_for: Vec<bool>,
     source: &'a RobotText,
+    /// Rows and columns that are wrong.
+    pub(super) wrong: Wrong,
 }
 
 impl<'a> CalibrationReport<'a> {
@@ -86,7 +89,8 @@ impl<'a> CalibrationReport<'a> {
         let middle = middle(&fit.poses);
         let marks = |key, names: &[String]| all_chosen(key, names, &of.unknowns, &of.robot);
         let proposed_for = marks("propose_for", &request.propose_for)?;
-        Ok(Self {
+        let mut report = Self {
+            wrong: Wrong::default(),
             request,
             of,
             numbers,
@@ -100,7 +104,9 @@ impl<'a> CalibrationReport<'a> {
             source: &request.robot,
             frame,
             precision,
-        })
+        };
+        report.wrong = wrong::found(&report);
+        Ok(report)
     }
 
     fn fit(&self) -> &CalibrationFit {
@@ -126,7 +132,8 @@ impl<'a> CalibrationReport<'a> {
         let rows = self.rows();
         let weak = self.weak();
         let inner = self.frame.inner(&self.precision.covariance);
-        let root = |covariance: &DMat| Some(self.factor? * covariance.trace().max(0.0).sqrt());
+        let has_lengths = (0..self.paths.len()).any(|k| self.of.is_length(k));
+        let root = |covariance: &DMat| Some(self.factor? * self.of.total_of_lengths(covariance));
         let is_known = self.precision.lost.is_empty();
         let (proposals, poses_needed, left_out) = self.proposals(watch)?;
         let residuals: Vec<f64> = rows.iter().flat_map(|row| row.residuals.iter().map(|of| of.residual_m)).collect();
@@ -148,9 +155,12 @@ impl<'a> CalibrationReport<'a> {
             degrees_of_freedom: self.precision.degrees,
             residual_rms_m: (squares / residuals.len().max(1) as f64).sqrt(),
             length_std_m: self.factor.map(|factor| factor * self.of.deviations.reading),
-            total_m: root(&self.precision.covariance).filter(|_| is_known),
-            inner_total_m: root(&inner).filter(|_| is_known),
-            weakest_m: self.factor.filter(|_| is_known).map(|factor| factor * self.precision.weakest()),
+            total_m: root(&self.precision.covariance).filter(|_| is_known && has_lengths),
+            inner_total_m: root(&inner).filter(|_| is_known && has_lengths),
+            weakest_m: self
+                .factor
+                .filter(|_| is_known && has_lengths)
+                .map(|factor| factor * self.of.weakest_of_lengths(&self.precision.covariance)),
             turns: !self.of.is_point(),
             starts: self.found.starts,
             arrivals: self.found.arrivals,
@@ -173,7 +183,7 @@ impl<'a> CalibrationReport<'a> {
     }
 
     /// Variance of the residuals over that of the data.
-    fn variance(&self) -> f64 {
+    pub(super) fn variance(&self) -> f64 {
         self.factor.unwrap_or(1.0).max(MIN_FACTOR).powi(2)
     }
 
@@ -191,7 +201,7 @@ impl<'a> CalibrationReport<'a> {
 
     /// True if another minimum fits so well that the readings do not choose between them.
     pub(super) fn fits_otherwise(&self) -> bool {
-        self.found.others.iter().any(|other| self.rise(other) < UNDECIDED)
+        self.found.others.iter().any(|other| self.rise(&other.fit) < UNDECIDED)
     }
 
     fn walk(&self) -> Option<WeakWalk> {
@@ -268,11 +278,31 @@ impl<'a> CalibrationReport<'a> {
                 residuals: residuals.collect(),
                 chi2_drop: drop,
                 chi2_limit: limit,
-                shift_m: drop.map(|_| left_out.shift.iter().fold(0.0_f64, |most, shift| most.max(shift.abs()))),
+                shift_m: drop.map(|_| self.largest_length(&left_out.shift)),
                 outlier: drop.is_some_and(|drop| drop > limit) && self.precision.degrees > left_out.degrees,
             }
         };
-        (0..count).map(row).collect()
+        let mut rows: Vec<ReadingRow> = (0..count).map(row).collect();
+
+        // A wrong row drags the fit, whose linearisation blames others: what fits without it say counts.
+        if !self.wrong.rows.is_empty() {
+            rows.iter_mut().for_each(|row| row.outlier = false);
+        }
+        for wrong in &self.wrong.rows {
+            let moved: Vec<f64> = self.fit().values.iter().zip(&wrong.values).map(|(a, b)| a - b).collect();
+            let row = &mut rows[wrong.row];
+            row.outlier = true;
+            row.chi2_drop = Some(wrong.chi2_drop / wrong::variance(self, wrong));
+            row.chi2_limit = wrong::limit_of(self, wrong);
+            row.shift_m = Some(self.largest_length(&moved));
+        }
+        rows
+    }
+
+    /// Largest of changes of the values that are lengths.
+    fn largest_length(&self, changes: &[f64]) -> f64 {
+        let lengths = changes.iter().enumerate().filter(|(k, _)| self.of.is_length(*k));
+        lengths.fold(0.0, |most, (_, change)| most.max(change.abs()))
     }
 
     fn weak(&self) -> Vec<WeakRow> {
@@ -285,7 +315,8 @@ impl<'a> CalibrationReport<'a> {
             });
             return lost.collect();
         }
-        let Some(factor) = self.factor else { return Vec::new() };
+        let has_lengths = (0..self.paths.len()).any(|k| self.of.is_length(k));
+        let Some(factor) = self.factor.filter(|_| has_lengths) else { return Vec::new() };
         let weak = self.of.weak_combinations(self.fit(), &self.frame, &self.precision, WEAK);
         let row = |mut of: funicular::calibration::WeakCombination| {
             of.deviation *= factor;
@@ -298,8 +329,8 @@ impl<'a> CalibrationReport<'a> {
 
     fn minima(&self) -> Vec<MinimumRow> {
         let best = self.fit();
-        let row = |other: &CalibrationFit| {
-            let apart = |(a, b): (&f64, &f64)| (a - b).abs();
+        let row = |OtherMinimum { fit: other, mirrored }: &OtherMinimum| {
+            let apart: Vec<f64> = best.values.iter().zip(&other.values).map(|(a, b)| a - b).collect();
             let distance = |j: usize| {
                 let (a, b) = (&best.poses[j], &other.poses[j]);
                 (a.position_w - b.position_w).norm() + self.of.robot.platform_length() * a.rot_wp.angle_to(&b.rot_wp)
@@ -308,7 +339,8 @@ impl<'a> CalibrationReport<'a> {
             MinimumRow {
                 chi2: other.chi2,
                 values: other.values.iter().enumerate().map(|(k, value)| self.of.meaning(k, *value)[0]).collect(),
-                farthest_m: best.values.iter().zip(&other.values).map(apart).fold(0.0, f64::max),
+                farthest_m: self.largest_length(&apart),
+                mirrored: mirrored.iter().map(|cable| self.of.robot.cables[*cable].name.clone()).collect(),
                 row: self.numbers[row],
             }
         };
@@ -323,19 +355,24 @@ impl<'a> CalibrationReport<'a> {
         let count = if self.request.wanted_std_m.is_some() { MAX_PROPOSALS } else { self.request.propose };
         let by = (count, self.request.propose_by);
         let found = proposals(self.of, self.fit(), (&self.frame, &self.precision), &candidates, by, &weights);
+        // Factors of stiffness and mass are no lengths.
+        let has_lengths = (0..weights.len()).any(|k| weights[k] > 0.0 && self.of.is_length(k));
         let row = |(n, of): (usize, &funicular::calibration::ProposedPose)| {
             let pose = &candidates[of.candidate].pose;
-            let chosen = (0..weights.len()).filter(|&k| weights[k] > 0.0);
+            let chosen = (0..weights.len()).filter(|&k| weights[k] > 0.0 && self.of.is_length(k) == has_lengths);
             let largest = chosen.max_by(|a, b| of.deviations[*a].total_cmp(&of.deviations[*b])).unwrap_or(0);
+            let name = &self.paths[largest].0;
+            let relative = factor * of.deviations[largest] * self.of.meaning(largest, self.fit().values[largest])[1]
+                / self.of.meaning(largest, self.fit().values[largest])[0];
             ProposalRow {
                 number: n + 1,
                 position_m: pose.position_w.into(),
                 roll_pitch_yaw_deg: rotation::to_roll_pitch_yaw_deg(&pose.rot_wp),
                 readings_m: of.readings.clone(),
                 tension_rule: rules[of.candidate],
-                total_m: factor * of.total,
-                largest_m: factor * of.deviations[largest],
-                largest_of: self.paths[largest].0.clone(),
+                total_m: has_lengths.then_some(factor * of.total),
+                largest_m: has_lengths.then_some(factor * of.deviations[largest]),
+                largest_of: if has_lengths { name.clone() } else { format!("{name} (±{} %)", percent(relative)) },
                 deviations: of
                     .deviations
                     .iter()
@@ -345,10 +382,9 @@ impl<'a> CalibrationReport<'a> {
             }
         };
         let mut rows: Vec<ProposalRow> = found.iter().enumerate().map(row).collect();
-        let needed = self
-            .request
-            .wanted_std_m
-            .and_then(|wanted| rows.iter().find(|row| row.largest_m <= wanted).map(|row| row.number));
+        let needed = self.request.wanted_std_m.and_then(|wanted| {
+            rows.iter().find(|row| row.largest_m.is_some_and(|largest| largest <= wanted)).map(|row| row.number)
+        });
         rows.truncate(needed.unwrap_or(0).max(self.request.propose));
         Ok((rows, needed, left_out))
     }
@@ -400,7 +436,12 @@ impl<'a> CalibrationReport<'a> {
         let weakest = weak.first().map_or_else(String::new, |row| {
             format!("; weakest: {} (±{} together)", row.words, in_mm(row.deviation_m.unwrap_or_default()))
         });
-        let known = words::range_mm(&deviations);
+        let relative = values.iter().enumerate().filter(|(k, _)| !self.of.is_length(*k));
+        let factors = relative
+            .filter_map(|(_, row)| Some(format!("the {} to ±{} %", row.path, percent(row.deviation? / row.value))));
+        let lengths = (!deviations.is_empty()).then(|| words::range_mm(&deviations));
+        let known = lengths.into_iter().chain(factors).collect::<Vec<_>>().join(", ");
+        let known = if known.is_empty() { "nothing".to_owned() } else { known };
         if self.fits_otherwise() {
             return format!(
                 "Other values fit nearly as well (see the minima); about these ones the values are known to {known}{weakest}"
@@ -432,6 +473,11 @@ impl<'a> CalibrationReport<'a> {
         }
         Ok(set_values::apply(&self.source.changed_text()?, &assignments)?)
     }
+}
+
+/// Part of one in per cent.
+fn percent(part: f64) -> String {
+    significant(100.0 * part, 2)
 }
 
 /// True for a value that the frame holds but for its direction, as one across a direction that is nearly an axis.

@@ -168,13 +168,14 @@ impl ReadingRow {
 /// Combination of values that the readings determine worst.
 #[derive(Serialize)]
 pub struct WeakRow {
-    /// Standard deviation along the combination; absent if the readings do not see it.
+    /// Standard deviation of the lengths of the combination together; absent if the readings do not see it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub deviation_m: Option<f64>,
     /// Share of the words in the combination.
     pub share: f64,
     pub words: String,
-    /// Unit vector over the values, with inner conditions.
+    /// Unit vector over the values that are lengths, with inner conditions; factors stand with the metres for which they
+    /// count.
     pub direction: Vec<f64>,
 }
 
@@ -196,6 +197,9 @@ pub struct MinimumRow {
     pub values: Vec<f64>,
     /// Largest difference of an anchor, attachment or offset from the best minimum.
     pub farthest_m: f64,
+    /// Cables whose anchors stand on the other side of the plane or line of their rows; empty for another kind of minimum.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub mirrored: Vec<String>,
     /// Rows whose poses differ most, from 1.
     pub row: usize,
 }
@@ -212,11 +216,14 @@ pub struct ProposalRow {
     /// Rule of the tensions at the pose, if they are a matter of choice.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub tension_rule: Option<&'static str>,
-    /// Root of the sum of the variances of the chosen values after this pose and those before it.
-    pub total_m: f64,
-    /// Largest deviation of a value then.
-    pub largest_m: f64,
-    /// Value that has it.
+    /// Root of the sum of the variances of the chosen lengths after this pose and those before it; absent if factors alone
+    /// are chosen.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub total_m: Option<f64>,
+    /// Largest deviation of a length then; absent if factors alone are chosen.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub largest_m: Option<f64>,
+    /// Value that has it, or the factor with the largest deviation.
     pub largest_of: String,
     /// Deviations of all values then, in their order.
     pub deviations: Vec<f64>,
@@ -235,11 +242,13 @@ impl ProposalRow {
             column("total_m", "m", "root of the sum of the variances of the chosen values then", |row: &Self| {
                 row.total_m
             })
-            .shown("all together then ±", "mm", |row, style| style.significant(1e3 * row.total_m, 4)),
+            .shown("all together then ±", "mm", |row, style| {
+                style.significant(row.total_m.map(|total| 1e3 * total), 4)
+            }),
             column("largest_m", "m", "largest deviation of a value then", |row: &Self| row.largest_m).shown(
                 "largest ±",
                 "mm",
-                |row, style| style.significant(1e3 * row.largest_m, 3),
+                |row, style| style.significant(row.largest_m.map(|largest| 1e3 * largest), 3),
             ),
             column("largest_of", "", "value with the largest deviation", |row: &Self| row.largest_of.clone())
                 .plain("of"),

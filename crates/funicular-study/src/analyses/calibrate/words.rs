@@ -43,6 +43,10 @@ fn part(robot: &Robot, paths: &[String], (part, amount): &(CombinationPart, f64)
         CombinationPart::ScaleOfReadings => {
             format!("the scale {} by {} of length", if more { "larger" } else { "smaller" }, millimetres(*amount))
         }
+        CombinationPart::Factor { unknown } => {
+            let how = if more { "larger" } else { "smaller" };
+            format!("the {} {how} by {} %", paths[unknown], significant(100.0 * amount.abs(), 3))
+        }
         CombinationPart::Single { unknown } => {
             format!("{} {} by {}", paths[unknown], if more { "larger" } else { "smaller" }, millimetres(*amount))
         }
