@@ -32,7 +32,7 @@ const MOST_OF_SWAY: usize = 1000;
 const FIRST_OVER_LAST: f64 = 1e-3;
 
 /// Frequency a little higher with two digits [Hz], for a limit.
-fn rounded_up(hz: f64) -> f64 {
+pub(crate) fn rounded_up(hz: f64) -> f64 {
     let unit = 10_f64.powi(hz.log10().floor() as i32 - 1);
     let digits = (hz / unit).floor() + 1.0;
     // Text has the nearest number to the decimal one, a product has not.

@@ -11,6 +11,7 @@ mod decay;
 mod fundamental;
 mod lowest;
 mod mac;
+mod omitted;
 mod release;
 mod rigid_cables;
 mod stretch;
@@ -21,7 +22,8 @@ pub use decay::{Decay, DecayError, DecayingMotion};
 pub use fundamental::{First, FirstError, first, lowest_by_count};
 pub use lowest::{LowestError, PlatformModeError, Search, Wanted, doubled, lowest, lowest_with_platform, until};
 pub use mac::mac;
-pub use release::Release;
+pub use omitted::{OmittedModes, OmittedMotion};
+pub use release::{Release, ReleasedMotion};
 pub use rigid_cables::{RigidCablesError, with_rigid_cables};
 pub use stretch::{StretchOfMode, caveat_of_stretch, stretch_of_platform};
 

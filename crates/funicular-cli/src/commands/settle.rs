@@ -79,23 +79,39 @@ impl Printed for Settled {
         };
         let shaping = self.commanded.as_ref().and_then(|commanded| commanded.shaping.as_ref());
         format!(
-            "{}: decay after {what}, modes below {} Hz\n{}\n\n{before}\nWithin {} mm for good after {} s; by the sum \
-             of all amplitudes after {} s{last}.\n{}\n{table}\n{} of {} shown.{}\n",
+            "{}: decay after {what}, modes below {} Hz\n{}\n\n{before}\n{}; by the sum of all amplitudes after {} \
+             s{last}.\n{}\n{table}\n{} of {} shown.{}\n",
             self.robot,
             self.below_hz,
             self.models.line(),
-            significant(1e3 * self.tolerance_m, 4),
-            significant(self.settled_s, 4),
+            self.when_settled(),
             significant(self.surely_settled_s, 4),
-            match &self.held {
-                Some(held) => of_omitted(held),
-                None => shaping.map_or_else(String::new, |shaping| of_shaper(shaping, self.tolerance_m)),
+            match (&self.held, &self.commanded) {
+                (Some(held), _) => of_omitted(held),
+                (None, Some(commanded)) => {
+                    let shaper = shaping.map_or_else(String::new, |shaping| of_shaper(shaping, self.tolerance_m));
+                    of_omitted_by_command(commanded) + &shaper
+                }
+                (None, None) => String::new(),
             },
             self.modes.len().min(SHOWN),
             counted(self.modes.len(), "mode"),
             if self.damped_certified { "" } else { " NOT certified: no count proves the list of damped modes." },
         )
     }
+}
+
+/// Bounds of the modes above the limit after a command; nothing if none are known.
+fn of_omitted_by_command(of: &Commanded) -> String {
+    let Some(distance) = of.omitted_m else { return String::new() };
+    let tension = of.omitted_tension_n.map_or_else(String::new, |tension| {
+        format!(", and change the mean tension of a cable by at most {} N", significant(tension, 3))
+    });
+    format!(
+        "All modes above the limit together move the point by at most {} mm after the {}{tension}.\n",
+        significant(1e3 * distance, 3),
+        of.command
+    )
 }
 
 fn of_omitted(held: &Held) -> String {
@@ -108,7 +124,14 @@ fn of_omitted(held: &Held) -> String {
 /// Displacement before a release.
 fn of_release(held: &Held) -> String {
     let [x, y, z] = held.held_m.map(|part| significant(1e3 * part, 4));
-    format!("Displacement before the release, linear: {x}, {y}, {z} mm.")
+    let lowest = &held.lowest_tension;
+    format!(
+        "Displacement before the release, linear: {x}, {y}, {z} mm. The lowest tension is {} N, in cable \"{}\" {} s after \
+         it.",
+        significant(lowest.tension_n, 4),
+        lowest.cable,
+        significant(lowest.t_s, 3),
+    )
 }
 
 /// Duration and lowest tension of a command.

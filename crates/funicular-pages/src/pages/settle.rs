@@ -38,9 +38,8 @@ pub fn page(found: &Settled, command_line: String) -> anyhow::Result<String> {
         ),
         found,
         summary: format!(
-            "Within {} mm of its rest for good after {} s; by the sum of all amplitudes after {} s. Largest distance {} mm.",
-            significant(1e3 * found.tolerance_m, 4),
-            significant(found.settled_s, 4),
+            "{}; by the sum of all amplitudes after {} s. Largest distance {} mm.",
+            found.when_settled(),
             significant(found.surely_settled_s, 4),
             significant(1e3 * found.peak_m, 4)
         ),

@@ -217,8 +217,8 @@ fn of_checked(at_rest: &AtRest, request: &request::ModesRequest, pair: Option<Si
 
     // Damping, and the peaks that depend on it.
     let mut rows: Vec<ModeRow> = found.modes.iter().cloned().map(ModeRow::from).collect();
-    let (partners, caveat) = if request.damped { modes::damped_partners(&dynamics, &found) } else { (None, None) };
-    warnings.extend(caveat);
+    let (partners, caveats) = if request.damped { modes::damped_partners(&dynamics, &found) } else { (None, vec![]) };
+    warnings.extend(caveats);
     if let Some(partners) = &partners {
         for (row, mode) in rows.iter_mut().zip(&partners.modes) {
             let eigenvalue = mode.eigenvalue();

@@ -1,7 +1,9 @@
 //! `settle`: how a point of the platform swings after a release or a command, and when it has settled.
 
 mod command;
+mod history;
 mod motion;
+mod omitted;
 mod payloads;
 mod release;
 mod rows;
@@ -20,17 +22,20 @@ use super::shared::Models;
 use crate::at_rest::{self, AtRest, ModesBelow};
 use crate::columns::{Columns, ResultTable, Tabled, column, parts};
 use crate::error::NoSolution;
+use crate::frequency_range::rounded_up;
 use crate::request::{self, SettleRequest, check_vector};
 use crate::table::Column;
+use crate::text::significant;
 use anyhow::{Result, bail};
 use command::{Command, CommandKind};
 use funicular::cable::CableModel;
 use funicular::dynamics::{Dynamics, Linearisation};
-use funicular::math::{Vec3, Vec6};
+use funicular::math::Vec3;
 use funicular::modes::damped::DampedModes;
 use funicular::modes::{self, CommandedMotions, Decay, LengthCommand, Modes, Release};
 use funicular::robot::Robot;
 use funicular::statics::{Equilibrium, Stability, StaticModel};
+use history::History;
 use motion::MotionKind;
 use release::UnderWrench;
 use serde::Serialize;
@@ -63,6 +68,9 @@ pub struct Settled {
     pub modes: Vec<SettlingMode>,
     /// Motion from the release or the end of the command on.
     pub history: Vec<HistoryRow>,
+    /// Frequency up to which modes are in the history; absent if all are.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub history_up_to_hz: Option<f64>,
     /// Rows while the command runs, if there is one, and after it.
     #[serde(skip)]
     whole: Vec<HistoryRow>,
@@ -81,6 +89,7 @@ pub struct Held {
     pub held_exact_m: Option<[f64; 3]>,
     /// Bound of what the modes above the limit add to the displacement at the release.
     pub omitted_m: f64,
+    pub lowest_tension: LowestTension,
 }
 
 /// Command of the lengths.
@@ -91,6 +100,14 @@ pub struct Commanded {
     /// Time from its start to its end, with the shaper.
     pub duration_s: f64,
     pub lowest_tension: LowestTension,
+    /// Bound of the distance by which the modes above the limit move the point after the command; absent if none is
+    /// known.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub omitted_m: Option<f64>,
+    /// Bound of the change of the tension of a cable, averaged along it, by the modes above the limit; absent if none is
+    /// known.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub omitted_tension_n: Option<f64>,
     /// Motion while the command runs, at negative times.
     pub during: Vec<HistoryRow>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -173,8 +190,8 @@ pub fn run(robot: Robot, request: &SettleRequest) -> Result<Settled> {
 pub fn about(at_rest: &AtRest, request: &SettleRequest) -> Result<Settled> {
     checked(request)?;
     check_rest(at_rest)?;
-    let (swing, mut warnings) = Swing::of(at_rest, request)?;
     let command = Command::of(at_rest, request)?;
+    let (swing, mut warnings) = Swing::of(at_rest, request, command.as_ref())?;
     let moved = match &command {
         Some(command) => swing.after_command(command, request, &mut warnings)?,
         None => swing.after_release(request, &mut warnings)?,
@@ -183,8 +200,8 @@ pub fn about(at_rest: &AtRest, request: &SettleRequest) -> Result<Settled> {
     let (decay, tolerance) = (&moved.decay, request.tolerance_m);
     let surely_settled_s = decay.surely_settled(tolerance);
     let without_s = moved.without.as_ref().map_or(0.0, |decay| decay.surely_settled(tolerance));
-    let history = history(decay, surely_settled_s.max(without_s));
-    let distance = |row: &HistoryRow| Vec3::new(row.x_m, row.y_m, row.z_m).norm();
+    let History { rows: history, up_to_hz, peak } = History::of(decay, surely_settled_s.max(without_s));
+    warnings.extend(up_to_hz.map(history::caveat));
     let held = moved.held.as_ref().map_or(0.0, |held| Vec3::from(held.held_m).norm());
     let during = moved.commanded.as_ref().map_or(&[][..], |commanded| &commanded.during);
     let whole = [during, &history].concat();
@@ -193,12 +210,13 @@ pub fn about(at_rest: &AtRest, request: &SettleRequest) -> Result<Settled> {
         below_hz: swing.limit,
         models: Models::of(at_rest, swing.linearisation),
         tolerance_m: tolerance,
-        peak_m: history.iter().map(distance).fold(held, f64::max),
+        peak_m: peak.max(held),
         settled_s: decay.settled(tolerance),
         surely_settled_s,
         damped_certified: swing.damped.certified,
         modes: settling_modes(decay, moved.without.as_ref(), tolerance),
         history,
+        history_up_to_hz: up_to_hz,
         whole,
         commanded: moved.commanded,
         held: moved.held,
@@ -228,37 +246,47 @@ struct Moved {
 }
 
 impl<'a> Swing<'a> {
-    /// Free motions, with warnings.
-    fn of(at_rest: &'a AtRest, request: &SettleRequest) -> Result<(Self, Vec<String>)> {
+    /// Free motions, with warnings. Without a given limit it is so high that the modes above it do not count.
+    fn of(at_rest: &'a AtRest, request: &SettleRequest, command: Option<&Command>) -> Result<(Self, Vec<String>)> {
         let linearisation = at_rest::linearisation(&request.model, at_rest.equilibrium.model);
-        let limit = match request.below_hz {
-            Some(given) => at_rest.modes_limit(Some(given), linearisation)?,
-            None => at_rest.sway_limit(linearisation)?,
+        let point_p = Vec3::from(request.points.output_point_m.unwrap_or_default());
+        let arm_w = at_rest.equilibrium.pose.rot_wp * point_p;
+        let of_limit = |limit: f64| at_rest.modes_with_strains(linearisation, limit, modes::MAX_MODES);
+        let (mut limit, is_given) = match request.below_hz {
+            Some(given) => (at_rest.modes_limit(Some(given), linearisation)?, true),
+            None => (at_rest.sway_limit(linearisation)?, false),
         };
-        let ModesBelow { dynamics, modes, mut warnings } =
-            at_rest.modes_with_strains(linearisation, limit, modes::MAX_MODES)?;
+        let mut found = of_limit(limit)?;
+        while !is_given
+            && omitted::counts(at_rest, request, command, &found, &arm_w)
+            && found.dynamics.modes_below(omitted::NEXT_LIMIT * limit * TAU) <= omitted::MOST_MODES
+        {
+            limit = rounded_up(omitted::NEXT_LIMIT * limit);
+            found = of_limit(limit)?;
+        }
+
+        let ModesBelow { dynamics, modes, mut warnings } = found;
         warnings.extend(at_rest.without_damping());
         let damped = modes::damped::damped_modes(&dynamics, &modes);
         let ratios: Vec<f64> = damped.modes.iter().map(modes::damped::DampedMode::damping_ratio).collect();
         warnings.extend(modes::caveat_of_stretch(&at_rest.robot, &modes.modes, &ratios, modes::PLATFORM_SHARE));
-        let point_p = Vec3::from(request.points.output_point_m.unwrap_or_default());
-        let arm_w = at_rest.equilibrium.pose.rot_wp * point_p;
+        if modes.modes.iter().all(|mode| mode.platform_energy_fraction == 0.0) && damped.others.is_empty() {
+            bail!("no mode in which the platform moves lies below {limit} Hz: raise ⟪below_hz⟫, or leave it out");
+        }
         Ok((Self { at_rest, linearisation, limit, dynamics, modes, damped, arm_w }, warnings))
     }
 
     fn after_release(&self, request: &SettleRequest, warnings: &mut Vec<String>) -> Result<Moved> {
-        let force = Vec3::from(request.release_n.unwrap_or_default());
-        let point_p = Vec3::from(request.points.input_point_m.unwrap_or_default());
-        let arm_w = self.at_rest.equilibrium.pose.rot_wp * point_p;
-        let moment = arm_w.cross(&force) + Vec3::from(request.release_n_m.unwrap_or_default());
-        let wrench = Vec6::new(force.x, force.y, force.z, moment.x, moment.y, moment.z);
-        let Release { decay, held, omitted } =
-            Release::of(&self.dynamics, &self.modes, &self.damped, &wrench, &self.arm_w)?;
+        let wrench = omitted::wrench(self.at_rest, request);
+        let released = Release::of(&self.dynamics, &self.modes, &self.damped, &wrench, &self.arm_w)?;
+        let lowest_tension = LowestTension::after_release(self.at_rest, &released)?;
+        let Release { decay, held, omitted, .. } = released;
+        warnings.extend(omitted::caveat_of_release(omitted, request.tolerance_m, self.limit));
 
         let under_wrench = UnderWrench::of(self.at_rest, request);
         warnings.extend(under_wrench.as_ref().and_then(|under| under.caveat(&held)));
         let held_exact_m = under_wrench.and_then(|under| Some(under.found?.0.into()));
-        let held = Held { held_m: held.into(), held_exact_m, omitted_m: omitted };
+        let held = Held { held_m: held.into(), held_exact_m, omitted_m: omitted, lowest_tension };
         Ok(Moved { decay, held: Some(held), commanded: None, without: None })
     }
 
@@ -278,6 +306,8 @@ impl<'a> Swing<'a> {
         let shaped_command = shaped.as_ref().map(|(shaper, _)| unshaped.shaped(shaper)).transpose()?;
         let command = shaped_command.as_ref().unwrap_or(unshaped);
         let lowest_tension = LowestTension::of(self.at_rest, command, &motions)?;
+        let omitted = omitted::bounds(self.at_rest, self.linearisation, &self.modes, &self.arm_w, &command.lengths());
+        warnings.extend(omitted::caveat(omitted.as_ref(), request.tolerance_m, self.limit, &lowest_tension));
         warnings.extend(self.frequencies_at(&command.start()?)?);
         warnings.extend(command.rule_jumps());
 
@@ -291,6 +321,10 @@ impl<'a> Swing<'a> {
             command: command.name(),
             duration_s: command.duration(),
             lowest_tension,
+            omitted_m: omitted.as_ref().map(|of| of.distance),
+            omitted_tension_n: omitted
+                .map(|of| of.mean_tensions.into_iter().fold(0.0, f64::max))
+                .filter(|of| of.is_finite()),
             during: during(&motions, &command.lengths()),
             payloads: self.with_payloads(request, &command.lengths(), shaping.is_some().then_some(&lengths_without))?,
             cables: if lengths.is_empty() { Vec::new() } else { cables.iter().map(|of| of.name.clone()).collect() },
@@ -400,28 +434,6 @@ fn settling_modes(decay: &Decay, without: Option<&Decay>, tolerance: f64) -> Vec
     all
 }
 
-/// Motion up to the sure time, with enough points per period of every mode that counts.
-fn history(decay: &Decay, until: f64) -> Vec<HistoryRow> {
-    let largest = decay.motions.iter().map(modes::DecayingMotion::size).fold(0.0, f64::max);
-    let counts = decay.motions.iter().filter(|motion| motion.size() >= SMALL * largest);
-    let (fastest, slowest) = counts.fold((0.0_f64, f64::INFINITY), |(fastest, slowest), motion| {
-        (fastest.max(motion.omega.re), slowest.min(motion.omega.re))
-    });
-    if fastest <= 0.0 {
-        return Vec::new();
-    }
-    // At least one period of the slowest mode is shown.
-    let until = until.max(TAU / slowest);
-    let points = points_in(until, fastest);
-    (0..=points as usize)
-        .map(|i| {
-            let t_s = until * i as f64 / points;
-            let [x_m, y_m, z_m] = decay.at(t_s).into();
-            HistoryRow { t_s, x_m, y_m, z_m, envelope_m: Some(decay.envelope(t_s)) }
-        })
-        .collect()
-}
-
 /// Number of steps in which a history shows the fastest mode that counts.
 fn points_in(until: f64, fastest: f64) -> f64 {
     (until * fastest / TAU * POINTS_PER_PERIOD).clamp(2.0, MAX_POINTS).ceil()
@@ -463,6 +475,22 @@ impl HistoryRow {
                 |row: &Self| row.envelope_m,
             ),
         ])
+    }
+}
+
+impl Settled {
+    /// Sentence without its end that says when the point has settled.
+    pub fn when_settled(&self) -> String {
+        let tolerance = significant(1e3 * self.tolerance_m, 4);
+        match &self.commanded {
+            Some(of) if self.settled_s == 0.0 => {
+                format!("The point is already within {tolerance} mm of its rest when the {} ends", of.command)
+            }
+            None if self.settled_s == 0.0 => {
+                format!("The point is already within {tolerance} mm of its rest at the release")
+            }
+            _ => format!("Within {tolerance} mm for good after {} s", significant(self.settled_s, 4)),
+        }
     }
 }
 

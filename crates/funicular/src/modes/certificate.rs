@@ -66,25 +66,43 @@ impl Modes {
     }
 }
 
-/// Damped partners of the modes of a list, unless it is too long, and a caveat about them.
-pub fn damped_partners(dynamics: &Dynamics, undamped: &Modes) -> (Option<DampedModes>, Option<String>) {
+/// Damped partners of the modes of a list, unless it is too long, and caveats about them.
+pub fn damped_partners(dynamics: &Dynamics, undamped: &Modes) -> (Option<DampedModes>, Vec<String>) {
     let count = undamped.modes.len();
     if count > MAX_DAMPED {
         let caveat = format!(
             "damping ratios are of first order: complex frequencies are computed for at most {MAX_DAMPED} modes, the \
              list has {count}; lower the limit"
         );
-        return (None, Some(caveat));
+        return (None, vec![caveat]);
     }
     let damped = damped::damped_modes(dynamics, undamped);
-    let caveat = damped.caveat(undamped);
-    (Some(damped), caveat)
+    let caveats = damped.caveat(undamped).into_iter().chain(damped.caveat_of_pairs(undamped)).collect();
+    (Some(damped), caveats)
 }
 
 /// Ratio of growth to frequency above which a motion grows: a thousand times the error of a damped frequency.
 const GROWING: f64 = 1e-6;
 
 impl DampedModes {
+    /// Caveat about modes whose damped partners are not clear.
+    pub fn caveat_of_pairs(&self, undamped: &Modes) -> Option<String> {
+        /// Maximum number of frequencies that are named.
+        const MAX_NAMED: usize = 5;
+
+        let of = |k: &usize| format!("{:.4}", undamped.modes[*k].frequency_hz);
+        let named: Vec<String> = self.unclear.iter().take(MAX_NAMED).map(of).collect();
+        let more = self.unclear.len().saturating_sub(MAX_NAMED);
+        (!named.is_empty()).then(|| {
+            format!(
+                "damping makes neighbouring vibrations one, so that it is not clear which damped vibration belongs to \
+                 which of the modes at {}{} Hz: their eigenvalues and damping ratios are right as a set, not mode by mode",
+                named.join(", "),
+                if more > 0 { format!(" and {more} more") } else { String::new() }
+            )
+        })
+    }
+
     /// Caveat about the damped partners of an undamped list, in addition to the caveat about that list.
     fn caveat(&self, undamped: &Modes) -> Option<String> {
         let grows = |mode: &&DampedMode| mode.omega.im < -GROWING * mode.omega.norm();

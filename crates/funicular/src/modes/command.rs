@@ -149,7 +149,7 @@ impl CommandedMotion {
 
 /// Product of a free motion with the row of a signal of cable `i` at its complex frequency: platform and supports move,
 /// and what lies between them follows.
-fn signal_at(dynamics: &Dynamics, free: &PoleMotion, i: usize, signal: DriveSignal) -> Option<Complex> {
+pub(super) fn signal_at(dynamics: &Dynamics, free: &PoleMotion, i: usize, signal: DriveSignal) -> Option<Complex> {
     let t = dynamics.terms().iter().position(|term| term.cable() == i)?;
     let (term, omega) = (&dynamics.terms()[t], free.omega);
     let form = term.form().by_poles()?;

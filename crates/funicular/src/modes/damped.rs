@@ -9,9 +9,12 @@
 //! turns; the number of the undamped ones is known from the Wittrick–Williams count. With weak damping both numbers are
 //! equal. Strong damping, as of a servo, may move a zero out of the region or into it.
 
+mod pairing;
+
 use super::{Mode, Modes};
 use crate::dynamics::Dynamics;
 use crate::math::{Complex, order};
+use pairing::{Followed, Pairs};
 use std::f64::consts::TAU;
 
 /// Damped natural frequency.
@@ -69,6 +72,9 @@ pub struct DampedModes {
     pub overdamped: usize,
     /// Damped modes below the limit whose undamped partners lie above it, which strong damping can make.
     pub others: Vec<DampedMode>,
+    /// Undamped modes for which it is not clear which damped mode is theirs, by their indices: while the damping grows,
+    /// they come so near to another one that both change their motions.
+    pub unclear: Vec<usize>,
     /// True if the undamped list is certified, every search has converged, and the region holds as many zeros as are
     /// listed.
     pub certified: bool,
@@ -187,11 +193,17 @@ pub fn damped_modes(dynamics: &Dynamics, undamped: &Modes) -> DampedModes {
     let unlisted = if settled { search.unlisted(&modes, limit, right) } else { None };
     let others = unlisted.and_then(|(count, left)| search.others(&mut zeros, count, (left, right)));
     let certified = others.is_some();
-    let mut others = others.unwrap_or_default();
-    others.extend_from_slice(&modes[undamped.modes.len()..]);
+    let all: Vec<DampedMode> = modes.iter().copied().chain(others.unwrap_or_default()).collect();
+
+    // Each mode has the zero to which its damping leads it.
+    let followed = Followed { dynamics, poles_below: POLES_BEYOND * limit };
+    let is_known = |k: usize| search.of_cables_alone(&sought[k]).is_some() || is_still(&modes[k]);
+    let Pairs { modes, mut unclear, mut others } = followed.paired(&sought, &all, is_known);
+    let listed = undamped.modes.len();
+    unclear.retain(|k| *k < listed);
+    others.extend_from_slice(&modes[listed..]);
     others.retain(|mode| mode.omega.re < limit);
-    modes.truncate(undamped.modes.len());
-    DampedModes { modes, overdamped, others, certified }
+    DampedModes { modes: modes[..listed].to_vec(), overdamped, others, unclear, certified }
 }
 
 /// Search for the damped zeros.

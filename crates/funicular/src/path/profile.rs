@@ -40,6 +40,11 @@ impl Profile {
         Self { boxes, impulses: vec![Impulse { time: 0.0, amplitude: 1.0 }] }
     }
 
+    /// Durations of its boxes [s], in any order.
+    pub(crate) fn boxes(&self) -> &[f64] {
+        &self.boxes
+    }
+
     /// The course after a shaper.
     #[must_use]
     pub fn shaped(&self, shaper: &Shaper) -> Self {

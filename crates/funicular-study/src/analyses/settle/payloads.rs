@@ -67,7 +67,7 @@ impl Swing<'_> {
         let at_rest = AtRest { robot, equilibrium, requested_pose: None, rule: None, held_pose: None };
         check_rest(&at_rest)?;
 
-        let (swing, _) = Swing::of(&at_rest, request)?;
+        let (swing, _) = Swing::of(&at_rest, request, None)?;
         let motions = CommandedMotions::of(&swing.dynamics, &swing.modes, &swing.damped, &swing.arm_w)?;
         let decay = motions.after(lengths);
         let largest = decay.motions.iter().max_by(|a, b| a.size().total_cmp(&b.size()));

@@ -1,6 +1,7 @@
 //! Shaper of a command: the modes that it cancels, its impulses, and what it leaves if the frequencies are others.
 
-use super::{HistoryRow, history};
+use super::HistoryRow;
+use super::history::History;
 use crate::request::SettleRequest;
 use anyhow::{Result, anyhow, bail};
 use funicular::modes::{Decay, DecayingMotion};
@@ -162,7 +163,7 @@ impl Shaping {
             robustness: FACTORS.map(robustness).to_vec(),
             settled_without_s: without.settled(tolerance),
             surely_settled_without_s: surely,
-            history_without: history(without, surely),
+            history_without: History::of(without, surely).rows,
         }
     }
 }

@@ -258,6 +258,16 @@ impl CatenaryDynamicEnd {
         Some(through + self.drum_tension_of_ends([paid_out, 0.0, 0.0], omega))
     }
 
+    /// Force on the commanded length per length, the platform end held, at ω [rad/s]; `None` for a motor that turns, whose
+    /// command is no length.
+    pub(crate) fn own_stiffness_of_length(&self, omega: Complex) -> Option<Complex> {
+        if self.chain().is_some_and(|chain| chain.drum.is_some() || chain.motor.is_some()) {
+            return None;
+        }
+        let tension = self.signal_response(DriveSignal::Length, DriveSignal::DrumTension, omega)?;
+        Some(tension * -self.directions.stretch)
+    }
+
     /// Tension at the platform for a force on the held platform end in (e, n, b).
     pub(super) fn tension_of(&self, [x, y, _]: &[Complex; 3]) -> Complex {
         let [h, v] = self.directions.from_platform;

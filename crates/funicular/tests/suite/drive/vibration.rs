@@ -540,12 +540,12 @@ fn delays_destabilise_and_strong_gains_stop_ringing() {
         (found.modes.iter().map(modes::damped::DampedMode::damping_ratio).fold(f64::INFINITY, f64::min), caveat)
     };
     let (stable, caveat) = least(0.001);
-    assert!(stable > 0.0 && caveat.is_none_or(|caveat| !caveat.contains("unstable")));
+    assert!(stable > 0.0 && caveat.iter().all(|caveat| !caveat.contains("unstable")));
     let (unstable, caveat) = least(0.06);
-    assert!(unstable < -0.01 && caveat.unwrap().contains("the control of the motors is unstable"), "{unstable}");
+    assert!(unstable < -0.01 && caveat[0].contains("the control of the motors is unstable"), "{unstable}");
 
     let (found, caveat) = partners(12_000.0, 0.0);
-    assert!(found.unwrap().overdamped > 0 && caveat.unwrap().contains("do not ring"));
+    assert!(found.unwrap().overdamped > 0 && caveat[0].contains("do not ring"));
 }
 
 /// The tension at the drum moves drum, shaft and motor: theory (76) at any frequency, whatever lies before the drum.

@@ -1,12 +1,12 @@
 //! Decay after a release against the exponential of complete matrices, and its times of settling against samples.
 
 use funicular::dynamics::{Dynamics, Linearisation};
-use funicular::math::{DMat, Vec3, Vec6};
+use funicular::math::{DMat, Rotation, Vec3, Vec6};
 use funicular::modes::{self, DecayError, Release, damped};
 use funicular::reduced_model::{DampingAt, RequestedModel, reduce};
 use funicular::response::{Quantity, Signal};
-use funicular::robot::{Damping, Robot, StretchLoss};
-use funicular::statics::{self, StaticModel};
+use funicular::robot::{Damping, Pose, Robot, State, StretchLoss};
+use funicular::statics::{self, StaticModel, TensionRule};
 
 const BELOW_HZ: f64 = 25.0;
 
@@ -92,4 +92,55 @@ fn what_does_not_decay_is_refused() {
     let damped = damped::damped_modes(&dynamics, &found);
     let released = Release::of(&dynamics, &found, &damped, &Vec6::z(), &Vec3::zeros());
     assert!(matches!(released, Err(DecayError::NoDecay { .. })), "{released:?}");
+}
+
+/// Robot with four equal sides: its motions along both level axes share their frequencies.
+fn symmetric() -> Robot {
+    let cables: String = (0..8)
+        .map(|k| {
+            let side = f64::from(k / 2);
+            let (anchor, other) = (std::f64::consts::FRAC_PI_2 * (side + 0.5), if k % 2 == 0 { -0.5 } else { 1.5 });
+            let end = std::f64::consts::FRAC_PI_2 * (side + other);
+            format!(
+                "[[cables]]\nmaterial = \"rope\"\nanchor_m = [{}, {}, 6.0]\nattachment_m = [{}, {}, {}]\n",
+                7.0 * anchor.cos(),
+                7.0 * anchor.sin(),
+                0.7 * end.cos(),
+                0.7 * end.sin(),
+                if k % 2 == 0 { 0.4 } else { -0.4 }
+            )
+        })
+        .collect();
+    Robot::from_toml(&format!(
+        "name = \"symmetric\"\n[platform]\nmass_kg = 60.0\ninertia_kg_m2 = [9.0, 9.0, 12.0]\n[materials.rope]\n\
+         axial_stiffness_n = 4e5\nmass_kg_per_m = 0.05\ndamping_ratio = 0.004\naxial_damping_time_s = 2e-4\n{cables}"
+    ))
+    .unwrap()
+}
+
+/// Motions that share a frequency are found together: the motion is that of a robot that lacks a gram on one side of its
+/// symmetry, whose frequencies differ, and at the release that of all modes.
+#[test]
+fn motions_that_share_a_frequency_have_a_decay() {
+    let released = |robot: &Robot| {
+        let pose = State::Pose(Pose { position_w: Vec3::new(0.0, 0.0, 2.0), rot_wp: Rotation::identity() });
+        let rest = statics::solve_at(robot, &pose, StaticModel::Catenary, &TensionRule::Lowest).unwrap().equilibrium;
+        let dynamics = Dynamics::about(robot, &rest, Linearisation::default(), BELOW_HZ).unwrap();
+        let found = modes::below(&dynamics, BELOW_HZ);
+        let damped = damped::damped_modes(&dynamics, &found);
+        let wrench = Vec6::new(30.0, -12.0, 5.0, 1.0, 2.0, -4.0);
+        Release::of(&dynamics, &found, &damped, &wrench, &Vec3::new(0.2, 0.1, 0.3)).unwrap()
+    };
+    let robot = symmetric();
+    let mut other = robot.clone();
+    other.platform.center_of_mass_p.x += 1e-6;
+    let [both, apart] = [&robot, &other].map(released);
+    let size = both.held.norm();
+    assert!(both.decay.motions.len() < apart.decay.motions.len());
+    assert!((both.decay.at(0.0) - both.held).norm() <= both.omitted, "{both:?}");
+    for time in [0.0, 0.03, 0.4, 1.7, 9.0] {
+        let gap = (both.decay.at(time) - apart.decay.at(time)).norm();
+        assert!(gap < 1e-4 * size, "{time} s: {gap:e} of {size:e}");
+    }
+    assert!((both.decay.envelope(0.0)) <= apart.decay.envelope(0.0) * (1.0 + 1e-4));
 }
