@@ -207,7 +207,7 @@ fn a_release_beside_a_pillar_has_distances() {
 /// A load on a rope, with more tables.
 fn hanging(rope: &str, cables: &str) -> String {
     format!(
-        "[platform]\nmass_kg = 50.0\nmotion = \"point-mass\"\n[materials.rope]\naxial_stiffness_n = 20000.0\n{rope}\
+        "name = \"load\"\n[platform]\nmass_kg = 50.0\nmotion = \"point-mass\"\n[materials.rope]\naxial_stiffness_n = 20000.0\n{rope}\
          [[cables]]\nname = \"working\"\nmaterial = \"rope\"\nanchor_m = [0.0, 0.0, 0.0]\nunstrained_length_m = 8.0\n{cables}"
     )
 }
@@ -285,7 +285,7 @@ fn scenarios_without_effect_are_told() {
         (
             "[[cut]]\ncable = \"1\"\nat_s = 0.001\n[[lengths]]\nat_s = 0.005\nduration_s = 0.01\nchange_m = { 1 = 0.01 }\n",
             0,
-            &["warning: [[lengths]]", "only the rope that is left", "cable \"1\""],
+            &["warning: [[lengths]]", "only the rope that is left", "commands cable \"1\""],
         ),
     ] {
         fs::write(at("s.toml"), scenario).unwrap();

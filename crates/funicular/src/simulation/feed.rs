@@ -363,7 +363,7 @@ impl Feed {
             let content = if is_last { given.value } else { y[j + 1] } - y[j];
             let piece = match tension {
                 None => self.piece(j, content, first),
-                Some(tension) => self.pulled(tension),
+                Some(tension) => self.pulled(self.links.get(j), tension),
             };
             out.needed[j] += piece.psi;
             out.stiffness[j] += piece.stiffness;
@@ -401,10 +401,15 @@ impl Feed {
         stretch_of(psi, self.axial_stiffness)
     }
 
-    /// Piece that a winch without inertia pulls with a tension; its energy is the winch's.
-    fn pulled(&self, tension: f64) -> PieceState {
+    /// Piece that a winch without inertia pulls with a tension; its energy is the winch's. A shaft turns a drum, whose rope
+    /// keeps its stretch.
+    fn pulled(&self, link: Option<&FeedLink>, tension: f64) -> PieceState {
         let tension = tension.max(0.0);
-        PieceState { psi: self.psi(tension), tension, ..PieceState::default() }
+        let psi = match link {
+            Some(FeedLink::Shaft(_)) => self.stretch * tension,
+            _ => self.psi(tension),
+        };
+        PieceState { psi, tension, ..PieceState::default() }
     }
 
     /// Adds what holds the last station: a motor, or a tension without inertia.
@@ -413,7 +418,7 @@ impl Feed {
         let Some(motor) = self.motor else {
             // A station that follows its command has the force that it needs.
             if let Some(tension) = self.hold.tension(time) {
-                let psi = self.pulled(tension).psi;
+                let psi = self.pulled(None, tension).psi;
                 out.needed[last] += psi;
                 out.power -= psi * v[last];
             }

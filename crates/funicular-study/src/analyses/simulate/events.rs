@@ -5,7 +5,7 @@ use crate::analyses::timed_rows::{Holds, TimedRows};
 use crate::at_rest::AtRest;
 use crate::names::suggestion;
 use crate::request::{CutEvent, LengthsEvent, NumberColumns, Scenario};
-use crate::text::significant;
+use crate::text::short;
 use crate::values::finite;
 use anyhow::{Context, Result, anyhow, bail};
 use funicular::math::Vec3;
@@ -109,7 +109,7 @@ pub(super) fn idle(at_rest: &AtRest, list: &[SimulationEvent], labels: &[String]
             let moves = CommandedLengths::new(robot, equilibrium, &before, f64::MAX)
                 .is_ok_and(|lengths| cables.iter().any(|i| lengths.moves_after(*i, time)));
             if !moves {
-                let time = significant(time, 6);
+                let time = short(time, 6);
                 warnings.push(format!("{label} of ⟪scenario⟫ brakes nothing: its winches rest from {time} s on"));
             }
             continue;
@@ -118,12 +118,12 @@ pub(super) fn idle(at_rest: &AtRest, list: &[SimulationEvent], labels: &[String]
         let is_table = matches!(event, SimulationEvent::Follow { .. });
         for (i, cut) in cables.iter().filter(|_| !is_table).filter_map(|i| Some((*i, cut(*i, time)?))) {
             let massless = robot.cables[i].material.mass_per_length == 0.0;
-            let effect = if massless { "nothing" } else { "only the rope that is left at its winch" };
+            let effect = if massless { "it moves nothing" } else { "it moves only the rope that is left at the winch" };
             warnings.push(format!(
-                "{label} of ⟪scenario⟫ moves {effect} at cable \"{}\", which fails at {} s, before {} s",
+                "{label} of ⟪scenario⟫ commands cable \"{}\" at {} s, which has failed at {} s: {effect}",
                 cut.cable,
-                significant(cut.t_s, 4),
-                significant(time, 4)
+                short(time, 6),
+                short(cut.t_s, 6)
             ));
         }
     }
