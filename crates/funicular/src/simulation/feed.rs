@@ -236,10 +236,10 @@ impl Feed {
         self.is_locked = self.is_locked || self.has_integral() || self.motor.is_none_or(|motor| motor.servo.is_none());
     }
 
-    /// Lets the last station go after the start has been found. `needed` is the force that it needs there from all that is
-    /// attached to it, the free span included where the drum is at the anchor [N]; `forces` are those of the feed alone. A
-    /// motor balances this force by itself, and a winch without inertia that pulls with a constant `torque` holds the
-    /// tension at its drum. `lengths` are the commanded length and that of the last station.
+    /// Lets the last station go after the start has been found. `needed` is the force that it needs there from all
+    /// that is attached to it, the free span included where the drum is at the anchor [N]; `forces` are those of the
+    /// feed alone. A motor balances this force by itself, and a winch without inertia that pulls with a constant
+    /// `torque` holds the tension at its drum. `lengths` are the commanded length and that of the last station.
     pub(super) fn let_go(&mut self, needed: f64, forces: &FeedForces, torque: bool, lengths: [f64; 2]) {
         if self.motor.is_some() && self.follows_command() {
             self.bias = -needed / self.stretch;
@@ -262,8 +262,8 @@ impl Feed {
         self.links.len() == self.masses.len()
     }
 
-    /// Energy per unstrained length that rope on a drum at the exit point keeps [N]: that of the stretch with which it was
-    /// wound. Zero if rope lies between them.
+    /// Energy per unstrained length that rope on a drum at the exit point keeps [N]: that of the stretch with which it
+    /// was wound. Zero if rope lies between them.
     fn stored_at_exit(&self) -> f64 {
         let is_drum = match self.links.first() {
             None => self.motor.is_some(),
@@ -353,7 +353,8 @@ impl Feed {
             coupling: vec![0.0; count],
             ..FeedForces::default()
         };
-        // The free span is the only neighbour of a drum at the exit point, and the rope that enters it brings its stretch.
+        // The free span is the only neighbour of a drum at the exit point, and the rope that enters it brings its
+        // stretch.
         let stored = self.stored_at_exit();
         out.needed[0] -= stored;
         out.power += stored * v[0];
@@ -401,8 +402,8 @@ impl Feed {
         stretch_of(psi, self.axial_stiffness)
     }
 
-    /// Piece that a winch without inertia pulls with a tension; its energy is the winch's. A shaft turns a drum, whose rope
-    /// keeps its stretch.
+    /// Piece that a winch without inertia pulls with a tension; its energy is the winch's. A shaft turns a drum, whose
+    /// rope keeps its stretch.
     fn pulled(&self, link: Option<&FeedLink>, tension: f64) -> PieceState {
         let tension = tension.max(0.0);
         let psi = match link {

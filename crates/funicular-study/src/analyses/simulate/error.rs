@@ -41,10 +41,11 @@ fn root_mean_square(values: impl Iterator<Item = f64> + Clone) -> f64 {
     (values.map(|value| value * value).sum::<f64>() / count).sqrt()
 }
 
-/// Error of a run over its difference from the run with the finer mesh, by Richardson's rule: with errors `e` and `e/r`, r
-/// being the ratio of the distances of the nodes, the difference is `e (1 − 1/r)`, which is less than e. Errors that fall
-/// faster leave a larger part of e as the difference, and are bounded too. The first power is the least that was seen, after
-/// a release on eight elements of degree one, which leave out the waves that jump; the standard elements had the third.
+/// Error of a run over its difference from the run with the finer mesh, by Richardson's rule: with errors `e` and
+/// `e/r`, r being the ratio of the distances of the nodes, the difference is `e (1 − 1/r)`, which is less than e.
+/// Errors that fall faster leave a larger part of e as the difference, and are bounded too. The first power is the
+/// least that was seen, after a release on eight elements of degree one, which leave out the waves that jump; the
+/// standard elements had the third.
 ///
 /// # References
 /// docs/theory.md, equation (97k2).
@@ -122,8 +123,8 @@ impl Simulated {
             ""
         };
         format!(
-            "The error is at most {} mm in position and {} % (root mean square) of a tension, by a run with a finer mesh and \
-             tolerance.{statistics}",
+            "The error is at most {} mm in position and {} % (root mean square) of a tension, by a run with a finer \
+             mesh and tolerance.{statistics}",
             significant(1e3 * position.largest, 2),
             significant(100.0 * worst, 2)
         )

@@ -90,7 +90,8 @@ impl ScenarioEvents {
     }
 }
 
-/// Warnings about events that change nothing: brakes of winches that rest, and commands to winches whose cables have failed.
+/// Warnings about events that change nothing: brakes of winches that rest, and commands to winches whose cables have
+/// failed.
 pub(super) fn idle(at_rest: &AtRest, list: &[SimulationEvent], labels: &[String], cuts: &[CutRow]) -> Vec<String> {
     let AtRest { robot, equilibrium, .. } = at_rest;
     let cut = |i: usize, time: f64| cuts.iter().find(|cut| cut.cable == robot.cables[i].name && cut.t_s <= time);
@@ -104,13 +105,14 @@ pub(super) fn idle(at_rest: &AtRest, list: &[SimulationEvent], labels: &[String]
             _ => continue,
         };
         if matches!(event, SimulationEvent::Stop { .. }) {
-            let before: Vec<SimulationEvent> =
-                list.iter().enumerate().filter(|(j, _)| *j != k).map(|(_, of)| of.clone()).collect();
+            // What begins later is not braked.
+            let before = list.iter().enumerate().filter(|(j, of)| *j != k && of.time() <= Some(time));
+            let before: Vec<SimulationEvent> = before.map(|(_, of)| of.clone()).collect();
             let moves = CommandedLengths::new(robot, equilibrium, &before, f64::MAX)
                 .is_ok_and(|lengths| cables.iter().any(|i| lengths.moves_after(*i, time)));
             if !moves {
                 let time = short(time, 6);
-                warnings.push(format!("{label} of ⟪scenario⟫ brakes nothing: its winches rest from {time} s on"));
+                warnings.push(format!("{label} of ⟪scenario⟫ brakes nothing: its winches rest at {time} s"));
             }
             continue;
         }
