@@ -359,6 +359,25 @@ fn only_slack_ropes_with_mass_are_statistical() {
     }
 }
 
+/// The reason why the finer run fails is told: on the finer mesh the rope reaches the tension at which it fails.
+#[test]
+fn a_finer_run_that_fails_gives_its_reason() {
+    let directory = tempfile::tempdir().unwrap();
+    let at = |name: &str| directory.path().join(name).to_str().unwrap().to_owned();
+    fs::write(at("robot.toml"), hanging("mass_kg_per_m = 1.0\naxial_loss_factor = 0.05\n", "")).unwrap();
+    let push = "[[push]]\nat_s = 0.0\nduration_s = 0.05\nforce_n = [0, 0, 1000]\n";
+    let cut = "[[cut]]\ncable = \"working\"\nat_tension_n = 626.0\n";
+    fs::write(at("s.toml"), format!("{push}{cut}")).unwrap();
+    let output = run(&[
+        &["simulate", &at("robot.toml"), "--scenario", &at("s.toml"), "--for", "0.5", "--tolerance-m", "1e-6"][..],
+        &["--elements", "1", "--degree", "2"],
+    ]
+    .concat());
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let told = stderr(&output);
+    assert!(told.contains("the error is not known") && told.contains("is the last one that holds"), "{told}");
+}
+
 /// The stated errors are not below those against a much finer run.
 #[test]
 fn stated_errors_bound_the_errors() {

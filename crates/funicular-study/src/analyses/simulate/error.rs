@@ -114,7 +114,7 @@ impl Simulated {
     /// Sentence on the error of the result.
     pub fn error_in_words(&self) -> String {
         let Some(position) = self.errors.iter().find(|of| of.column == "position_m") else {
-            return "The error is not known, because the run was not repeated with a finer mesh.".to_owned();
+            return "The error is not known, because no finer run came to its end.".to_owned();
         };
         let worst = self.errors.iter().filter_map(|of| of.relative).fold(0.0, f64::max);
         let statistics = if self.is_statistical {
