@@ -740,6 +740,24 @@ def check_fmu(robot, folder, table):
     off = (np.abs(ours - theirs) / np.abs(theirs).max(axis=1, keepdims=True)).max()
     table.row(robot.name, "FMPy, model exchange", "outputs against python-control / maximum", off, 1e-6)
 
+    # A step of a usual size of each input alone, with the importer's default settings, over twenty periods.
+    sizes = {"m": 1e-3, "rad": 1e-3, "N": 10.0, "N m": 10.0}
+    times = np.linspace(0.0, 20.0 / top, 2000)
+    exact = control.sample_system(control.ss(*given), times[1], method="zoh")
+    for place, of in enumerate(told["inputs"]):
+        steps = np.zeros((inputs, len(times)))
+        steps[place] = sizes[of["unit"]]
+        signal = np.zeros(2, dtype=signal.dtype)
+        signal["time"] = [0.0, times[-1]]
+        signal[of["name"]] = sizes[of["unit"]]
+        result = fmpy.simulate_fmu(
+            str(path), fmi_type="ModelExchange", input=signal, stop_time=times[-1], output_interval=times[1], output=written
+        )  # fmt: skip
+        theirs = control.forced_response(exact, times, steps, squeeze=False).outputs
+        size = np.abs(theirs).max(axis=1, keepdims=True)
+        off = (np.abs(np.array([result[name] for name in written]) - theirs)[size[:, 0] > 0] / size[size[:, 0] > 0]).max()
+        table.row(robot.name, "FMPy, model exchange", f"a step of {of['name']} by default settings / maximum", off, 0.01)
+
 
 def check_vtk(robot, folder, table):
     """Compares the file read by VTK with the results of funicular."""

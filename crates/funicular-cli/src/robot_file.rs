@@ -43,8 +43,8 @@ fn with_meshes(name: &str, text: String, folder: &Path) -> Result<String> {
     })
 }
 
-/// Guard of a command's files that knows the robot file, also if it is standard input, and what has been read by the names
-/// in other files.
+/// Guard of a command's files that knows the robot file, also if it is standard input, and what has been read by the
+/// names in other files.
 pub(crate) fn guard(path: Option<&Path>) -> Guard {
     let mut guard = Guard::default();
     if let Some(path) = path {

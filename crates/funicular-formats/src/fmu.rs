@@ -142,12 +142,12 @@ pub fn texts(of: &UnitModel) -> Result<UnitTexts> {
     Ok(UnitTexts { description: description.render()? + "\n", source: source.render()? + "\n", warnings })
 }
 
-/// Relative tolerance of the default experiment, which importers take unless told otherwise. With 1e-5, the default of many,
-/// a lightly damped mode gains or loses a tenth in a hundred periods.
+/// Relative tolerance of the default experiment, which importers take unless told otherwise. With 1e-5, the default of
+/// many, a lightly damped mode gains or loses a tenth in a hundred periods.
 const TOLERANCE: f64 = 1e-8;
 
-/// Part of the largest size that a state has under one of the inputs below which an input does not decide about its size: it
-/// hardly moves the state.
+/// Part of the largest size that a state has under one of the inputs below which an input does not decide about its
+/// size: it hardly moves the state.
 const MIN_SHARE: f64 = 1e-3;
 
 /// Usual size of a command by its unit: a millimetre or ten newtons move a robot as far.
@@ -159,9 +159,9 @@ fn usual_size(unit: &str) -> f64 {
     }
 }
 
-/// Sizes of the states under a usual size of an input: integrators compare their errors with them. Of several inputs that
-/// which moves the state least decides, because a simulation may use it alone. A state without an input of its own has the
-/// size of the states that drive it.
+/// Sizes of the states under a usual size of an input: integrators compare their errors with them. Of several inputs
+/// that which moves the state least decides, because a simulation may use it alone. A state without an input of its
+/// own has the size of the states that drive it.
 fn nominals(space: &StateSpace, inputs: &[(String, String)]) -> Vec<f64> {
     let states = space.a.nrows();
     let rates: Vec<f64> = (0..states).map(|i| space.a.row(i).amax()).collect();
@@ -258,8 +258,8 @@ mod tests {
         assert!(texts.source.contains("{ 0, 1, 2e0 }, { 1, 0, -2e0 }, { 1, 1, -1e-1 }"), "{}", texts.source);
     }
 
-    /// The size of a state is that under a millimetre or ten newtons, whichever moves it less; an input that hardly moves it
-    /// does not count.
+    /// The size of a state is that under a millimetre or ten newtons, whichever moves it less; an input that hardly
+    /// moves it does not count.
     #[test]
     fn nominals_are_those_of_usual_commands() {
         let mut space = model();

@@ -123,7 +123,7 @@ impl Printed for Simulated {
         }
         let _ = write!(text, "\nLargest tensions\n{}", Table::of(&Peak::columns(), &self.peaks));
         if self.errors.is_empty() {
-            let _ = writeln!(text, "\nThe error is not known: the run was not repeated with a finer mesh.");
+            let _ = writeln!(text, "\nThe error is not known: no finer run came to its end.");
         } else {
             let _ = write!(
                 text,

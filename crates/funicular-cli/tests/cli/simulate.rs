@@ -207,15 +207,17 @@ fn a_release_beside_a_pillar_has_distances() {
 /// A load on a rope, with more tables.
 fn hanging(rope: &str, cables: &str) -> String {
     format!(
-        "[platform]\nmass_kg = 50.0\nmotion = \"point-mass\"\n[materials.rope]\naxial_stiffness_n = 20000.0\n{rope}\
-         [[cables]]\nname = \"working\"\nmaterial = \"rope\"\nanchor_m = [0.0, 0.0, 0.0]\nunstrained_length_m = 8.0\n{cables}"
+        "name = \"load\"\n[platform]\nmass_kg = 50.0\nmotion = \"point-mass\"\n[materials.rope]\n\
+         axial_stiffness_n = 20000.0\n{rope}[[cables]]\nname = \"working\"\nmaterial = \"rope\"\n\
+         anchor_m = [0.0, 0.0, 0.0]\nunstrained_length_m = 8.0\n{cables}"
     )
 }
 
 /// A longer rope that catches the load, with its anchor this far away.
 fn catching(apart: f64) -> String {
     format!(
-        "[[cables]]\nname = \"safety\"\nmaterial = \"rope\"\nanchor_m = [{apart:?}, 0.0, 0.0]\nunstrained_length_m = 10.0\n"
+        "[[cables]]\nname = \"safety\"\nmaterial = \"rope\"\nanchor_m = [{apart:?}, 0.0, 0.0]\n\
+         unstrained_length_m = 10.0\n"
     )
 }
 
@@ -270,7 +272,8 @@ fn scenarios_without_effect_are_told() {
     let directory = tempfile::tempdir().unwrap();
     let at = |name: &str| directory.path().join(name).to_str().unwrap().to_owned();
     let robot = robot("yuan2014-4mm.toml");
-    let far = "t_s,x_m,y_m,z_m,roll_deg,pitch_deg,yaw_deg\n0,0.0203,0.0102,0.4555,0,2.88,0\n0.002,0.0204,0.0102,100,0,2.88,0\n";
+    let far = "t_s,x_m,y_m,z_m,roll_deg,pitch_deg,yaw_deg\n0,0.0203,0.0102,0.4555,0,2.88,0\n\
+               0.002,0.0204,0.0102,100,0,2.88,0\n";
     fs::write(at("far.csv"), far).unwrap();
     let line = ["simulate", &robot, "--scenario", &at("s.toml"), "--for", "0.02", "--once", "-o", &at("rows.csv")];
     for (scenario, code, says) in [
@@ -283,9 +286,10 @@ fn scenarios_without_effect_are_told() {
         ("[[lengths]]\nat_s = 0.001\ntable = \"far.csv\"\n", 1, &["[[lengths]]", "`table` row 2: "]),
         ("[[stop]]\nat_s = 0.001\nduration_s = 0.01\n", 0, &["warning: [[stop]]", "brakes nothing"]),
         (
-            "[[cut]]\ncable = \"1\"\nat_s = 0.001\n[[lengths]]\nat_s = 0.005\nduration_s = 0.01\nchange_m = { 1 = 0.01 }\n",
+            "[[cut]]\ncable = \"1\"\nat_s = 0.001\n\
+             [[lengths]]\nat_s = 0.005\nduration_s = 0.01\nchange_m = { 1 = 0.01 }\n",
             0,
-            &["warning: [[lengths]]", "only the rope that is left", "cable \"1\""],
+            &["warning: [[lengths]]", "only the rope that is left", "commands cable \"1\""],
         ),
     ] {
         fs::write(at("s.toml"), scenario).unwrap();
@@ -308,7 +312,8 @@ fn files_that_other_files_name_are_not_written_over() {
                    unstrained_length_5_m,unstrained_length_6_m\n0,6.863,6.565,6.756,6.663,6.801,6.604\n\
                    0.005,6.8629,6.565,6.756,6.663,6.801,6.604\n";
     fs::write(at("table.csv"), lengths).unwrap();
-    let triangle = "solid m\nfacet normal 0 0 0\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid m\n";
+    let triangle = "solid m\nfacet normal 0 0 0\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\n\
+                    endfacet\nendsolid m\n";
     fs::write(at("m.stl"), triangle).unwrap();
     let text = fs::read_to_string(robot("yuan2014-4mm.toml")).unwrap();
     let mesh = "\n[obstacles.m]\nshape = \"mesh\"\nfile = \"m.stl\"\nposition_m = [0.0, 30.0, 0.0]\n";
@@ -352,6 +357,25 @@ fn only_slack_ropes_with_mass_are_statistical() {
         assert!(!found["slack"].as_array().unwrap().is_empty(), "{mass}");
         assert_eq!(found["is_statistical"], is_statistical, "{mass}");
     }
+}
+
+/// The reason why the finer run fails is told: on the finer mesh the rope reaches the tension at which it fails.
+#[test]
+fn a_finer_run_that_fails_gives_its_reason() {
+    let directory = tempfile::tempdir().unwrap();
+    let at = |name: &str| directory.path().join(name).to_str().unwrap().to_owned();
+    fs::write(at("robot.toml"), hanging("mass_kg_per_m = 1.0\naxial_loss_factor = 0.05\n", "")).unwrap();
+    let push = "[[push]]\nat_s = 0.0\nduration_s = 0.05\nforce_n = [0, 0, 1000]\n";
+    let cut = "[[cut]]\ncable = \"working\"\nat_tension_n = 626.0\n";
+    fs::write(at("s.toml"), format!("{push}{cut}")).unwrap();
+    let output = run(&[
+        &["simulate", &at("robot.toml"), "--scenario", &at("s.toml"), "--for", "0.5", "--tolerance-m", "1e-6"][..],
+        &["--elements", "1", "--degree", "2"],
+    ]
+    .concat());
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let told = stderr(&output);
+    assert!(told.contains("the error is not known") && told.contains("is the last one that holds"), "{told}");
 }
 
 /// The stated errors are not below those against a much finer run.

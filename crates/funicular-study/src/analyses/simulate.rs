@@ -127,8 +127,8 @@ impl NearestRow {
     }
 }
 
-/// Loss of the stretch of ropes in one mode of the platform. In time it is a damping time, which has the loss factor at one
-/// frequency only.
+/// Loss of the stretch of ropes in one mode of the platform. In time it is a damping time, which has the loss factor
+/// at one frequency only.
 #[derive(Serialize)]
 pub struct StretchLossRow {
     pub frequency_hz: f64,
@@ -218,8 +218,8 @@ pub fn run_with(
             Err(error) if error.is::<Cancelled>() => None,
             Err(error) => {
                 without_finer = Some(format!(
-                    "the error is not known, because the run with a finer mesh and tolerance failed: {error:#}; the rows \
-                     of the first run may be as wrong: give a larger ⟪tolerance_m⟫, or other ⟪elements⟫"
+                    "the error is not known, because the run with a finer mesh and tolerance failed: {error:#}; the \
+                     rows of the first run may be as wrong: give a larger ⟪tolerance_m⟫, or other ⟪elements⟫"
                 ));
                 None
             }
@@ -406,8 +406,8 @@ fn found(at_rest: &AtRest, request: &SimulateRequest, first: History, finer: Opt
     }
     if is_statistical {
         warnings.push(
-            "ropes with mass go slack: from the first time on at which one is taut again the history depends on the mesh, and \
-             peaks and root mean squares of the tensions are statistics, whose spread `peaks` shows"
+            "ropes with mass go slack: from the first time on at which one is taut again the history depends on the \
+             mesh, and peaks and root mean squares of the tensions are statistics, whose spread `peaks` shows"
                 .to_owned(),
         );
     }

@@ -26,8 +26,8 @@ pub struct StretchOfMode {
     pub shares: Vec<f64>,
 }
 
-/// Modes of the platform on massless ropes, lowest first, with the stretch of each cable: its tension changes by the same
-/// amount all along it, `δT = t·K δp`, which stretches it by `δT L₀/EA`. Empty if the robot has no such modes.
+/// Modes of the platform on massless ropes, lowest first, with the stretch of each cable: its tension changes by the
+/// same amount all along it, `δT = t·K δp`, which stretches it by `δT L₀/EA`. Empty if the robot has no such modes.
 pub fn stretch_of_platform(robot: &Robot, equilibrium: &Equilibrium) -> Vec<StretchOfMode> {
     let linearisation = Linearisation { cable_model: CableModel::CatenaryStatic, ..Linearisation::default() };
     let Ok(dynamics) = Dynamics::about(robot, equilibrium, linearisation, MAX_HZ) else { return Vec::new() };

@@ -270,8 +270,8 @@ const LEAST_LENGTH: f64 = 0.01;
 const JUMP: f64 = 1e-5;
 
 impl SimulationEvent {
-    /// Time at which it begins; none for a cut at a tension.
-    pub(super) fn time(&self) -> Option<f64> {
+    /// Time at which it begins [s]; none for a cut at a tension.
+    pub fn time(&self) -> Option<f64> {
         match self {
             Self::Release { time, .. }
             | Self::Pick { time, .. }

@@ -236,10 +236,10 @@ impl Feed {
         self.is_locked = self.is_locked || self.has_integral() || self.motor.is_none_or(|motor| motor.servo.is_none());
     }
 
-    /// Lets the last station go after the start has been found. `needed` is the force that it needs there from all that is
-    /// attached to it, the free span included where the drum is at the anchor [N]; `forces` are those of the feed alone. A
-    /// motor balances this force by itself, and a winch without inertia that pulls with a constant `torque` holds the
-    /// tension at its drum. `lengths` are the commanded length and that of the last station.
+    /// Lets the last station go after the start has been found. `needed` is the force that it needs there from all
+    /// that is attached to it, the free span included where the drum is at the anchor [N]; `forces` are those of the
+    /// feed alone. A motor balances this force by itself, and a winch without inertia that pulls with a constant
+    /// `torque` holds the tension at its drum. `lengths` are the commanded length and that of the last station.
     pub(super) fn let_go(&mut self, needed: f64, forces: &FeedForces, torque: bool, lengths: [f64; 2]) {
         if self.motor.is_some() && self.follows_command() {
             self.bias = -needed / self.stretch;
@@ -262,8 +262,8 @@ impl Feed {
         self.links.len() == self.masses.len()
     }
 
-    /// Energy per unstrained length that rope on a drum at the exit point keeps [N]: that of the stretch with which it was
-    /// wound. Zero if rope lies between them.
+    /// Energy per unstrained length that rope on a drum at the exit point keeps [N]: that of the stretch with which it
+    /// was wound. Zero if rope lies between them.
     fn stored_at_exit(&self) -> f64 {
         let is_drum = match self.links.first() {
             None => self.motor.is_some(),
@@ -353,7 +353,8 @@ impl Feed {
             coupling: vec![0.0; count],
             ..FeedForces::default()
         };
-        // The free span is the only neighbour of a drum at the exit point, and the rope that enters it brings its stretch.
+        // The free span is the only neighbour of a drum at the exit point, and the rope that enters it brings its
+        // stretch.
         let stored = self.stored_at_exit();
         out.needed[0] -= stored;
         out.power += stored * v[0];
@@ -363,7 +364,7 @@ impl Feed {
             let content = if is_last { given.value } else { y[j + 1] } - y[j];
             let piece = match tension {
                 None => self.piece(j, content, first),
-                Some(tension) => self.pulled(tension),
+                Some(tension) => self.pulled(self.links.get(j), tension),
             };
             out.needed[j] += piece.psi;
             out.stiffness[j] += piece.stiffness;
@@ -401,10 +402,15 @@ impl Feed {
         stretch_of(psi, self.axial_stiffness)
     }
 
-    /// Piece that a winch without inertia pulls with a tension; its energy is the winch's.
-    fn pulled(&self, tension: f64) -> PieceState {
+    /// Piece that a winch without inertia pulls with a tension; its energy is the winch's. A shaft turns a drum, whose
+    /// rope keeps its stretch.
+    fn pulled(&self, link: Option<&FeedLink>, tension: f64) -> PieceState {
         let tension = tension.max(0.0);
-        PieceState { psi: self.psi(tension), tension, ..PieceState::default() }
+        let psi = match link {
+            Some(FeedLink::Shaft(_)) => self.stretch * tension,
+            _ => self.psi(tension),
+        };
+        PieceState { psi, tension, ..PieceState::default() }
     }
 
     /// Adds what holds the last station: a motor, or a tension without inertia.
@@ -413,7 +419,7 @@ impl Feed {
         let Some(motor) = self.motor else {
             // A station that follows its command has the force that it needs.
             if let Some(tension) = self.hold.tension(time) {
-                let psi = self.pulled(tension).psi;
+                let psi = self.pulled(None, tension).psi;
                 out.needed[last] += psi;
                 out.power -= psi * v[last];
             }

@@ -1,16 +1,17 @@
 //! Mesh of a rope at rest between two ends: the start of a rope that hangs in a narrow bend.
 //!
 //! The nodes of an element have as many derivatives as it has Gauss points. At rest the force N there is that at the
-//! platform less the load in between, exactly, so that three numbers are sought: the force at the platform with which the
-//! stretches of all Gauss points lead from one end to the other.
+//! platform less the load in between, exactly, so that three numbers are sought: the force at the platform with which
+//! the stretches of all Gauss points lead from one end to the other.
 
 use super::rope::RopeMesh;
 use crate::math::legendre::gauss;
 use crate::math::{DMat, Mat3, Vec3};
 
-/// Forces at which the corner of |N| at zero is rounded, over the load of the rope, one after the other. Rope straight down
-/// and up again has N = 0 at its bend. The last rounding leaves forces of 1e-5 of the load; with 1e-13 the direction of N
-/// is itself rounding, and the ends miss each other by centimetres. From 1e-1 on Newton's method gets there.
+/// Forces at which the corner of |N| at zero is rounded, over the load of the rope, one after the other. Rope straight
+/// down and up again has N = 0 at its bend. The last rounding leaves forces of 1e-5 of the load; with 1e-13 the
+/// direction of N is itself rounding, and the ends miss each other by centimetres. From 1e-1 on Newton's method gets
+/// there.
 const ROUNDINGS: [f64; 5] = [1e-1, 1e-3, 1e-5, 1e-7, 1e-9];
 
 /// Largest number of steps for each rounding.
@@ -51,8 +52,8 @@ impl RestingRope<'_> {
         })
     }
 
-    /// Places of the nodes at rest; `None` without a load, which leaves a slack rope no place of its own. `force_w` is a
-    /// first guess of the force at the platform, along the rope towards the anchor [N].
+    /// Places of the nodes at rest; `None` without a load, which leaves a slack rope no place of its own. `force_w` is
+    /// a first guess of the force at the platform, along the rope towards the anchor [N].
     pub(super) fn nodes(&self, force_w: &Vec3) -> Option<Vec<Vec3>> {
         let weight = self.load_w.norm() * self.length;
         if weight == 0.0 {
@@ -176,8 +177,8 @@ mod tests {
         }
     }
 
-    /// The forces that the nodes need are those of the load alone, however narrow the bend is: also straight down and up
-    /// again.
+    /// The forces that the nodes need are those of the load alone, however narrow the bend is: also straight down and
+    /// up again.
     #[test]
     fn nodes_at_rest_need_no_force() {
         for (elements, degree) in [(1, 2), (3, 8), (7, 1), (20, 4)] {

@@ -488,8 +488,8 @@ impl Simulation {
         &self.cuts
     }
 
-    /// Loss of the stretch in each mode of the platform at the start, lowest frequency first; empty if no rope has a loss
-    /// factor.
+    /// Loss of the stretch in each mode of the platform at the start, lowest frequency first; empty if no rope has a
+    /// loss factor.
     pub fn losses(&self) -> &[LossOfMode] {
         &self.losses
     }

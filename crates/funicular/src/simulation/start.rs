@@ -145,8 +145,8 @@ pub enum RestFault {
     Unstable,
     /// A rope without mass carries nothing, so that nothing holds the wheel or winch behind it.
     #[error(
-        "cable \"{cable}\" has no mass and carries nothing at the start, so that nothing holds its wheel or winch: give \
-         `mass_kg_per_m` in [materials.*], or begin at a pose at which the cable is taut"
+        "cable \"{cable}\" has no mass and carries nothing at the start, so that nothing holds its wheel or winch: \
+         give `mass_kg_per_m` in [materials.*], or begin at a pose at which the cable is taut"
     )]
     Slack {
         /// Name of the cable.
@@ -154,8 +154,8 @@ pub enum RestFault {
     },
     /// The mesh of a rope is too coarse for its bend.
     #[error(
-        "the mesh does not come to rest at the start: cable \"{cable}\" hangs there in a bend with a radius of {radius_m} m, \
-         and its nodes are {apart_m} m apart: give {elements} elements"
+        "the mesh does not come to rest at the start: cable \"{cable}\" hangs there in a bend with a radius of {radius_m} \
+         m, and its nodes are {apart_m} m apart: give {elements} elements"
     )]
     Coarse {
         /// Name of the cable with the narrowest bend for its mesh.
@@ -244,9 +244,9 @@ fn omega_of_stretch(robot: &Robot, modes: &[StretchOfMode]) -> Option<f64> {
     Some(TAU * mode.frequency_hz)
 }
 
-/// Damping of each rope. A damping ratio and a loss factor are the same at all frequencies, and a motion in time has them at
-/// one frequency: a ratio of moving ropes at the first natural frequency, a loss factor of their stretch at the frequency of
-/// the mode of the platform that stretches them most.
+/// Damping of each rope. A damping ratio and a loss factor are the same at all frequencies, and a motion in time has
+/// them at one frequency: a ratio of moving ropes at the first natural frequency, a loss factor of their stretch at
+/// the frequency of the mode of the platform that stretches them most.
 ///
 /// # References
 /// docs/theory.md, equation (97e2).

@@ -17,9 +17,9 @@ use std::time::{Duration, Instant};
 
 /// Time after which rows that are ready, and the state after them, are on the disk.
 const FLUSH: Duration = Duration::from_secs(1);
-/// First bytes of a state. The version of the program follows, because another one may have other numbers in it. The request
-/// stands in the next line, then follow the checksum of the rows and the numbers, 4 bytes, and the numbers: the count of
-/// rows and the state.
+/// First bytes of a state. The version of the program follows, because another one may have other numbers in it. The
+/// request stands in the next line, then follow the checksum of the rows and the numbers, 4 bytes, and the numbers:
+/// the count of rows and the state.
 const MARK: &str = concat!("funicular simulate 2, ", env!("CARGO_PKG_VERSION"), "\n");
 
 /// Files of a run that has not ended; none for a result that is no CSV file.

@@ -41,18 +41,17 @@ fn root_mean_square(values: impl Iterator<Item = f64> + Clone) -> f64 {
     (values.map(|value| value * value).sum::<f64>() / count).sqrt()
 }
 
-/// Lowest order with which errors fall as the nodes come nearer. Elements of degree one have it for smooth motions; the
-/// standard ones had 3 after a release, where waves jump, and more for smooth motions.
-const LEAST_ORDER: i32 = 2;
-
-/// Error of a run over its difference from the run with the finer mesh, by Richardson's rule: with errors `e` and `e/rᵖ`, r
-/// being the ratio of the distances of the nodes and p the order, the difference is `e (1 − r⁻ᵖ)`, which is less than e.
+/// Error of a run over its difference from the run with the finer mesh, by Richardson's rule: with errors `e` and
+/// `e/r`, r being the ratio of the distances of the nodes, the difference is `e (1 − 1/r)`, which is less than e.
+/// Errors that fall faster leave a larger part of e as the difference, and are bounded too. The first power is the
+/// least that was seen, after a release on eight elements of degree one, which leave out the waves that jump; the
+/// standard elements had the third.
 ///
 /// # References
 /// docs/theory.md, equation (97k2).
 fn error_per_difference(mesh: ElementMesh) -> f64 {
     let ratio = mesh.finer().elements as f64 / mesh.elements as f64;
-    1.0 / (1.0 - ratio.powi(-LEAST_ORDER))
+    1.0 / (1.0 - 1.0 / ratio)
 }
 
 /// Errors of the columns of a run on this mesh, and peaks of the tensions.
@@ -115,7 +114,7 @@ impl Simulated {
     /// Sentence on the error of the result.
     pub fn error_in_words(&self) -> String {
         let Some(position) = self.errors.iter().find(|of| of.column == "position_m") else {
-            return "The error is not known, because the run was not repeated with a finer mesh.".to_owned();
+            return "The error is not known, because no finer run came to its end.".to_owned();
         };
         let worst = self.errors.iter().filter_map(|of| of.relative).fold(0.0, f64::max);
         let statistics = if self.is_statistical {
@@ -124,8 +123,8 @@ impl Simulated {
             ""
         };
         format!(
-            "The error is at most {} mm in position and {} % (root mean square) of a tension, by a run with a finer mesh and \
-             tolerance.{statistics}",
+            "The error is at most {} mm in position and {} % (root mean square) of a tension, by a run with a finer \
+             mesh and tolerance.{statistics}",
             significant(1e3 * position.largest, 2),
             significant(100.0 * worst, 2)
         )

@@ -5,7 +5,7 @@ use crate::analyses::timed_rows::{Holds, TimedRows};
 use crate::at_rest::AtRest;
 use crate::names::suggestion;
 use crate::request::{self, CutEvent, LengthsEvent, NumberColumns, Scenario, check_scenario};
-use crate::text::significant;
+use crate::text::short;
 use crate::values::finite;
 use anyhow::{Context, Result, anyhow, bail};
 use funicular::math::Vec3;
@@ -90,7 +90,8 @@ impl ScenarioEvents {
     }
 }
 
-/// Warnings about events that change nothing: brakes of winches that rest, and commands to winches whose cables have failed.
+/// Warnings about events that change nothing: brakes of winches that rest, and commands to winches whose cables have
+/// failed.
 pub(super) fn idle(at_rest: &AtRest, list: &[SimulationEvent], labels: &[String], cuts: &[CutRow]) -> Vec<String> {
     let AtRest { robot, equilibrium, .. } = at_rest;
     let cut = |i: usize, time: f64| cuts.iter().find(|cut| cut.cable == robot.cables[i].name && cut.t_s <= time);
@@ -104,13 +105,14 @@ pub(super) fn idle(at_rest: &AtRest, list: &[SimulationEvent], labels: &[String]
             _ => continue,
         };
         if matches!(event, SimulationEvent::Stop { .. }) {
-            let before: Vec<SimulationEvent> =
-                list.iter().enumerate().filter(|(j, _)| *j != k).map(|(_, of)| of.clone()).collect();
+            // What begins later is not braked.
+            let before = list.iter().enumerate().filter(|(j, of)| *j != k && of.time() <= Some(time));
+            let before: Vec<SimulationEvent> = before.map(|(_, of)| of.clone()).collect();
             let moves = CommandedLengths::new(robot, equilibrium, &before, f64::MAX)
                 .is_ok_and(|lengths| cables.iter().any(|i| lengths.moves_after(*i, time)));
             if !moves {
-                let time = significant(time, 6);
-                warnings.push(format!("{label} of ⟪scenario⟫ brakes nothing: its winches rest from {time} s on"));
+                let time = short(time, 6);
+                warnings.push(format!("{label} of ⟪scenario⟫ brakes nothing: its winches rest at {time} s"));
             }
             continue;
         }
@@ -118,12 +120,12 @@ pub(super) fn idle(at_rest: &AtRest, list: &[SimulationEvent], labels: &[String]
         let is_table = matches!(event, SimulationEvent::Follow { .. });
         for (i, cut) in cables.iter().filter(|_| !is_table).filter_map(|i| Some((*i, cut(*i, time)?))) {
             let massless = robot.cables[i].material.mass_per_length == 0.0;
-            let effect = if massless { "nothing" } else { "only the rope that is left at its winch" };
+            let effect = if massless { "it moves nothing" } else { "it moves only the rope that is left at the winch" };
             warnings.push(format!(
-                "{label} of ⟪scenario⟫ moves {effect} at cable \"{}\", which fails at {} s, before {} s",
+                "{label} of ⟪scenario⟫ commands cable \"{}\" at {} s, which has failed at {} s: {effect}",
                 cut.cable,
-                significant(cut.t_s, 4),
-                significant(time, 4)
+                short(time, 6),
+                short(cut.t_s, 6)
             ));
         }
     }

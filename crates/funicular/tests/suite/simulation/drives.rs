@@ -135,14 +135,14 @@ fn subjects() -> Vec<(String, Robot, Equilibrium)> {
 /// Drives whose winch has yielded at rest.
 const YIELDING: [&str; 4] = ["servo", "delayed servo", "torque on a shaft", "servo on a shaft at the anchor"];
 
-/// One rope that carries a mass, with every kind of drive, with and without a pulley, with one element and with many: it
-/// begins at rest, and stays there.
+/// One rope that carries a mass, with every kind of drive, with and without a pulley, with one element and with many:
+/// it begins at rest, and stays there.
 #[test]
 fn a_mass_on_one_rope_stays_at_rest_with_every_drive() {
     let text = |names: &str, tables: &str| {
         format!(
-            "[platform]\nmass_kg = 50.0\nmotion = \"point-mass\"\n[materials.rope]\naxial_stiffness_n = 1e5\n\
-             mass_kg_per_m = 0.05\n{tables}[[cables]]\nname = \"1\"\n{names}\nmaterial = \"rope\"\n\
+            "name = \"load\"\n[platform]\nmass_kg = 50.0\nmotion = \"point-mass\"\n[materials.rope]\n\
+             axial_stiffness_n = 1e5\nmass_kg_per_m = 0.05\n{tables}[[cables]]\nname = \"1\"\n{names}\nmaterial = \"rope\"\n\
              anchor_m = [0.0, 0.0, 5.0]\nunstrained_length_m = 7.0\n"
         )
     };
@@ -161,6 +161,22 @@ fn a_mass_on_one_rope_stays_at_rest_with_every_drive() {
             let tension = rest.cables[0].tension_anchor;
             assert!((end.cables[0].tension_anchor - tension).abs() < 1e-4 * tension, "{name}");
         }
+    }
+}
+
+/// A winch that begins to hold the tension that it has changes nothing, whatever its drive.
+#[test]
+fn to_hold_the_present_tension_changes_nothing() {
+    for (name, robot, rest) in subjects() {
+        if name.starts_with("supports") {
+            continue;
+        }
+        let tensions = rest.cables.iter().map(|cable| Some(cable.tension_drum())).collect();
+        let hold = SimulationEvent::Tension { time: 0.05, duration: 0.05, tensions };
+        let mut simulation = Simulation::new(&robot, &rest, &[hold], 0.2, &SimulationSettings::default()).unwrap();
+        let [start, end] = [0.0, 0.2].map(|time| simulation.at(time).unwrap());
+        let moved = (end.pose.position_w - start.pose.position_w).norm();
+        assert!(moved < 1e-6, "{name}: {moved:e}");
     }
 }
 
