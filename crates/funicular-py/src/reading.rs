@@ -145,8 +145,7 @@ impl Kind {
             Self::Axes | Self::Points => "Mapping[str, ArrayLike]",
             Self::Limits => "Mapping[str, SupportsFloat | SupportsIndex]",
             Self::Columns | Self::GappedColumns => "str | PathLike[str] | Mapping[str, ArrayLike]",
-            Self::Scenario => "Mapping[str, Sequence[Mapping[str, Any]]]",
-            Self::Sizes | Self::Any => "Any",
+            Self::Sizes | Self::Scenario | Self::Any => "Any",
         }
     }
 }

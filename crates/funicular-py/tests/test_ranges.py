@@ -145,7 +145,7 @@ def test_a_dictionary_has_the_table_of_the_program(robot: funicular.Robot, progr
     found = robot.simulate({"release": [{"at_s": 0.0, "mass_kg": 1.0}]}, 0.05, **settings)
     table = found.to_pandas()
     assert len(table) == len(found["rows"]) == 6
-    assert table["z_m"].tolist() == [row["pose"]["position_m"][2] for row in found["rows"]]
+    assert table["z_m"].tolist() == [row["position_m"][2] for row in found["rows"]]
     assert table.attrs["units"]["z_m"] == "m"
 
 
@@ -208,5 +208,5 @@ def test_rows_over_time_have_dimensions_with_labels_and_units(robot: funicular.R
     of = found.to_xarray()
     assert of["tensions_platform_n"].dims == ("time", "cable") and of["tensions_platform_n"].attrs["units"] == "N"
     assert of["tensions_platform_n"].sel(cable="3").values.tolist() == [row["tensions_platform_n"][2] for row in found["rows"]]
-    assert of["pose_position_m"].dims == ("time", "axis") and of["pose_position_m"].sel(axis="z").shape == (6,)
+    assert of["position_m"].dims == ("time", "axis") and of["position_m"].sel(axis="z").shape == (6,)
     assert of["time"].attrs["units"] == "s" and np.allclose(of["time"], np.linspace(0, 0.05, 6))

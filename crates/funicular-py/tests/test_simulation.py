@@ -38,7 +38,7 @@ def test_a_function_of_the_time_gives_the_lengths_of_its_table(robot: Robot) -> 
 def test_what_a_function_returns_is_checked(robot: Robot) -> None:
     for table, event, says in [
         (lambda t: {"x_m": 0.0}, {}, "needs `duration_s`"),
-        (lambda t: [0.0], {"duration_s": 1.0}, "the same columns at all times"),
+        (lambda t: [0.0], {"duration_s": 1.0}, "has to return a mapping from columns to numbers"),
         (lambda t: {"x_m": t} if t < 0.5 else {"y_m": t}, {"duration_s": 1.0}, "the same columns at all times"),
     ]:
         with pytest.raises(InputError, match=says):

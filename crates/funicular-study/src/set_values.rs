@@ -4,6 +4,7 @@
 
 use crate::names::{listed, path_suggestion, suggestion};
 use crate::request::Change;
+use crate::values::is_short;
 use funicular::robot::parameters::{self, ComponentOfKey, Parameter, Parameters};
 use std::str::FromStr;
 use thiserror::Error;
@@ -181,7 +182,9 @@ pub fn from_json(value: &serde_json::Value) -> Result<Value, String> {
         Json::Bool(truth) => Value::from(*truth),
         Json::Number(number) => match (number.as_i64(), number.as_f64()) {
             (Some(whole), _) => Value::from(whole),
-            (None, Some(number)) => Value::from(number),
+            (None, Some(number)) if is_short(number) => Value::from(number),
+            // Without the exponent it would have hundreds of zeros.
+            (None, Some(number)) => format!("{number:e}").parse().unwrap_or_else(|_| Value::from(number)),
             (None, None) => return Err(format!("{number} is out of the range of numbers in a robot file")),
         },
         Json::Array(items) => items.iter().map(from_json).collect::<Result<toml_edit::Array, _>>()?.into(),

@@ -52,6 +52,16 @@ pub fn finite(value: f64) -> Result<f64, String> {
     number(&format!("{value:?}")).map_err(|error| error.to_string())
 }
 
+/// True for a number that can be written without an exponent: it has no long row of zeros.
+pub(crate) fn is_short(value: f64) -> bool {
+    value == 0.0 || (1e-15..1e21).contains(&value.abs())
+}
+
+/// Number as a user writes it, with an exponent in place of a long row of zeros.
+fn written(value: f64) -> String {
+    if is_short(value) { value.to_string() } else { format!("{value:e}") }
+}
+
 /// Checks that a number is a fraction of something: above 0, at most 1.
 ///
 /// # Errors
@@ -69,7 +79,7 @@ pub fn positive(value: f64) -> Result<f64, String> {
     match finite(value)? {
         value if value >= MIN_POSITIVE => Ok(value),
         value if value > 0.0 => Err(format!("{value:e} is too small, it must be at least {MIN_POSITIVE:e}")),
-        value => Err(format!("{value} is not positive")),
+        value => Err(format!("{} is not positive", written(value))),
     }
 }
 
@@ -80,6 +90,6 @@ pub fn positive(value: f64) -> Result<f64, String> {
 pub fn not_negative(value: f64) -> Result<f64, String> {
     match finite(value)? {
         value if value >= 0.0 => Ok(value),
-        value => Err(format!("{value} is negative")),
+        value => Err(format!("{} is negative", written(value))),
     }
 }

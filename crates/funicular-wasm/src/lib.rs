@@ -323,7 +323,7 @@ mod tests {
     fn an_error_is_one_message_with_the_status_of_the_program() {
         for (request, status, message) in [
             (json!({ "command": "check", "robot": { "text": "name = 1" } }), BAD_INPUT, "<request>:1:8"),
-            (json!({ "command": "statics" }), BAD_INPUT, "missing field `robot`"),
+            (json!({ "command": "statics" }), BAD_INPUT, "a request of `statics` needs `robot`"),
             (json!({ "command": "statics", "poze": 1 }), BAD_INPUT, "has no key `poze`; did you mean `pose`?"),
             (json!({ "command": "paper" }), BAD_INPUT, "`paper` writes a file"),
             (json!({ "command": "map", "robot": { "text": ROBOT }, "grid": [] }), BAD_INPUT, "a map needs poses"),

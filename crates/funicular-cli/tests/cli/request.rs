@@ -221,7 +221,7 @@ fn a_request_that_cannot_be_read_says_where_and_what_there_is() {
         ("[]".to_owned(), "the request is not a JSON object"),
         (r#"{"robot": {"text": ""}}"#.to_owned(), "it has no `command`"),
         (r#"{"command": "static"}"#.to_owned(), "there is no command `static`; did you mean `statics`?"),
-        (r#"{"command": "statics"}"#.to_owned(), "missing field `robot`"),
+        (r#"{"command": "statics"}"#.to_owned(), "a request of `statics` needs ROBOT"),
         (
             format!(r#"{{"command": "statics", "robot": {{"text": {text}}}, "poze": [0, 0, 1]}}"#),
             "no key `poze`; did you mean `pose`?",
@@ -239,7 +239,10 @@ fn a_request_that_cannot_be_read_says_where_and_what_there_is() {
             format!(r#"{{"command": "statics", "robot": {{"text": {text}}}, "static_model": "catenery"}}"#),
             "did you mean `catenary`?",
         ),
-        (format!(r#"{{"command": "compare", "robot": {{"text": {text}}}}}"#), "missing field `below_hz`"),
+        (
+            format!(r#"{{"command": "compare", "robot": {{"text": {text}}}}}"#),
+            "a request of `compare` needs --below-hz",
+        ),
         (
             format!(
                 r#"{{"command": "frf", "robot": {{"text": {text}}}, "from_hz": 1, "to_hz": 2, "points": 9, "input": 3, "output": "z"}}"#

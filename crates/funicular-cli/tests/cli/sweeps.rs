@@ -149,8 +149,8 @@ fn a_list_of_poses_is_read_as_spreadsheets_write_it() {
     ] {
         assert_eq!(text_of(&rows_of(same)), plain, "{same:?}");
     }
-    let told = stderr(&rows_of("0.25,0,0.5\n0,0.1,0.6\n"));
-    assert!(told.contains("the first line has no names, only numbers"), "{told}");
+    let unnamed = rows_of("0.25,0,0.5\n0,0.1,0.6\n");
+    assert!(stderr(&unnamed).contains("the first line has no names, only numbers"), "{}", stderr(&unnamed));
 }
 
 #[test]

@@ -196,8 +196,9 @@ class _Dataset:
             if key.endswith(end) and number == count:
                 self.coords[dim] = _texts(labels)
                 return dim
-        is_vector = count == 3 and any(word in key for word in _VECTORS)
-        of_cables = self._cables and count == len(self._cables) and any(word in key for word in _OF_CABLES)
+        is_of_cables = any(word in key for word in _OF_CABLES)
+        is_vector = count == 3 and (any(word in key for word in _VECTORS) or (_unit(key) != "" and not is_of_cables))
+        of_cables = self._cables and count == len(self._cables) and is_of_cables
         if of_cables and not (is_vector and not key.startswith(_OF_CABLES)):
             self.coords["cable"] = _texts(self._cables)
             return "cable"
@@ -265,7 +266,7 @@ def _array(cells: list[Any]) -> Any:
 
 def _names_of_cables(of: Results) -> list[str]:
     """Names of the cables in their order, if the results have a list of all of them."""
-    for rows, key in ((of.get("cables"), "name"), (of.get("cables"), "cable"), (of.get("peaks"), "cable")):
+    for rows, key in ((of.get("cable_names"), ""), (of.get("cables"), "name"), (of.get("cables"), "cable"), (of.get("peaks"), "cable")):
         if not isinstance(rows, list):
             continue
         names = [row.get(key) if isinstance(row, dict) else row for row in rows]

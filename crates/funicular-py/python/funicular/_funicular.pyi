@@ -23,7 +23,7 @@ from funicular._uncertainty import Uncertainty
 from funicular._words import StaticModel, TensionRule, CableModel, Assembly, Winches, Hold, Per, Method, Goal, ExportFormat, Result
 from typing import Literal, overload
 
-__all__ = ["__version__", "Analyses", "Answered", "Catenary", "Equilibrium", "Pose", "Robot", "SweepPlan", "SweepTable", "SweepWork", "answer", "argument", "complete_request", "complex_numbers", "declarations", "figure_sizes", "imported", "interval", "matlab_file", "measurements_of_file", "merge_parts", "peaks", "plot_page", "real_numbers", "robot_of_source", "shown", "source_file", "suggested", "text_of", "write_file", "write_unit"]
+__all__ = ["__version__", "Analyses", "Answered", "Catenary", "Equilibrium", "Pose", "Robot", "SweepPlan", "SweepTable", "SweepWork", "answer", "argument", "complete_request", "complex_numbers", "declarations", "figure_sizes", "imported", "interval", "matlab_file", "measurements_of_file", "merge_parts", "number", "numbers", "peaks", "plot_page", "real_numbers", "robot_of_source", "shown", "source_file", "suggested", "text_of", "try_file", "write_file", "write_unit"]
 
 __version__: Final[str]
 
@@ -417,9 +417,10 @@ class Analyses:
             pitch_deg, yaw_deg or unstrained_length_NAME_m of every cable [m]; between the rows the lengths change in
             straight lines. Without a pose and lengths the state is that of the last row.
         profile_s
-            Times of the stop or the move [s], each at most the one before: from the begin of the acceleration to that
-            of the deceleration (for a stop the deceleration itself), of each acceleration, and of each change of the
-            acceleration. The command takes their sum; without them a stop is sudden; if not given: none.
+            Times of the command [s], each at most the one before. A move has T1 from the start of the acceleration to
+            the start of the deceleration, T2 for each of the two, and T3 for each change of the acceleration; a stop
+            has T1 for the deceleration, and T2 and T3 for its changes. The command takes their sum; without them a stop
+            is sudden; if not given: none.
         shaper
             Input shaper of the command: zv, zvd, or ei:V, which leaves the fraction V of a vibration, as in ei:0.05; if
             not given: none.
@@ -1569,6 +1570,9 @@ class Robot(Analyses):
             An event cannot happen, or the robot has a part that is not simulated.
         NoSolutionError
             The start is not a stable equilibrium.
+        KeyboardInterrupt
+            Ctrl-C stopped the run; any exception that another handler of signals raises arrives as well. Its attribute
+            `partial_results` has the `Results` until then.
 
         References
         ----------
@@ -2064,6 +2068,16 @@ def merge_parts(parts: SupportsGetItem[int, str | PathLike[str]], path: str | Pa
     Joins the parts of a map or sweep; returns the number of rows.
     """
 
+def number(name: str, value: Any) -> float:
+    """
+    Reads one number; `name` stands in errors. For functions of the package that are written in Python.
+    """
+
+def numbers(name: str, value: Any) -> list[float]:
+    """
+    Reads a row of numbers; `name` stands in errors. For functions of the package that are written in Python.
+    """
+
 def peaks(hz: ArrayLike, response: ArrayLike, *, prominence_db: SupportsFloat | SupportsIndex | None = None) -> tuple[NDArray[float64], NDArray[float64], NDArray[float64]]:
     """
     Finds the peaks of a response; returns their frequencies [Hz], heights above the valleys beside them [dB] and
@@ -2116,6 +2130,11 @@ def text_of(request: str, call: str) -> tuple[str, list[str]]:
     """
     Computes text and caveats of a request of `report`, `live`, `paper`, `export`, `new` or `schema`; `call` is the code
     that makes a page again.
+    """
+
+def try_file(path: str | PathLike[str]) -> None:
+    """
+    Tries whether a file can be written, before the work whose result it shall hold.
     """
 
 def write_file(path: str | PathLike[str], text: str) -> None:

@@ -53,7 +53,7 @@ pub fn check_given(command: &str, given: &Object) -> Result<()> {
             bail!("⟪{}⟫ means nothing without ⟪{needed}⟫: give both or neither", key.name);
         }
         if let Some(other) = key.excludes.iter().find(|other| is_given(given, other)) {
-            bail!("⟪{}⟫ and ⟪{other}⟫ exclude each other: leave one of them out", key.name);
+            bail!("give ⟪{other}⟫ or ⟪{}⟫, not both", key.name);
         }
     }
     Ok(())
@@ -503,7 +503,7 @@ mod tests {
         assert!(of("clearance", &json!({ "find_way": true })).contains("⟪find_way⟫ means nothing without ⟪move_to⟫"));
         assert_eq!(of("clearance", &json!({ "find_way": false })), "");
         let both = json!({ "fastest": true, "duration_s": 2 });
-        assert!(of("trajectory", &both).contains("exclude each other"));
+        assert!(of("trajectory", &both).contains("give ⟪duration_s⟫ or ⟪fastest⟫, not both"));
     }
 
     #[test]
