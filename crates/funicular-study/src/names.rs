@@ -264,19 +264,22 @@ pub enum TensionRuleName {
     Closest,
     /// Maximum distance from the limits, relative to the distance between them.
     Middle,
+    /// Centre of the tensions within the limits, a smooth function of pose and numbers.
+    Centre,
     /// Maximum of the minimum eigenvalue of the scaled stiffness.
     Stiffest,
 }
 
 impl Named for TensionRuleName {
     const WHAT: &'static str = "tension rule";
-    const ALL: &'static [Self] = &[Self::Lowest, Self::Closest, Self::Middle, Self::Stiffest];
+    const ALL: &'static [Self] = &[Self::Lowest, Self::Closest, Self::Middle, Self::Centre, Self::Stiffest];
 
     fn name(self) -> &'static str {
         match self {
             Self::Lowest => TensionRule::Lowest.name(),
             Self::Closest => TensionRule::Closest(Vec::new()).name(),
             Self::Middle => TensionRule::Middle.name(),
+            Self::Centre => TensionRule::Centre.name(),
             Self::Stiffest => TensionRule::Stiffest.name(),
         }
     }
@@ -286,6 +289,9 @@ impl Named for TensionRuleName {
             Self::Lowest => "Minimum sum of squares of the tensions above their minimum",
             Self::Closest => "Minimum sum of squares of the differences from ⟪target_tension_n⟫",
             Self::Middle => "Maximum distance from the limits, relative to the distance between them",
+            Self::Centre => {
+                "Centre of the tensions within the limits, which changes smoothly: for paths and controllers"
+            }
             Self::Stiffest => "Maximum of the minimum eigenvalue of the scaled stiffness",
         }
     }
@@ -297,6 +303,7 @@ impl From<&TensionRule> for TensionRuleName {
             TensionRule::Lowest => Self::Lowest,
             TensionRule::Closest(_) => Self::Closest,
             TensionRule::Middle => Self::Middle,
+            TensionRule::Centre => Self::Centre,
             TensionRule::Stiffest => Self::Stiffest,
         }
     }

@@ -4,6 +4,7 @@
 //! core's own tests use limits, identities and other algorithms. There is one file per section, with a test.
 
 mod catenary;
+mod centres;
 mod cube;
 mod damped;
 mod distances;
@@ -148,6 +149,7 @@ pub fn sections() -> Result<Vec<Section>> {
         trajectories::section(&reference::trajectories()?)?,
         workspaces::section(&reference::workspaces()?)?,
         simulations::section(&reference::histories()?)?,
+        centres::section(&reference::centres()?)?,
     ])
 }
 

@@ -1,5 +1,6 @@
 //! Contents of the files in crates/funicular-validation/reference.
 
+mod centres;
 mod damped;
 mod distances;
 mod drives;
@@ -20,6 +21,7 @@ use anyhow::{Result, anyhow};
 use funicular::robot::{Robot, State};
 use serde::Deserialize;
 
+pub(super) use centres::{CentreRow, centres};
 pub(super) use damped::{
     Damped, DampedRobot, ModeShape, PointRobot, ReferencePoint, RopeDamping, ShapesOfRobot, damped,
 };

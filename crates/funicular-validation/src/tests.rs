@@ -68,6 +68,11 @@ fn load_factors_and_closure_are_those_of_the_independent_program() {
 }
 
 #[test]
+fn centres_of_tensions_are_those_of_the_independent_program() {
+    check(super::centres::section(&reference::centres().unwrap()));
+}
+
+#[test]
 fn the_sway_after_commands_is_that_of_the_independent_program() {
     check(super::sway::section(&reference::sway().unwrap()));
 }

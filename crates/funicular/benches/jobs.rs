@@ -13,7 +13,7 @@ use funicular::response::{self, Quantity, Signal};
 use funicular::robot::parameters::Parameters;
 use funicular::robot::{Robot, RobotChange, State, TensionLimits};
 use funicular::simulation::{Simulation, SimulationEvent, SimulationSettings};
-use funicular::statics::{self, Equilibrium, LoadCapacity, StaticModel, TensionRule};
+use funicular::statics::{self, Equilibrium, LoadCapacity, StaticModel, TensionCentre, TensionRule};
 use funicular::trajectory::AlongPath;
 use funicular::{modes, robot::Pose};
 use std::hint::black_box;
@@ -75,7 +75,7 @@ fn tension_distribution(c: &mut Criterion) {
         .take(1000)
         .collect();
     let wanted = TensionRule::Closest(vec![500.0]);
-    for rule in [TensionRule::Lowest, wanted, TensionRule::Middle, TensionRule::Stiffest] {
+    for rule in [TensionRule::Lowest, wanted, TensionRule::Middle, TensionRule::Centre, TensionRule::Stiffest] {
         let mut i = 0;
         c.bench_function(&format!("tension_distribution: {}", rule.name()), |b| {
             b.iter(|| {
@@ -85,6 +85,28 @@ fn tension_distribution(c: &mut Criterion) {
             });
         });
     }
+}
+
+/// One pose per iteration, 4 mm on along a line through the workspace of CoGiRo, from the centre of the last one.
+fn centre_along_a_line(c: &mut Criterion) {
+    let robot = Robot::from_toml(funicular_robots::COGIRO).expect("the library's robot");
+    let at = |i: usize| {
+        let part = 0.004 * (i as f64 - 750.0);
+        Pose::new([part, 2.0 / 3.0 * part, 1.75 + 0.25 * part], [0.0; 3])
+    };
+    let centre = |pose: &Pose, last: Option<&TensionCentre>| {
+        statics::tension_centre(&robot, pose, StaticModel::Catenary, last).expect("possible")
+    };
+    let (mut i, mut last) = (0, centre(&at(0), None));
+    c.bench_function("tension_distribution: centre, 4 mm from the last", |b| {
+        b.iter(|| {
+            i += 1;
+            // To and fro, so that every pose is a neighbour of the last one.
+            let station = i % 3000;
+            last = centre(black_box(&at(station.min(3000 - station))), Some(&last));
+            last.tensions[0]
+        });
+    });
 }
 
 /// Two sets of a thousand poses of the paper's robot. In the first the platform is nearly level, and no cable sags by
@@ -367,6 +389,6 @@ fn simulations(c: &mut Criterion) {
 criterion_group! {
     name = jobs;
     config = Criterion::default().warm_up_time(Duration::from_secs(1)).measurement_time(Duration::from_secs(3)).sample_size(30);
-    targets = one_catenary, statics_both_ways, tension_distribution, load_factors, distances, trajectory, first_frequencies, first_frequencies_of_eight_cables, responses, natural_frequencies, catenary_dynamic_cables, gradients, simulations
+    targets = one_catenary, statics_both_ways, tension_distribution, centre_along_a_line, load_factors, distances, trajectory, first_frequencies, first_frequencies_of_eight_cables, responses, natural_frequencies, catenary_dynamic_cables, gradients, simulations
 }
 criterion_main!(jobs);

@@ -13,6 +13,7 @@
 mod adjoint;
 mod at_limits;
 mod cable_form;
+mod centre;
 mod drive_form;
 mod end_form;
 mod length_rates;
@@ -100,7 +101,7 @@ pub enum GradientError {
     NoRule,
     /// The rule has no derivatives here.
     #[error(
-        "tensions by the rule `stiffest` have no derivatives here: choose the rule `closest`, `lowest` or `middle`, or \
+        "tensions by the rule `stiffest` have no derivatives here: choose the rule `centre`, `closest` or `lowest`, or \
          hold the pose with tensions that change least"
     )]
     Stiffest,

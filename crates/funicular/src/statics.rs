@@ -83,8 +83,10 @@ pub use solve::{Solution, inverse, solve, solve_at, solve_held, solve_held_at};
 pub use stiffness::tangent_stiffness;
 pub(crate) use supports::{SupportSide, on_support, support_side};
 pub use tension::{
-    LimitAtCable, PayloadBound, PayloadSide, RequestedPayload, TensionRule, distribute_tensions, payload_bound,
+    LimitAtCable, PayloadBound, PayloadSide, RequestedPayload, TensionCentre, TensionRule, distribute_tensions,
+    payload_bound, tension_centre,
 };
+pub(crate) use tension::{TauLimit, TauLimitKind, TensionCurve};
 pub(crate) use tension_gain::tension_gain_exceeds;
 pub use tension_gain::{inverse_condition, tension_gain};
 pub use wrench_set::TensionPlace;

@@ -55,7 +55,7 @@ fn broken_command_lines_are_refused() {
         ("statics ROBOT --lengths-m 1,2,3,4,5,1e-13", "at least 1e-12"),
         ("statics ROBOT --lengths-m 7,7,7,7,7,7 --pose 0,0,1", "cannot be used with"),
         // Tensions.
-        ("statics ROBOT --tension-rule highest", "[possible values: lowest, closest, middle, stiffest]"),
+        ("statics ROBOT --tension-rule highest", "[possible values: lowest, closest, middle, centre, stiffest]"),
         ("statics ROBOT --tension-rule lowest", "given by unstrained lengths"),
         ("statics ROBOT --pose 0,0,0.5 --tension-rule lowest", "6 cables for 6 degrees of freedom"),
         ("statics ROBOT --tension-rule closest", "needs --target-tension-n"),

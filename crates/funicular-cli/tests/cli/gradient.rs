@@ -287,6 +287,15 @@ fn requests_without_derivatives_are_refused_with_the_reason() {
     assert!(stderr(&output).contains("at the edge of being slack"), "{}", stderr(&output));
 }
 
+/// The centre of the tensions has derivatives at every pose, also at a symmetric one.
+#[test]
+fn the_centre_of_the_tensions_is_followed() {
+    let cogiro = robot("cogiro.toml");
+    let arguments = ["gradient", &cogiro, "--of", "lengths", "--hold", "rule", "--pose", "0,0,1.5"];
+    let text = succeed(&[&arguments[..], &["--tension-rule", "centre"]].concat());
+    assert!(text.contains("the tensions obey the rule `centre`"), "{text}");
+}
+
 /// An empty list of modes is said, as a caveat: below 0.5 Hz there is none, below 1.1 Hz there is one.
 #[test]
 fn a_limit_below_the_first_frequency_is_a_caveat() {

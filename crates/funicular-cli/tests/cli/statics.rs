@@ -64,6 +64,9 @@ fn tensions_of_a_redundant_robot_follow_the_rule_and_show_their_limits() {
         margins.fold(f64::INFINITY, f64::min)
     };
     assert!(min_margin(&middle) >= min_margin(&of(&["--max-tension-n", "800"])));
+    let centre = of(&["--tension-rule", "centre", "--max-tension-n", "800"]);
+    assert_eq!(centre["tension_rule"], "centre");
+    assert!(min_margin(&centre) > 0.5 * min_margin(&middle) && min_margin(&centre) <= min_margin(&middle) + 1e-6);
     let stiffest = of(&["--tension-rule", "stiffest", "--max-tension-n", "800"]);
     let stiffness = |value: &Value| number(&value["stiffness_min_n_per_m"]);
     assert!(stiffness(&stiffest) >= stiffness(&middle) && stiffness(&stiffest) >= stiffness(&lowest));

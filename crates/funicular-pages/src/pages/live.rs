@@ -68,6 +68,7 @@ fn start(request: &LiveRequest) -> Result<Value> {
         None => "",
         Some(TensionRuleName::Lowest) => "lowest",
         Some(TensionRuleName::Middle) => "middle",
+        Some(TensionRuleName::Centre) => "centre",
         Some(TensionRuleName::Stiffest) => "stiffest",
         Some(TensionRuleName::Closest) => "closest",
     };

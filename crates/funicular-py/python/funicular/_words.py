@@ -3,7 +3,7 @@
 from typing import Literal
 
 StaticModel = Literal["ideal", "spring", "catenary"]
-TensionRule = Literal["lowest", "closest", "middle", "stiffest"]
+TensionRule = Literal["lowest", "closest", "middle", "centre", "stiffest"]
 CableModel = Literal["catenary-dynamic", "shallow-dynamic", "shallow-static", "catenary-static", "spring"]
 Assembly = Literal["consistent", "without-geometric-stiffness"]
 Winches = Literal["as-given", "clamped", "torque", "stuck"]

@@ -289,6 +289,9 @@ pub fn meaning(at_rest: &AtRest, hold: Hold) -> &'static str {
         (Hold::Rule, Some(TensionRule::Middle)) => {
             "the pose is held, the lengths follow such that the tensions obey the rule `middle`"
         }
+        (Hold::Rule, Some(TensionRule::Centre)) => {
+            "the pose is held, the lengths follow such that the tensions obey the rule `centre`"
+        }
         (Hold::Rule, Some(TensionRule::Stiffest)) => {
             "the pose is held, the lengths follow such that the tensions obey the rule `stiffest`"
         }

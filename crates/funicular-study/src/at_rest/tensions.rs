@@ -66,6 +66,7 @@ pub fn rule(tensions: &Tensions) -> Result<Option<TensionRule>> {
         }
         (Some(TensionRuleName::Lowest), None) => Some(TensionRule::Lowest),
         (Some(TensionRuleName::Middle), None) => Some(TensionRule::Middle),
+        (Some(TensionRuleName::Centre), None) => Some(TensionRule::Centre),
         (Some(TensionRuleName::Stiffest), None) => Some(TensionRule::Stiffest),
         (None, None) => None,
     })

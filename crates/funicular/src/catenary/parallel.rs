@@ -1,6 +1,7 @@
 //! Catenary with a given tension parallel to its chord; its unstrained length follows.
 
 use super::{Catenary, Hyperbolic, Rope, Slope};
+use std::ops::{Add, Div, Mul, Sub};
 
 impl Catenary {
     /// Cable from the origin to `(span, rise)` [m], not both zero, whose [`parallel_tension`](Self::parallel_tension)
@@ -56,6 +57,127 @@ impl Catenary {
         let rope = Rope { unstrained_length: chord / (1.0 + tension / rope.axial_stiffness), ..rope };
         let (horizontal, vertical_mean) = (tension * span / chord, tension * rise / chord);
         Self { rope, span, rise, horizontal, vertical_mean, slope: Slope::Straight }
+    }
+}
+
+/// First and second derivatives of a cable between fixed ends by its parallel tension τ.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct ByParallelTension {
+    /// Unstrained length [m/N, m/N²].
+    pub(crate) length: [f64; 2],
+    /// Vertical force V_A at the start [-, 1/N].
+    pub(crate) vertical_at_start: [f64; 2],
+}
+
+impl Catenary {
+    /// Derivatives by the parallel tension with both ends held: (9) differentiated twice, for v + k = w c/2τ.
+    ///
+    /// The horizontal force is τ cos α and has none but cos α. Meant for tensions above a hundredth of the weight.
+    pub(crate) fn by_parallel_tension(&self) -> ByParallelTension {
+        let Rope { unstrained_length: l, weight_per_length: w, axial_stiffness: ea } = self.rope;
+        let (x, z) = (self.span, self.rise);
+        let chord = super::hypot(x, z);
+        let Slope::Curved { v, tanh_v, sech2_v, sinh_v, .. } = self.slope else {
+            let tension = super::hypot(self.horizontal, self.vertical_mean);
+            let first = -l / (ea + tension);
+            return ByParallelTension {
+                length: [first, -2.0 * first / (ea + tension)],
+                vertical_at_start: [z / chord, 0.0],
+            };
+        };
+
+        // Everything as a function of τ, the length at first held.
+        let k_by_length = 0.5 * w / ea;
+        let k = k_by_length * l;
+        let across = v + k;
+        let tau = 0.5 * w * chord / across;
+        let u = Taylor { value: across, first: -across / tau, second: 2.0 * across / (tau * tau) };
+        let cosh_v = (1.0 + sinh_v * sinh_v).sqrt();
+        let parts = |length: Taylor| {
+            let k = length * k_by_length;
+            let v_of = u - k;
+            let sinh = v_of.function(sinh_v, cosh_v, sinh_v);
+            let tanh = v_of.function(tanh_v, sech2_v, -2.0 * tanh_v * sech2_v);
+            let along = tanh + k;
+            let (p, q) = (sinh / u * x, tanh / along * z);
+            (p * p + q * q - length * length, along)
+        };
+
+        // The condition is zero for every τ: the derivatives of the length, one after the other.
+        let along = tanh_v + k;
+        let (p, q) = (x * sinh_v / across, z * tanh_v / along);
+        let p_by_k = -x * cosh_v / across;
+        let q_by_k = -z * (sech2_v * k + tanh_v) / (along * along);
+        let by_length = 2.0 * ((p * p_by_k + q * q_by_k) * k_by_length - l);
+        let first = -parts(Taylor { value: l, first: 0.0, second: 0.0 }).0.first / by_length;
+        let second = -parts(Taylor { value: l, first, second: 0.0 }).0.second / by_length;
+
+        let (_, along) = parts(Taylor { value: l, first, second });
+        let vertical = Taylor { value: 0.5 * w * z, first: 0.0, second: 0.0 } / along;
+        ByParallelTension {
+            length: [first, second],
+            vertical_at_start: [vertical.first - 0.5 * w * first, vertical.second - 0.5 * w * second],
+        }
+    }
+}
+
+/// Number with its first and second derivative by one variable.
+#[derive(Debug, Clone, Copy)]
+struct Taylor {
+    value: f64,
+    first: f64,
+    second: f64,
+}
+
+impl Taylor {
+    /// Function of this number with its value and its first two derivatives.
+    fn function(self, value: f64, slope: f64, curvature: f64) -> Self {
+        Self { value, first: slope * self.first, second: curvature * self.first * self.first + slope * self.second }
+    }
+}
+
+impl Add for Taylor {
+    type Output = Self;
+
+    fn add(self, other: Self) -> Self {
+        Self { value: self.value + other.value, first: self.first + other.first, second: self.second + other.second }
+    }
+}
+
+impl Sub for Taylor {
+    type Output = Self;
+
+    fn sub(self, other: Self) -> Self {
+        self + other * -1.0
+    }
+}
+
+impl Mul for Taylor {
+    type Output = Self;
+
+    fn mul(self, other: Self) -> Self {
+        Self {
+            value: self.value * other.value,
+            first: self.first * other.value + self.value * other.first,
+            second: self.second * other.value + 2.0 * self.first * other.first + self.value * other.second,
+        }
+    }
+}
+
+impl Mul<f64> for Taylor {
+    type Output = Self;
+
+    fn mul(self, factor: f64) -> Self {
+        Self { value: self.value * factor, first: self.first * factor, second: self.second * factor }
+    }
+}
+
+impl Div for Taylor {
+    type Output = Self;
+
+    fn div(self, other: Self) -> Self {
+        let inverse = 1.0 / other.value;
+        self * other.function(inverse, -inverse * inverse, 2.0 * inverse * inverse * inverse)
     }
 }
 
@@ -127,6 +249,32 @@ mod tests {
             let [less, more] = [tension, 1.001 * tension].map(|t| Catenary::with_parallel_tension(span, rise, rope, t));
             prop_assert!(more.max_tension() > less.max_tension());
             prop_assert!(more.min_tension() > less.min_tension());
+        }
+
+        /// Derivatives by differences of the curve itself; the first ones also by the derivatives by the length.
+        #[test]
+        fn derivatives_by_the_parallel_tension_are_those_of_the_curve(
+            slope in -1.0f64..=1.0, stiffness in 1.0f64..6.0, part in 0.0f64..=1.0,
+        ) {
+            let (span, rise) = ((1.0 - slope * slope).sqrt(), slope);
+            let rope = Rope { unstrained_length: 1.0, weight_per_length: 1.0, axial_stiffness: 10f64.powf(stiffness) };
+            let tension = Catenary::MIN_TENSION_TO_WEIGHT * (50.0 / Catenary::MIN_TENSION_TO_WEIGHT).powf(part);
+            let at = |tau: f64| Catenary::with_parallel_tension(span, rise, rope, tau);
+            let found = at(tension).by_parallel_tension();
+            let by_length = 1.0 / at(tension).parallel_tension_by_length();
+            let vertical = at(tension).start_force_by_length()[1] * by_length;
+            prop_assert!((found.length[0] / by_length - 1.0).abs() < 1e-8);
+            prop_assert!((found.vertical_at_start[0] - vertical).abs() < 1e-9 * (1.0 + vertical.abs()));
+
+            // Central differences of the first derivatives; the error falls with the square of the step.
+            let step = 1e-4 * tension;
+            let [less, more] = [-step, step].map(|step| at(tension + step).by_parallel_tension());
+            let length = (more.length[0] - less.length[0]) / (2.0 * step);
+            let vertical = (more.vertical_at_start[0] - less.vertical_at_start[0]) / (2.0 * step);
+            let size = 1e-6 / (tension * tension);
+            prop_assert!((found.length[1] - length).abs() < 1e-6 * length.abs() + size, "{:?} {length}", found.length);
+            prop_assert!((found.vertical_at_start[1] - vertical).abs() < 1e-6 * vertical.abs() + size,
+                "{:?} {vertical}", found.vertical_at_start);
         }
 
         /// Basis of the infeasibility proofs, (39b): the contribution of sag to the mean vertical force falls with the

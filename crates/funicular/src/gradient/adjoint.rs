@@ -2,7 +2,7 @@
 //! follows them back to the numbers of the robot.
 
 use super::scalar::{Field, Vector};
-use crate::drive::derivatives::end;
+use crate::drive::derivatives::{VARIABLES, end};
 
 /// Derivatives of a scalar with respect to each quantity of the state at rest, all others held. They are the
 /// coefficients of df, dr, dq and so on in its differential; world axes.
@@ -86,6 +86,9 @@ pub(super) struct CableAdjoint<T> {
     /// Coefficients of the numbers of the end at the exit point, in the order of
     /// [`end`](crate::drive::derivatives::end).
     pub(super) end: [T; end::COUNT],
+    /// Coefficients of the outer variables of a cable with a drive, in the order of
+    /// [`place`](crate::drive::derivatives::place), besides those that follow from its state.
+    pub(super) outer: [T; VARIABLES],
     /// Coefficients of the numbers of the drive.
     pub(super) drive: DriveAdjoint<T>,
     /// Coefficients of the distance and the mass of each guide wheel; zero for wheels beyond the end of the list.
@@ -202,6 +205,7 @@ impl<T: Field> Adjoint<T> {
             damping: of(cable.damping),
             stretch_loss: cable.stretch_loss.map(&of),
             end: cable.end.map(&of),
+            outer: cable.outer.map(&of),
             drive: cable.drive.map(&of),
             guides: cable.guides.iter().map(|guide| guide.map(&of)).collect(),
             side: SideAdjoint {

@@ -284,6 +284,7 @@ fn add_cable(sum: &mut CableAdjoint<f64>, of: &CableAdjoint<f64>, factor: f64) {
         add_times(sum, of, factor);
     }
     sum.end.iter_mut().zip(of.end).for_each(|(sum, of)| *sum += of * factor);
+    sum.outer.iter_mut().zip(of.outer).for_each(|(sum, of)| *sum += of * factor);
     sum.length += of.length * factor;
     sum.free_length += of.free_length * factor;
     sum.stiffness += of.stiffness * factor;

@@ -422,7 +422,7 @@ struct Outer {
 
 /// Follows the coefficients of a cable with a drive to the numbers on which it depends.
 fn drive_pulled(cable: &CableAdjoint<f64>, by_outer: &DriveDerivatives) -> Outer {
-    let mut sum = OuterRow::default();
+    let mut sum: OuterRow = cable.outer;
     let mut add = |coefficient: f64, row: &OuterRow| {
         if coefficient != 0.0 {
             sum.iter_mut().zip(row).for_each(|(sum, by)| *sum += coefficient * by);

@@ -11,12 +11,13 @@ use super::GradientError;
 use super::adjoint::Adjoint;
 use super::at_limits::{AT_LIMIT, Condition, TensionBound, TensionsAtLimits};
 use super::cable_form::CableForm;
+use super::centre::add_limit;
 use super::scalar::add_real;
 use crate::drive::derivatives::end;
 use crate::math::{DMat, Vec3, Vec6};
 use crate::platform::Coordinates;
 use crate::statics::derivatives::{StaticDerivativeError, load_of};
-use crate::statics::{CableState, Limit, TensionRule};
+use crate::statics::{CableState, Limit, TauLimit, TensionCurve, TensionRule};
 
 /// Minimum ratio of a pivot to the largest one; below it the conditions are singular and do not determine the tensions.
 /// Rounding leaves 1e-15 times the number of cables.
@@ -28,6 +29,19 @@ pub(super) struct RuleFollower {
     solution: DMat,
     conditions: Vec<Condition>,
     degrees_of_freedom: usize,
+}
+
+/// Derivatives of the two logarithms of a tension by τ.
+struct Barrier {
+    slope: f64,
+    /// Second derivatives of the one of the minimum and of that of the maximum.
+    curvatures: [f64; 2],
+}
+
+impl Barrier {
+    fn curvature(&self) -> f64 {
+        self.curvatures[0] + self.curvatures[1]
+    }
 }
 
 /// Equilibrium with the quantities that stand in the conditions.
@@ -60,6 +74,7 @@ impl RuleFollower {
             TensionRule::Lowest => conditions.nearest(rule, None),
             TensionRule::Closest(target) => conditions.nearest(rule, Some(target)),
             TensionRule::Middle => conditions.middle(rule),
+            TensionRule::Centre => conditions.centre(rule),
             TensionRule::Stiffest => Err(GradientError::Stiffest),
         }
     }
@@ -125,10 +140,7 @@ impl RuleConditions<'_> {
         }
 
         // The conditions, each with its cable.
-        let reduced = Vec6::from_fn(|k, _| if k < n { solved[(k, 0)] } else { 0.0 });
-        let expanded = self.coordinates.expand(&reduced);
-        let y_v = Vec3::new(expanded[0], expanded[1], expanded[2]);
-        let y_theta = Vec3::new(expanded[3], expanded[4], expanded[5]) / self.coordinates.ell();
+        let (y_v, y_theta) = self.expanded(&solved);
         let conditions = (0..cables)
             .map(|i| match held[i] {
                 Some(bound) => self.at.at_bound(i, bound, 1.0, None),
@@ -193,6 +205,70 @@ impl RuleConditions<'_> {
             }
         }
         Ok(found.of_tensions(cables))
+    }
+
+    /// Conditions of the centre of the tensions: `φ' − G·y`, over φ''. The wrench per tension has its exit point
+    /// following in G; the change of G holds it.
+    fn centre(&self, rule: &TensionRule) -> Result<RuleFollower, GradientError> {
+        let (cables, n) = (self.at.tensions.len(), self.coordinates.count());
+        let not_by_rule = |i: usize| GradientError::NotByRule { rule: rule.name(), cable: self.at.name(i) };
+        if let Some(i) = self.at.ranges.iter().position(|range| range.maximum.is_infinite()) {
+            return Err(not_by_rule(i));
+        }
+        let limits: Vec<[TauLimit<'_>; 2]> = (0..cables)
+            .map(|i| TensionCurve::of_state(self.at.robot, i, self.at.state(i)).map(|curve| curve.limits()))
+            .collect::<Option<_>>()
+            .ok_or(StaticDerivativeError::Ideal)?;
+
+        // First and second derivatives of the logarithms.
+        let mut barriers = Vec::with_capacity(cables);
+        for (i, [lower, upper]) in limits.iter().enumerate() {
+            let [below, above] = [self.at.parallel(i) - lower.curve.tau(), upper.curve.tau() - self.at.parallel(i)];
+            if below.min(above).is_nan() || below.min(above) <= 0.0 {
+                return Err(not_by_rule(i));
+            }
+            let curvatures = [(below * below).recip(), (above * above).recip()];
+            barriers.push(Barrier { slope: above.recip() - below.recip(), curvatures });
+        }
+
+        // Multipliers of the balance, by least squares with the metric of the logarithms.
+        let root = |i: usize| barriers[i].curvature().sqrt().recip();
+        let columns = DMat::from_fn(cables, n, |i, k| self.wrenches[(k, i)] * root(i));
+        let right = DMat::from_fn(cables, 1, |i, _| barriers[i].slope * root(i));
+        let factors = columns.qr();
+        let solved = factors.r().solve_upper_triangular(&(factors.q().transpose() * right));
+        let solved = solved.ok_or(StaticDerivativeError::Singular)?;
+        for (i, barrier) in barriers.iter().enumerate() {
+            let residual = barrier.slope - (0..n).map(|k| self.wrenches[(k, i)] * solved[(k, 0)]).sum::<f64>();
+            if residual.is_nan() || residual.abs() > self.at.rounding() * barrier.curvature() {
+                return Err(not_by_rule(i));
+            }
+        }
+
+        let (y_v, y_theta) = self.expanded(&solved);
+        let conditions = (0..cables)
+            .map(|i| {
+                let share = barriers[i].curvature().recip();
+                let mut condition = self.stationarity(i, false, &(y_v * share), &(y_theta * share))?;
+                for (limit, curvature) in limits[i].iter().zip(barriers[i].curvatures) {
+                    add_limit(&mut condition, &self.at, limit, -curvature * share)?;
+                }
+                Ok(condition)
+            })
+            .collect::<Result<Vec<_>, GradientError>>()?;
+        let least = barriers.iter().map(Barrier::curvature).fold(f64::INFINITY, f64::min);
+        let found = self.solved(rule, conditions, n, |condition, k| {
+            -self.wrenches[(k, condition.cable)] * (least / barriers[condition.cable].curvature())
+        })?;
+        Ok(found.of_tensions(cables))
+    }
+
+    /// Multipliers of force and moment by those of the reduced balance.
+    fn expanded(&self, reduced: &DMat) -> (Vec3, Vec3) {
+        let n = self.coordinates.count();
+        let expanded = self.coordinates.expand(&Vec6::from_fn(|k, _| if k < n { reduced[(k, 0)] } else { 0.0 }));
+        let of_force = Vec3::new(expanded[0], expanded[1], expanded[2]);
+        (of_force, Vec3::new(expanded[3], expanded[4], expanded[5]) / self.coordinates.ell())
     }
 
     /// Solves the conditions and the balance for their multipliers. `extra` further unknowns have the coefficients

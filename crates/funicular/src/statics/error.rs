@@ -236,6 +236,16 @@ pub enum StaticsError {
         /// Name of the rule.
         rule: &'static str,
     },
+    /// The tensions have no room between their limits.
+    #[error(
+        "the tension rule `centre` needs tensions strictly between their limits, and at this pose that of cable          \"{cable}\" is at one: the best tensions leave a room of {room:.4} N; widen the limits of tension, choose the          rule `lowest` or `closest`, or a pose further inside"
+    )]
+    NoCentre {
+        /// Name of the cable with the least room.
+        cable: String,
+        /// Distance in the tension parallel to the chord from the nearer limit [N].
+        room: f64,
+    },
     /// The number of target tensions is neither one nor the number of cables.
     #[error(
         "{} given for {}: give one for all cables, or one per cable in the order of the file",
@@ -429,7 +439,7 @@ impl StaticsError {
             Self::InsidePulley { .. } => "inside-pulley",
             Self::Singular { .. } => "singular",
             Self::NegativeTension { .. } | Self::NotFound { .. } | Self::LengthsPush { .. } => "negative-tension",
-            Self::BeyondLimits(_) | Self::NearestBeyondLimits { .. } => "tension-limits",
+            Self::BeyondLimits(_) | Self::NearestBeyondLimits { .. } | Self::NoCentre { .. } => "tension-limits",
             Self::NotFoundWithinLimits { .. } => "not-found",
             Self::LimitsExclude { .. } => "limits-exclude",
             Self::NoPayload => "no-payload",
@@ -470,6 +480,7 @@ impl StaticsError {
                 | Self::NotFound { .. }
                 | Self::LengthsPush { .. }
                 | Self::BeyondLimits(_)
+                | Self::NoCentre { .. }
                 | Self::NotFoundWithinLimits { .. }
                 | Self::NoPayload
                 | Self::NoLoadFactor

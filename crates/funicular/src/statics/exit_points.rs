@@ -183,7 +183,11 @@ fn straight_contacts(robot: &Robot, pose: &Pose) -> Result<Vec<Option<PulleyCont
     robot.cables.iter().map(|cable| straight_contact(cable, pose)).collect()
 }
 
-fn straight_contact(cable: &Cable, pose: &Pose) -> Result<Option<PulleyContact>, StaticsError> {
+/// Place of a straight cable on its pulley; `None` without one.
+///
+/// # Errors
+/// [`StaticsError::InsidePulley`].
+pub(super) fn straight_contact(cable: &Cable, pose: &Pose) -> Result<Option<PulleyContact>, StaticsError> {
     let attachment_w = pose.point_w(&cable.attachment_p);
     if let Some(pulley) = &cable.anchor.pulley {
         let distance = pulley.distance_from_center(&(attachment_w - cable.anchor.point_w));
@@ -201,14 +205,35 @@ fn exit_w(cable: &Cable, contact: Option<&PulleyContact>) -> Vec3 {
 /// Place on its pulley of a cable with the tension of a span, from a place near it. Direction and exit point are
 /// computed in turn until the exit point moves by less than `tolerance` times the size of the cable.
 fn at_tension(cable: &Cable, span: &HangingCable, near: PulleyContact, tolerance: f64) -> PulleyContact {
-    let (tension, rope, up_w) = (span.catenary.parallel_tension(), span.catenary.rope(), span.axes_w().1);
-    let mut contact = near;
+    span_with_tension(cable, span, near, span.catenary.parallel_tension(), tolerance).1
+}
+
+/// Free span with this parallel tension [N], and its place on the pulley, from those of another tension: direction and
+/// exit point are computed in turn, as by [`at_tension`].
+pub(super) fn at_own_exit_point(
+    cable: &Cable,
+    span: &HangingCable,
+    near: PulleyContact,
+    tension: f64,
+) -> (HangingCable, PulleyContact) {
+    span_with_tension(cable, span, near, tension, CONVERGED)
+}
+
+fn span_with_tension(
+    cable: &Cable,
+    span: &HangingCable,
+    near: PulleyContact,
+    tension: f64,
+    tolerance: f64,
+) -> (HangingCable, PulleyContact) {
+    let (rope, up_w) = (span.catenary.rope(), span.axes_w().1);
+    let (mut span, mut contact) = (span.clone(), near);
     if tension <= 0.0 {
-        return contact;
+        return (span, contact);
     }
     for _ in 0..MAX_ITERATIONS_AT_TENSION {
         let end_w = exit_w(cable, Some(&contact));
-        let span = HangingCable::with_parallel_tension(span.start_w, end_w, up_w, rope, tension);
+        span = HangingCable::with_parallel_tension(span.start_w, end_w, up_w, rope, tension);
         let Some(next) = contact_of_span(&span, &cable.anchor, Some(&contact)) else { break };
         let moved = (exit_w(cable, Some(&next)) - end_w).norm();
         contact = next;
@@ -216,7 +241,7 @@ fn at_tension(cable: &Cable, span: &HangingCable, near: PulleyContact, tolerance
             break;
         }
     }
-    contact
+    (span, contact)
 }
 
 /// Adds the drive to the state of a cable whose free span is known.

@@ -9,6 +9,7 @@
 
 mod balanced_pull;
 mod bounds;
+mod centre;
 mod feasible_set;
 mod null_space;
 mod payload;
@@ -31,6 +32,8 @@ use crate::drive::CableAtRest;
 use crate::platform::Coordinates;
 use crate::robot::{Cable, Pose, Robot};
 pub(super) use balanced_pull::balanced_pull;
+pub(crate) use centre::curve::{TauLimit, TauLimitKind, TensionCurve};
+pub use centre::{TensionCentre, tension_centre};
 pub(super) use payload::with_weight;
 pub use payload::{PayloadBound, PayloadSide, RequestedPayload, payload_bound};
 pub use ray::LimitAtCable;
@@ -52,6 +55,10 @@ pub enum TensionRule {
     /// Tensions farthest from the limits: maximum of the smallest [`TensionMargin::relative`](super::TensionMargin),
     /// (39). Of equal solutions the one nearest to the middles. Needs a maximum for every cable.
     Middle,
+    /// Centre of the tensions within the limits: minimum of `−Σ ln(τ − α) + ln(β − τ)`, α and β being the limits of τ,
+    /// (40b1). The only rule whose tensions and lengths are smooth functions of the pose and of every number: for paths
+    /// and controllers. Needs a maximum for every cable; [`tension_centre`] gives more of it.
+    Centre,
     /// Stiffest tensions: maximum of the minimum eigenvalue of the scaled stiffness, (40), which
     /// [`Stability`](super::Stability) gives. Needs elastic cables and a maximum for every cable.
     Stiffest,
@@ -64,6 +71,7 @@ impl TensionRule {
             Self::Lowest => "lowest",
             Self::Closest(_) => "closest",
             Self::Middle => "middle",
+            Self::Centre => "centre",
             Self::Stiffest => "stiffest",
         }
     }
@@ -102,6 +110,9 @@ pub fn distribute_tensions(
     model: StaticModel,
     rule: &TensionRule,
 ) -> Result<Equilibrium, StaticsError> {
+    if *rule == TensionRule::Centre {
+        return Ok(tension_centre(robot, pose, model, None)?.equilibrium);
+    }
     let solve = |held: &Robot, last: Option<&Equilibrium>| at_exit_points((robot, held), pose, model, rule, last);
     let found = exit_points::equilibrium(robot, pose, model, solve);
     let is_beyond = matches!(found, Err(StaticsError::BeyondLimits(_) | StaticsError::NotFoundWithinLimits { .. }));
@@ -160,6 +171,7 @@ fn at_exit_points(
             search.middle_of(&widths)?;
         }
         TensionRule::Stiffest => stiffest::search(&mut search)?,
+        TensionRule::Centre => unreachable!("it lets the exit points follow, and does not hold them"),
     }
 
     let iterations = search.iterations();
@@ -248,7 +260,7 @@ fn check(
         if minimum >= maximum {
             return Err(StaticsError::LimitsExclude { cable, minimum, maximum });
         }
-        if maximum.is_infinite() && matches!(rule, TensionRule::Middle | TensionRule::Stiffest) {
+        if maximum.is_infinite() && matches!(rule, TensionRule::Middle | TensionRule::Centre | TensionRule::Stiffest) {
             return Err(StaticsError::NeedsMaximum { cable, rule: rule.name() });
         }
     }

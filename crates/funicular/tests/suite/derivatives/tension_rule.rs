@@ -112,7 +112,8 @@ fn cases() -> Vec<RuleCase> {
             (robot.clone(), TensionRule::Lowest),
             (robot.clone(), TensionRule::Closest(vec![mean])),
             (limited.clone(), TensionRule::Closest(vec![0.5 * mean])),
-            (limited, TensionRule::Middle),
+            (limited.clone(), TensionRule::Middle),
+            (limited, TensionRule::Centre),
         ] {
             let (name, pose) = (format!("{file}, {rule:?}"), rest.pose);
             all.push(RuleCase { name, robot, pose, rule, model: StaticModel::Catenary });
@@ -132,6 +133,7 @@ fn cases() -> Vec<RuleCase> {
     let robot = robot.with_wind(Wind { velocity_w: Vec3::new(12.0, 5.0, 1.0), ..Wind::default() });
     for (minimum, rule) in [
         (Some(250.0), TensionRule::Closest(vec![300.0])),
+        (Some(150.0), TensionRule::Centre),
         (None, TensionRule::Lowest),
         (None, TensionRule::Closest(vec![10.0, 300.0, 200.0, 400.0, 350.0, 150.0, 350.0, 350.0])),
     ] {

@@ -1,5 +1,6 @@
 //! Tension distribution: robots, poses and checks shared by the files of this folder.
 
+mod centre;
 mod lengths;
 mod limits;
 mod out_of_reach;

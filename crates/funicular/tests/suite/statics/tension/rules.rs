@@ -17,6 +17,7 @@ fn cost(robot: &Robot, held: &Equilibrium, rule: &TensionRule) -> f64 {
             .zip(&held.cables)
             .fold(f64::NEG_INFINITY, |most, (range, cable)| most.max(-range.margin(cable).relative().unwrap())),
         TensionRule::Stiffest => -min_stiffness(held),
+        TensionRule::Centre => unreachable!("compared in centre.rs, by its own limits"),
     }
 }
 
