@@ -80,7 +80,7 @@ pub fn caveat_of_stretch(robot: &Robot, modes: &[Mode], damping: &[f64], platfor
         mode.frequency_hz,
         100.0 * share,
         ropes.join(", "),
-        if ratio == 0.0 { "0".to_owned() } else { format!("{ratio:.2e}") },
+        if *ratio == 0.0 { "0".to_owned() } else { format!("{ratio:.2e}") },
         0.005 * share
     ))
 }
