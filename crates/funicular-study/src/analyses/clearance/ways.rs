@@ -1,7 +1,9 @@
 //! Ways around: from pose to pose through others where the straight move touches.
 
 use super::{PoseRow, rest_at};
+use crate::Watch;
 use crate::at_rest::AtRest;
+use crate::error::Cancelled;
 use funicular::clearance::Surroundings;
 use funicular::math::Vec3;
 use funicular::robot::{PlatformMotion, Pose, Robot};
@@ -25,14 +27,25 @@ pub struct WayAround {
 
 impl WayAround {
     /// Searches a way through a lattice of positions between the anchors, with the orientations of both ends.
-    pub(super) fn find(at_rest: &AtRest, around: &Surroundings, end: &Pose) -> Self {
+    ///
+    /// # Errors
+    /// Work that was stopped.
+    pub(super) fn find(at_rest: &AtRest, around: &Surroundings, end: &Pose, watch: &dyn Watch) -> anyhow::Result<Self> {
         let start = at_rest.equilibrium.pose;
         let candidates = candidates(&at_rest.robot, [&start, end]);
-        let found = around.free_way([&start, end], &candidates, MOST_MOVES, &mut rest_at(at_rest));
-        Self {
+        let mut rest_at = rest_at(at_rest);
+        // A move through poses without an equilibrium is none, so that a stopped search ends soon.
+        let mut watched = |pose: &Pose| {
+            if watch.is_cancelled() { Err(()) } else { rest_at(pose).map_err(|_| ()) }
+        };
+        let found = around.free_way([&start, end], &candidates, MOST_MOVES, &mut watched);
+        if watch.is_cancelled() {
+            return Err(Cancelled.into());
+        }
+        Ok(Self {
             through: found.through.map(|poses| poses.iter().map(PoseRow::of).collect()),
             moves_examined: found.moves,
-        }
+        })
     }
 }
 

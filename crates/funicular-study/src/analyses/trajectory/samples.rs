@@ -154,9 +154,9 @@ fn parts_of_inertia(planned: &Planned, motions: &[InMotion]) -> Vec<Option<(Used
     motions.iter().map(part).collect()
 }
 
-/// Required distance over the distance of a pair.
+/// Required distance over the distance of a pair; infinite where it touches.
 fn part_of_clearance(pair: &Clearance) -> f64 {
-    if pair.distance > 0.0 { pair.required / pair.distance } else { f64::INFINITY }
+    if pair.touches() { f64::INFINITY } else { pair.required / pair.distance }
 }
 
 /// Robot at a time of a path.
