@@ -103,8 +103,8 @@ impl ClearancePair {
 pub struct Clearance {
     /// Pair.
     pub pair: ClearancePair,
-    /// Distance between the surfaces [m]; negative by the depth where one is in the other. Centre lines of ropes that cross
-    /// each other, and a body without inside, add the radii of the ropes alone.
+    /// Distance between the surfaces [m]; negative by the depth where one is in the other. Centre lines of ropes that
+    /// cross each other, and a body without inside, add the radii of the ropes alone.
     pub distance: f64,
     /// Required distance [m].
     pub required: f64,
@@ -113,7 +113,8 @@ pub struct Clearance {
 }
 
 impl Clearance {
-    /// Distance beyond the required one [m]; negative if the pair is too near, and where it touches, whatever is required.
+    /// Distance beyond the required one [m]; negative if the pair is too near, and where it touches, whatever is
+    /// required.
     pub fn margin(&self) -> f64 {
         let beyond = self.distance - self.required;
         if self.touches() { beyond.min(-TOUCHING) } else { beyond }
@@ -206,8 +207,8 @@ impl<'a> Surroundings<'a> {
         self.at(rest).least(kind)
     }
 
-    /// Pairs of cables that touch at an equilibrium: their centre lines cross, or pass each other nearer than the radii of
-    /// their ropes. A pair without compared parts has none.
+    /// Pairs of cables that touch at an equilibrium: their centre lines cross, or pass each other nearer than the
+    /// radii of their ropes. A pair without compared parts has none.
     pub fn crossing_cables(&self, rest: &Equilibrium) -> Vec<Clearance> {
         self.at(rest).crossing_cables()
     }

@@ -228,8 +228,8 @@ impl fmt::Display for Warning {
                 write!(
                     f,
                     "cables {} cross: their ropes touch at this pose; choose other attachments or anchors, for example \
-                     the upper and the lower cable of a corner to different sides of the platform; `clearance` shows all \
-                     distances",
+                     the upper and the lower cable of a corner to different sides of the platform; `clearance` shows \
+                     all distances",
                     pairs.join(", ")
                 )
             }
@@ -243,8 +243,9 @@ impl fmt::Display for Warning {
                 let with_diameter = |(rope, diameter): &(String, f64)| format!("\"{rope}\" ({:.2} mm)", 1e3 * diameter);
                 write!(
                     f,
-                    "distances of cables of {} are those of a circle with `area_m2`; the metal of a wire rope fills half \
-                     to two thirds of its circle: give its outer diameter as `drag_diameter_m` with a `drag_coefficient`",
+                    "distances of cables of {} are those of a circle with `area_m2`; the metal of a wire rope fills \
+                     half to two thirds of its circle: give its outer diameter as `drag_diameter_m` with a \
+                     `drag_coefficient`",
                     ropes.iter().map(with_diameter).collect::<Vec<_>>().join(", ")
                 )
             }

@@ -1,7 +1,7 @@
 //! Depth of segments in solids, with a negative sign: a distance from the surface as it is seen from inside.
 //!
-//! The signed distance of a point from a convex solid is convex, so that along a segment its slope changes its sign once.
-//! That from a mesh has several minima, which bounds from single triangles enclose.
+//! The signed distance of a point from a convex solid is convex, so that along a segment its slope changes its sign
+//! once. That from a mesh has several minima, which bounds from single triangles enclose.
 
 use super::BODY_TOLERANCE;
 use super::bounded::Bounded;
@@ -15,8 +15,8 @@ use std::collections::BinaryHeap;
 /// Number of halvings that find the deepest point of a segment: 1e-16 of its length.
 const HALVINGS: usize = 53;
 
-/// Maximum number of divisions of a segment in a mesh, a guard: segments across rooms of thousands of triangles need some
-/// hundred.
+/// Maximum number of divisions of a segment in a mesh, a guard: segments across rooms of thousands of triangles need
+/// some hundred.
 const MAX_DIVISIONS: usize = 4096;
 
 /// Number of sides of the prism whose edges stand for those of a cylinder.
@@ -165,8 +165,8 @@ struct Part {
     places: [f64; 2],
 }
 
-/// Depth of the deepest point of a segment in a closed mesh, as [`in_shape`]. The distance from one triangle is convex, so
-/// that no point of a part is deeper than the farther one of its ends is from any triangle.
+/// Depth of the deepest point of a segment in a closed mesh, as [`in_shape`]. The distance from one triangle is
+/// convex, so that no point of a part is deeper than the farther one of its ends is from any triangle.
 fn in_mesh(mesh: &TriMesh, from: &Vec3, to: &Vec3) -> (f64, f64, Vec3) {
     let at = |fraction: f64| vector(&(from + (to - from) * fraction));
     let mut best = (0.0, 0.5, from + (to - from) * 0.5);

@@ -223,7 +223,8 @@ impl Surroundings<'_> {
         ends.iter().for_each(|station| keep_least(&mut found, station));
         let mut sided: Vec<(usize, [Rc<Station>; 2])> = Vec::new();
 
-        // Parts of the way, the nearest one last. Each is divided for those pairs alone that may be nearer in it than known.
+        // Parts of the way, the nearest one last. Each is divided for those pairs alone that may be nearer in it than
+        // known.
         let mut ahead = vec![(ends.map(Rc::new), all)];
         while let Some(([one, other], open)) = ahead.pop() {
             let is_long = other.fraction - one.fraction > MIN_STEP;
@@ -307,8 +308,8 @@ fn keep_least(found: &mut [Option<OnTheWay>], station: &Station) {
     }
 }
 
-/// Pairs among some, by their ascending numbers, that may be nearer between two stations than known so far, by more than the
-/// tolerance.
+/// Pairs among some, by their ascending numbers, that may be nearer between two stations than known so far, by more
+/// than the tolerance.
 fn may_be_nearer(found: &[Option<OnTheWay>], [one, other]: [&Station; 2], ways: &[f64], among: &[usize]) -> Vec<usize> {
     let known = |k: usize| found[k].as_ref().map(|known| known.least.margin());
     let bounds = least_between(one, other, ways).filter(|(k, _)| among.binary_search(k).is_ok());

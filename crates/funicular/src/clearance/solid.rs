@@ -101,8 +101,8 @@ impl PlacedBody {
         NearSegment { distance, fraction, point_w: self.frame.point_w(&point) }
     }
 
-    /// Distance of this body of the platform from an obstacle, negative by the depth where they overlap, and the nearest
-    /// points [m]. Between cylinders and other bodies it is exact to 1e-5 m.
+    /// Distance of this body of the platform from an obstacle, negative by the depth where they overlap, and the
+    /// nearest points [m]. Between cylinders and other bodies it is exact to 1e-5 m.
     pub(super) fn nearest_to(&self, obstacle: &Self) -> (f64, [Vec3; 2]) {
         if matches!(obstacle.method, Method::HalfSpace) {
             let (point_w, height) = self.lowest(obstacle);
@@ -128,8 +128,9 @@ impl PlacedBody {
         nearest.unwrap_or((f64::INFINITY, [self.frame.position_w, obstacle.frame.position_w]))
     }
 
-    /// Depth of the overlap of two parts that touch, with a negative sign, and the points between which it is measured [m]:
-    /// for convex bodies the shortest way that separates them, otherwise the greatest depth of an edge of one in the other.
+    /// Depth of the overlap of two parts that touch, with a negative sign, and the points between which it is measured
+    /// [m]: for convex bodies the shortest way that separates them, otherwise the greatest depth of an edge of one in
+    /// the other.
     fn overlap(&self, obstacle: &Self, [one, two]: [&SharedShape; 2]) -> (f64, [Vec3; 2]) {
         let (own, other) = (self.placement(), obstacle.placement());
         if one.as_trimesh().is_none()

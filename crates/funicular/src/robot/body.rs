@@ -51,8 +51,8 @@ impl Solid {
         ("mesh", "closed surface of the STL file `file`, whose origin is placed at `position_m`"),
     ];
 
-    /// Shapes of the library whose union is the solid, and the rotation of their frame in that of the solid. A mesh may have
-    /// several.
+    /// Shapes of the library whose union is the solid, and the rotation of their frame in that of the solid. A mesh
+    /// may have several.
     pub(crate) fn shapes(&self) -> (Vec<SharedShape>, Rotation) {
         let unturned = |shape| (vec![shape], Rotation::identity());
         match self {

@@ -183,8 +183,8 @@ impl Faces {
         Ok(pieces.into_iter().map(|faces| self.surface(faces)).collect())
     }
 
-    /// Pieces of surfaces up to edges of more than two triangles. `neighbours` are the triangles beyond the edges of each
-    /// one, and whether both turn the same way.
+    /// Pieces of surfaces up to edges of more than two triangles. `neighbours` are the triangles beyond the edges of
+    /// each one, and whether both turn the same way.
     fn pieces(&mut self, neighbours: &[Vec<(usize, bool)>]) -> Result<Vec<Vec<usize>>, MeshError> {
         // Whether a triangle has to be turned, from the first one of each piece on.
         let mut turned: Vec<Option<bool>> = vec![None; self.faces.len()];

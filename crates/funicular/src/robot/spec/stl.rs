@@ -27,7 +27,8 @@ pub(super) enum StlError {
     Neither { bytes: usize },
     /// A binary file with fewer triangles than it says.
     #[error(
-        "a text begins with `solid`, and a binary file of {triangles} triangles has at least {needed} bytes, not {bytes}"
+        "a text begins with `solid`, and a binary file of {triangles} triangles has at least {needed} bytes, not \
+         {bytes}"
     )]
     Short { triangles: usize, needed: usize, bytes: usize },
     /// A corner of a binary file that is no number.
