@@ -134,7 +134,7 @@ answers! {
     Speeds(Speeds): of => speeds::run(robot()?, of)?;
     Trajectory(TrajectoryResult): of => trajectory::run(robot()?, of, watch)?;
     Simulate(Box<Simulated>): of => Box::new(simulate::run(robot()?, of, watch)?);
-    Clearance(Clearances): of => clearance::run(robot()?, of)?;
+    Clearance(Clearances): of => clearance::run(robot()?, of, watch)?;
     PoseError(PoseErrors): of => pose_error::run(&robot()?, of, watch)?;
     Cable(CableResult): of => cable::run(robot()?, of, watch)?;
     Reduce(ReducedForm): of => reduce::run(robot()?, of, watch)?, at at_rest => reduce::about(at_rest, of, watch)?;

@@ -20,7 +20,7 @@ fn identified(experiments: &Value, more: &Value) -> Identified {
 
 /// Three numbered frequencies of the robot of the quick start with 64 kg.
 fn measured() -> Value {
-    let frequencies = [(1.2459, "1"), (1.4446, "2"), (1.5195, "3")]
+    let frequencies = [(1.4638, "1"), (1.5331, "2"), (1.5535, "3")]
         .map(|(hz, label)| json!({ "frequency_hz": hz, "std_hz": 0.002 * hz, "label": label }));
     json!({ "hold_lengths_of_pose": true, "frequencies": frequencies })
 }

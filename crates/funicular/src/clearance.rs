@@ -7,6 +7,7 @@
 mod arc;
 mod bounded;
 mod cable_pair;
+mod depth;
 mod free_way;
 mod moves;
 mod segments;
@@ -14,7 +15,7 @@ mod solid;
 mod span;
 
 use crate::math::Vec3;
-use crate::robot::{Body, Pose, RequiredClearance, Robot, vector};
+use crate::robot::{Body, Cable, Pose, RequiredClearance, Robot, vector};
 use crate::statics::Equilibrium;
 use parry3d_f64::shape::{ConvexPolyhedron, Segment, SharedShape, TriMesh};
 use solid::PlacedBody;
@@ -29,6 +30,9 @@ pub const TOLERANCE: f64 = 1e-10;
 
 /// Bound of the error of a distance between a cable and a body [m].
 pub const BODY_TOLERANCE: f64 = 1e-8;
+
+/// Distance up to which things touch [m]: the error of a distance between a cable and a body.
+const TOUCHING: f64 = BODY_TOLERANCE;
 
 /// Name of the convex hull of the attachments, the body of a platform without other bodies.
 pub const HULL: &str = "platform";
@@ -99,8 +103,8 @@ impl ClearancePair {
 pub struct Clearance {
     /// Pair.
     pub pair: ClearancePair,
-    /// Distance between the surfaces [m]: negative by the radii of the ropes where their centre lines touch, and by the
-    /// depth in a half space.
+    /// Distance between the surfaces [m]; negative by the depth where one is in the other. Centre lines of ropes that
+    /// cross each other, and a body without inside, add the radii of the ropes alone.
     pub distance: f64,
     /// Required distance [m].
     pub required: f64,
@@ -109,9 +113,21 @@ pub struct Clearance {
 }
 
 impl Clearance {
-    /// Distance beyond the required one [m]; negative if the pair is too near.
+    /// Distance beyond the required one [m]; negative if the pair is too near, and where it touches, whatever is
+    /// required.
     pub fn margin(&self) -> f64 {
-        self.distance - self.required
+        let beyond = self.distance - self.required;
+        if self.touches() { beyond.min(-TOUCHING) } else { beyond }
+    }
+
+    /// True if the things of the pair touch or overlap.
+    pub fn touches(&self) -> bool {
+        self.distance <= TOUCHING
+    }
+
+    /// True if the pair does not touch and keeps its required distance.
+    pub fn is_kept(&self) -> bool {
+        self.margin() >= 0.0
     }
 }
 
@@ -189,6 +205,21 @@ impl<'a> Surroundings<'a> {
     /// Pair with the least margin at an equilibrium, of one kind or of all; `None` without such a pair.
     pub fn least(&self, rest: &Equilibrium, kind: Option<ClearanceKind>) -> Option<Clearance> {
         self.at(rest).least(kind)
+    }
+
+    /// Pairs of cables that touch at an equilibrium: their centre lines cross, or pass each other nearer than the
+    /// radii of their ropes. A pair without compared parts has none.
+    pub fn crossing_cables(&self, rest: &Equilibrium) -> Vec<Clearance> {
+        self.at(rest).crossing_cables()
+    }
+
+    /// Pairs of straight cables that touch at a pose, as [`Self::crossing_cables`]: for poses without an equilibrium.
+    pub fn crossing_chords(&self, pose: &Pose) -> Vec<Clearance> {
+        let ends = |cable: &Cable| [pose.point_w(&cable.attachment_p), cable.anchor.reference_w()];
+        let ends: Vec<[Vec3; 2]> = self.robot.cables.iter().map(ends).collect();
+        let spans = ends.iter().zip(&self.robot.cables);
+        let spans = spans.map(|(ends_w, cable)| FreeSpan::through(ends_w, cable.radius(), self.from_end)).collect();
+        self.placed(pose, spans).crossing_cables()
     }
 
     /// Pair with the least margin while cables are straight between points, from the platform to the anchor: those of a
@@ -303,6 +334,15 @@ impl Placed<'_> {
         let between = |body| (0..obstacles).map(move |obstacle| ClearancePair::PlatformAndObstacle { body, obstacle });
         pairs.extend((0..bodies).flat_map(between));
         pairs
+    }
+
+    /// Pairs of cables that touch.
+    fn crossing_cables(&self) -> Vec<Clearance> {
+        let touching = self.pairs_of(Some(ClearanceKind::Cables)).filter_map(|pair| {
+            // Pairs that are surely farther apart need no exact distance.
+            self.clearance(pair, TOUCHING - self.of.required(pair)).filter(Clearance::touches)
+        });
+        touching.collect()
     }
 
     /// Pair with the least margin, of one kind or of all.

@@ -8,8 +8,8 @@ use plausibility::Implausible;
 use crate::cable::catenary_dynamic::CatenaryDynamic;
 use crate::cable::shallow_dynamic::ShallowDynamic;
 use crate::cable::{CableModel, LocalAxes, SHALLOW_SAG_LIMIT, Sag, shallow_static};
-use crate::clearance::{Clearance, Surroundings};
-use crate::robot::{Cable, Pose, Robot};
+use crate::clearance::{Clearance, ClearancePair, Surroundings};
+use crate::robot::{Cable, Pose, Robot, RopeSection};
 use crate::statics::{self, CableState, Equilibrium, Limit, Stability, StaticModel, TensionRange};
 use std::f64::consts::TAU;
 use std::fmt;
@@ -66,6 +66,21 @@ pub enum Warning {
         distance: f64,
         /// Required distance [m].
         required: f64,
+    },
+    /// Cables cross each other.
+    Crossing {
+        /// Pairs of cables by their names.
+        pairs: Vec<[String; 2]>,
+    },
+    /// Distances of ropes count, but the file gives no diameter of some.
+    NoDiameter {
+        /// Names of the ropes.
+        ropes: Vec<String>,
+    },
+    /// Distances of ropes count, but the file gives only the cross-section of the metal of some.
+    MetalDiameter {
+        /// Names of the ropes, each with the diameter of a circle of this area [m].
+        ropes: Vec<(String, f64)>,
     },
     /// There is wind, but the file gives no drag coefficient of some ropes.
     NoDrag {
@@ -207,15 +222,39 @@ impl fmt::Display for Warning {
                 f.write_str(&beyond_limit(cable, *tension, *limit, *value))
             }
             Self::Interference { pair, distance, required } => f.write_str(&too_near(pair, *distance, *required)),
-            Self::NoDrag { ropes } => {
-                let ropes: Vec<String> = ropes.iter().map(|rope| format!("\"{rope}\"")).collect();
+            Self::Crossing { pairs } => {
+                let pairs: Vec<String> =
+                    pairs.iter().map(|[one, other]| format!("\"{one}\" and \"{other}\"")).collect();
                 write!(
                     f,
-                    "the wind does not act on cables of {}: give a `drag_coefficient` in the robot file (a round rope \
-                     has 1.0 to 1.2), or 0 for none",
-                    ropes.join(", ")
+                    "cables {} cross: their ropes touch at this pose; choose other attachments or anchors, for example \
+                     the upper and the lower cable of a corner to different sides of the platform; `clearance` shows \
+                     all distances",
+                    pairs.join(", ")
                 )
             }
+            Self::NoDiameter { ropes } => write!(
+                f,
+                "cables of {} have no diameter, so that their distances are those of their centre lines: give \
+                 `drag_diameter_m` with a `drag_coefficient`, or `diameter_m` with `youngs_modulus_pa`",
+                quoted(ropes)
+            ),
+            Self::MetalDiameter { ropes } => {
+                let with_diameter = |(rope, diameter): &(String, f64)| format!("\"{rope}\" ({:.2} mm)", 1e3 * diameter);
+                write!(
+                    f,
+                    "distances of cables of {} are those of a circle with `area_m2`; the metal of a wire rope fills \
+                     half to two thirds of its circle: give its outer diameter as `drag_diameter_m` with a \
+                     `drag_coefficient`",
+                    ropes.iter().map(with_diameter).collect::<Vec<_>>().join(", ")
+                )
+            }
+            Self::NoDrag { ropes } => write!(
+                f,
+                "the wind does not act on cables of {}: give a `drag_coefficient` in the robot file (a round rope has \
+                 1.0 to 1.2), or 0 for none",
+                quoted(ropes)
+            ),
             Self::NearlySingular { gain } => f.write_str(&nearly_singular(*gain)),
             Self::Unstable { directions, min_stiffness } => f.write_str(&unstable(*directions, *min_stiffness)),
             Self::Elsewhere { cables, dof, translation, turn_deg, distance } => write!(
@@ -248,6 +287,11 @@ impl fmt::Display for Warning {
     }
 }
 
+/// Names in quotes, with commas.
+fn quoted(names: &[String]) -> String {
+    names.iter().map(|name| format!("\"{name}\"")).collect::<Vec<_>>().join(", ")
+}
+
 /// Text about a tension beyond a limit of the file.
 fn beyond_limit(cable: &str, tension: f64, limit: Limit, value: f64) -> String {
     let (range, side, name) = match limit {
@@ -260,10 +304,15 @@ fn beyond_limit(cable: &str, tension: f64, limit: Limit, value: f64) -> String {
     )
 }
 
+/// Distance below which four decimals show a zero [m].
+const LEAST_SHOWN: f64 = 5e-5;
+
 /// Text about things that are too near to each other.
 fn too_near(pair: &str, distance: f64, required: f64) -> String {
-    let apart = if distance > 0.0 {
+    let apart = if distance >= LEAST_SHOWN {
         format!("are {distance:.4} m apart, {required} m are required")
+    } else if distance <= -LEAST_SHOWN {
+        format!("touch and overlap by {:.4} m", -distance)
     } else {
         "touch".to_owned()
     };
@@ -384,7 +433,9 @@ pub fn of_statics(robot: &Robot, equilibrium: &Equilibrium) -> Vec<Warning> {
         warnings.extend(of_tension(robot, equilibrium, i));
     }
 
+    warnings.extend(of_crossings(robot, equilibrium));
     warnings.extend(of_clearance(robot, equilibrium));
+    warnings.extend(of_diameters(robot));
 
     // Wind on ropes without a drag coefficient.
     if robot.wind.velocity_w.norm() > 0.0 {
@@ -415,6 +466,26 @@ pub fn of_stability(equilibrium: &Equilibrium) -> Option<Warning> {
     Some(Warning::Unstable { directions, min_stiffness })
 }
 
+/// Warning that cables cross at an equilibrium, also for a robot whose file says nothing about distances.
+pub fn of_crossings(robot: &Robot, equilibrium: &Equilibrium) -> Option<Warning> {
+    crossing(robot, &Surroundings::of(robot).crossing_cables(equilibrium))
+}
+
+/// Warning that cables cross at a pose if they are straight, for a pose without an equilibrium.
+pub fn of_crossing_chords(robot: &Robot, pose: &Pose) -> Option<Warning> {
+    crossing(robot, &Surroundings::of(robot).crossing_chords(pose))
+}
+
+fn crossing(robot: &Robot, touching: &[Clearance]) -> Option<Warning> {
+    let name = |i: usize| robot.cables[i].name.clone();
+    let pairs = touching.iter().filter_map(|of| match of.pair {
+        ClearancePair::Cables(i, j) => Some([name(i), name(j)]),
+        _ => None,
+    });
+    let pairs: Vec<[String; 2]> = pairs.collect();
+    (!pairs.is_empty()).then_some(Warning::Crossing { pairs })
+}
+
 /// Warning that cables, platform and obstacles are nearer to each other than the file allows. A file that says nothing
 /// about distances is not judged.
 fn of_clearance(robot: &Robot, equilibrium: &Equilibrium) -> Option<Warning> {
@@ -423,13 +494,39 @@ fn of_clearance(robot: &Robot, equilibrium: &Equilibrium) -> Option<Warning> {
     }
     let around = Surroundings::of(robot);
     let least = around.least(equilibrium, None)?;
+    // Cables that touch have a warning of their own.
+    if matches!(least.pair, ClearancePair::Cables(..)) && least.touches() {
+        return None;
+    }
     of_nearest(&around.pair_text(least.pair), &least)
+}
+
+/// Warnings about ropes whose diameters the file does not give, where distances count.
+fn of_diameters(robot: &Robot) -> Vec<Warning> {
+    if !robot.judges_clearance() {
+        return Vec::new();
+    }
+    let (mut none, mut metal): (Vec<String>, Vec<(String, f64)>) = Default::default();
+    for cable in &robot.cables {
+        let (rope, name) = (&cable.material.dimensions, &cable.material.name);
+        match (rope.drag_diameter, rope.section) {
+            (Some(_), _) | (None, Some(RopeSection::Diameter(_))) => {}
+            (None, Some(RopeSection::Area(_))) if !metal.iter().any(|(known, _)| known == name) => {
+                metal.push((name.clone(), 2.0 * cable.radius()));
+            }
+            (None, None) if !none.contains(name) => none.push(name.clone()),
+            (None, _) => {}
+        }
+    }
+    let none = (!none.is_empty()).then_some(Warning::NoDiameter { ropes: none });
+    let metal = (!metal.is_empty()).then_some(Warning::MetalDiameter { ropes: metal });
+    none.into_iter().chain(metal).collect()
 }
 
 /// Warning about the nearest pair, in words, if it is nearer than required.
 pub fn of_nearest(pair: &str, least: &Clearance) -> Option<Warning> {
     let Clearance { distance, required, .. } = *least;
-    (least.margin() < 0.0).then(|| Warning::Interference { pair: pair.to_owned(), distance, required })
+    (!least.is_kept()).then(|| Warning::Interference { pair: pair.to_owned(), distance, required })
 }
 
 /// Warnings about a cable model at an equilibrium for frequencies up to `below_hz` [Hz].

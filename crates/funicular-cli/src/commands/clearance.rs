@@ -10,7 +10,7 @@ const SHOWN: usize = 12;
 
 impl Printed for Clearances {
     fn text(&self) -> String {
-        let near = self.pairs.iter().filter(|pair| pair.margin_m < 0.0).count();
+        let near = self.pairs.iter().filter(|pair| !pair.is_kept()).count();
         let verdict = match near {
             0 if self.pairs.is_empty() => "nothing to compare".to_owned(),
             0 if self.move_to.is_some() => "free: every pair keeps its required distance on the way".to_owned(),

@@ -162,16 +162,18 @@ fn distances_from_the_columns_of_a_hall_are_those_of_its_plan() {
     let tables = columns.iter().map(table).collect::<Vec<_>>().concat();
     // Two cables at each corner of the hall, and of the platform.
     let corners = [[1.0, 1.0], [-1.0, 1.0], [-1.0, -1.0], [1.0, -1.0]];
-    let cables: Vec<(String, [f64; 2])> = (0..8).map(|i| ((i + 1).to_string(), corners[i / 2])).collect();
+    // Each goes to a corner of the platform beside the nearest one.
+    let ends = |i: usize| [corners[i / 2], corners[(i / 2 + if i.is_multiple_of(2) { 1 } else { 3 }) % 4]];
+    let cables: Vec<(String, [[f64; 2]; 2])> = (0..8).map(|i| ((i + 1).to_string(), ends(i))).collect();
     let rope = 0.5 * (4.0 * 14e-6 / std::f64::consts::PI).sqrt();
 
     for [x, y] in [[1.0, 0.5], [2.0, -1.5], [-3.0, 1.0]] {
         let found = json_of(&["clearance", "-", "--pose", &format!("{x},{y},3")], &format!("{file}{tables}"));
         let pairs = found["pairs"].as_array().unwrap();
         let each = cables.iter().flat_map(|cable| columns.iter().map(move |of| (cable, of)));
-        for ((cable, [side, end]), (name, column)) in each {
-            let to = [x + 0.5 * side, y + 0.4 * end];
-            let expected = in_plan(*column, [10.0 * side, 6.0 * end], to) - 0.25 - rope;
+        for ((cable, [anchor, attachment]), (name, column)) in each {
+            let to = [x + 0.5 * attachment[0], y + 0.4 * attachment[1]];
+            let expected = in_plan(*column, [10.0 * anchor[0], 6.0 * anchor[1]], to) - 0.25 - rope;
             let is_pair = |pair: &&serde_json::Value| pair["first"] == **cable && pair["second"] == *name;
             let pair = pairs.iter().find(is_pair).unwrap();
             assert!((number(&pair["distance_m"]) - expected).abs() < 1e-8, "{pair} {expected}");
@@ -241,4 +243,109 @@ fn a_way_around_a_column_is_found() {
 
     let alone = run(&["clearance", &hall, "--find-way"]);
     assert!(alone.status.code() == Some(2) && stderr(&alone).contains("--move-to"), "{}", stderr(&alone));
+}
+
+/// The examples that readers copy have no crossing cables; with high anchors at lower corners beside them they had
+/// four.
+#[test]
+fn crossing_cables_are_warned_of_and_the_examples_have_none() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name).display().to_string();
+    let made = at("made.toml");
+    let points = super::project("docs/robot-file.csv");
+    succeed(&["new", "--from-csv", &points, "--csv-unit", "mm", "--mass-kg", "60", "-o", &made]);
+    let hall = super::project("docs/quick-start/hall.toml");
+    for file in [hall.clone(), super::project("docs/tutorials/stage.toml"), made] {
+        let found = json(&["clearance", &file]);
+        assert_eq!(found["free"].as_bool(), Some(true), "{file}: {}", found["pairs"][0]);
+        for command in ["check", "statics"] {
+            let output = run(&[command, &file]);
+            assert!(!stderr(&output).contains("cross"), "{file}: {}", stderr(&output));
+        }
+    }
+
+    // Both cables of a corner in one vertical plane, the upper one below at the platform.
+    let text = fs::read_to_string(hall).unwrap();
+    let swapped = text.replacen("[-0.5, 0.4, 0.25]", "[0.5, 0.4, -0.25]", 1).replacen(
+        "[0.5, -0.4, -0.25]",
+        "[0.5, 0.4, 0.25]",
+        1,
+    );
+    let crossed = at("crossed.toml");
+    fs::write(&crossed, &swapped).unwrap();
+    let page = at("page.html");
+    let commands: [&[&str]; 3] = [&["check"], &["statics"], &["report", "-o", &page]];
+    for command in commands {
+        let output = run(&[&[command[0], &crossed], &command[1..]].concat());
+        assert!(stderr(&output).contains("cables \"1\" and \"2\" cross"), "{command:?}: {}", stderr(&output));
+    }
+    // A pose that no tensions hold is judged by straight cables.
+    let far = at("far.toml");
+    fs::write(&far, swapped.replace("[1.0, 0.5, 3.0]", "[1.0, 0.5, 30.0]")).unwrap();
+    let output = run(&["check", &far]);
+    assert!(output.status.success() && !stderr(&output).contains("panicked"), "{}", stderr(&output));
+}
+
+/// A text of two solids, the second of which a cable meets.
+fn two_solids() -> String {
+    let solid = |middle: [f64; 3], half: f64| {
+        let corner = |bits: usize| -> String {
+            let number = |k: usize| middle[k] + if bits & (1 << k) == 0 { -half } else { half };
+            format!("vertex {} {} {}\n", number(0), number(1), number(2))
+        };
+        let quads = [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]];
+        let triangles = quads.iter().flat_map(|[a, b, c, d]| [[*a, *b, *c], [*a, *c, *d]]);
+        let facet = |corners: [usize; 3]| {
+            let corners = corners.map(corner).concat();
+            format!("facet normal 0 0 0\nouter loop\n{corners}endloop\nendfacet\n")
+        };
+        format!("solid part\n{}endsolid part\n", triangles.map(facet).collect::<String>())
+    };
+    solid([30.0, 0.0, 1.0], 0.5) + &solid([3.0, 1.0, 1.5], 0.2)
+}
+
+#[test]
+fn every_solid_of_a_text_counts_and_a_text_that_breaks_off_is_refused_with_its_line() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = two_solids();
+    let mesh = "[obstacles.parts]\nshape = \"mesh\"\nfile = \"parts.stl\"\n";
+    fs::write(folder.path().join("parts.stl"), &text).unwrap();
+    let hall = with_tables(folder.path(), mesh);
+    let found = json(&["clearance", &hall, "--pose", "2.2,0.8,1.5"]);
+    assert_eq!(found["free"].as_bool(), Some(false));
+    assert!(number(&found["pairs"][0]["distance_m"]) < -0.05, "{}", found["pairs"][0]);
+
+    // The second box, cut off in its third facet, which begins at line 102.
+    let cut = text.match_indices("facet normal").nth(14).unwrap().0;
+    fs::write(folder.path().join("parts.stl"), &text[..cut + 40]).unwrap();
+    let output = run(&["clearance", &hall, "--pose", "2.2,0.8,1.5"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(stderr(&output).contains("is no STL file: line 104: the text ends"), "{}", stderr(&output));
+}
+
+/// Rope without diameter through a box, no distances required: interference in every command that judges it.
+#[test]
+fn a_rope_through_a_box_is_interference_in_every_command() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = fs::read_to_string(super::project("docs/quick-start/hall.toml")).unwrap();
+    let mut lines: Vec<&str> = text.lines().collect();
+    lines.retain(|line| !line.starts_with("youngs_modulus_pa") && !line.starts_with("area_m2"));
+    let text = lines.join("\n").replace("[materials.rope]\n", "[materials.rope]\naxial_stiffness_n = 1.4e6\n");
+    let hall = folder.path().join("hall.toml").display().to_string();
+    let mast = "[obstacles.mast]\nsize_m = [0.8, 0.8, 9.0]\nposition_m = [5.0, 3.0, 4.5]\n";
+    fs::write(&hall, format!("{text}\n{mast}")).unwrap();
+
+    let found = json(&["clearance", &hall]);
+    assert_eq!(found["free"].as_bool(), Some(false));
+    let nearest = &found["pairs"][0];
+    assert!(number(&nearest["distance_m"]) < -0.1 && number(&nearest["margin_m"]) < 0.0, "{nearest}");
+    let warned = run(&["statics", &hall]);
+    for words in ["touch and overlap by", "\"rope\" have no diameter"] {
+        assert!(stderr(&warned).contains(words), "{}", stderr(&warned));
+    }
+    let (header, rows) = csv(&["map", &hall, "--grid", "x=1,-3", "--quantity", "clearance"]);
+    let status = header.iter().position(|column| column == "status").unwrap();
+    assert_eq!(rows[0][status], "interference");
+    let way = ["--pose", "1,0.5,3", "--move-to", "-3,0.5,3"];
+    assert_eq!(json(&[&["clearance", &hall], &way[..]].concat())["free"].as_bool(), Some(false));
 }

@@ -13,7 +13,7 @@ use funicular::robot::{
     Winch, WinchLimits,
 };
 use funicular::statics::{self, CableState, StaticModel};
-use funicular::warnings::plausibility;
+use funicular::warnings::{self, Warning, plausibility};
 use serde::Serialize;
 use std::f64::consts::TAU;
 
@@ -406,7 +406,7 @@ pub fn run(robot: Robot) -> Checked {
     };
 
     Checked {
-        warnings: warnings(&robot),
+        warnings: caveats(&robot),
         notes: plausibility::notes(&robot),
         robot: robot.name,
         source: robot.source,
@@ -510,8 +510,22 @@ fn state(robot: &Robot) -> (&'static str, Option<CheckedPose>) {
     }
 }
 
-fn warnings(robot: &Robot) -> Vec<String> {
+/// Warning about cables that cross in the state of the file: as they hang at rest, or straight where they do not rest.
+fn crossing(robot: &Robot) -> Option<Warning> {
+    let rest = || statics::solve(robot, StaticModel::Catenary, None).map(|found| found.equilibrium);
+    match &robot.state {
+        State::Unknown => None,
+        State::Pose(pose) => match rest() {
+            Ok(rest) => warnings::of_crossings(robot, &rest),
+            Err(_) => warnings::of_crossing_chords(robot, pose),
+        },
+        State::Lengths(_) => warnings::of_crossings(robot, &rest().ok()?),
+    }
+}
+
+fn caveats(robot: &Robot) -> Vec<String> {
     let mut warnings: Vec<String> = plausibility::of_robot(robot).iter().map(ToString::to_string).collect();
+    warnings.extend(crossing(robot).map(|warning| warning.to_string()));
 
     if robot.constraint().is_under() {
         let (cables, dof) = (robot.cables.len(), robot.platform.motion.count());

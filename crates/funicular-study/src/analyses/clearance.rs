@@ -8,9 +8,10 @@ pub use ways::WayAround;
 use super::fields::AXES;
 use super::found;
 use super::shared::PoseRow;
+use crate::Watch;
 use crate::at_rest::{self, AtRest};
 use crate::columns::{Columns, ResultTable, Tabled, column, parts};
-use crate::error::NoSolution;
+use crate::error::{Cancelled, NoSolution};
 use crate::request::{self, ClearanceRequest};
 use crate::table::Column;
 use crate::text::significant;
@@ -32,7 +33,7 @@ pub struct Clearances {
     /// End of the move; absent without one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub move_to: Option<PoseRow>,
-    /// True if every pair keeps its required distance.
+    /// True if no pair touches, and every one keeps its required distance.
     pub free: bool,
     /// Way to the end of the move on which every pair keeps its distance, if it was searched.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -52,13 +53,14 @@ pub struct ClearanceRow {
     pub first: String,
     /// Name of the other cable, body or obstacle.
     pub second: String,
-    /// Distance between the surfaces.
+    /// Distance between the surfaces, negative by the depth of an overlap.
     pub distance_m: f64,
     /// Required distance, vibration included.
     pub required_m: f64,
     /// Part of the required distance for the motions of both in gusts; absent without them.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub vibration_m: Option<f64>,
+    /// Distance beyond the required one; negative where the pair touches.
     pub margin_m: f64,
     /// Nearest points, on the centre lines of cables.
     pub points_m: [[f64; 3]; 2],
@@ -74,7 +76,7 @@ pub struct ClearanceRow {
 ///
 /// # Errors
 /// A robot without such an equilibrium, or a move on which the cables do not hold the platform everywhere.
-pub fn run(robot: Robot, request: &ClearanceRequest) -> Result<Clearances> {
+pub fn run(robot: Robot, request: &ClearanceRequest, watch: &mut dyn Watch) -> Result<Clearances> {
     if request.in_gusts && request.move_to.is_some() {
         bail!("⟪in_gusts⟫ belongs to a platform that stays at a pose: leave out ⟪move_to⟫, or ask for its end alone");
     }
@@ -87,12 +89,13 @@ pub fn run(robot: Robot, request: &ClearanceRequest) -> Result<Clearances> {
     }
     let mut pairs = match &end {
         None => around.clearances(rest, None).iter().map(|of| ClearanceRow::of(robot, &around, of)).collect(),
-        Some(end) => on_the_way(&at_rest, &around, end)?,
+        Some(end) => on_the_way(&at_rest, &around, end, watch)?,
     };
     if request.in_gusts {
         Excursions::of(&at_rest, &around)?.enlarge(&mut pairs);
     }
-    let way = end.as_ref().filter(|_| request.find_way).map(|end| WayAround::find(&at_rest, &around, end));
+    let way = end.as_ref().filter(|_| request.find_way).map(|end| WayAround::find(&at_rest, &around, end, &*watch));
+    let way = way.transpose()?;
     pairs.sort_by(|a, b| a.margin_m.total_cmp(&b.margin_m));
 
     Ok(Clearances {
@@ -100,7 +103,7 @@ pub fn run(robot: Robot, request: &ClearanceRequest) -> Result<Clearances> {
         static_model: rest.model.name(),
         pose: PoseRow::of(&rest.pose),
         move_to: end.as_ref().map(PoseRow::of),
-        free: pairs.iter().all(|pair| pair.margin_m >= 0.0),
+        free: pairs.iter().all(ClearanceRow::is_kept),
         way,
         pairs,
         warnings: at_rest.warnings(None),
@@ -124,12 +127,34 @@ fn rest_at(at_rest: &AtRest) -> impl FnMut(&Pose) -> Result<Equilibrium, Statics
     move |pose| Ok(statics::solve_at(robot, &State::Pose(*pose), equilibrium.model, &rule)?.equilibrium)
 }
 
+/// Number of parts of a way, for its progress.
+const PARTS: usize = 1000;
+
+/// Reason for which there is no equilibrium at a pose of a way.
+enum Unheld {
+    Statics(StaticsError),
+    /// The work shall stop.
+    Cancelled,
+}
+
 /// Pairs on the way from the pose of an equilibrium to another one.
-fn on_the_way(at_rest: &AtRest, around: &Surroundings, end: &Pose) -> Result<Vec<ClearanceRow>> {
+fn on_the_way(at_rest: &AtRest, around: &Surroundings, end: &Pose, watch: &mut dyn Watch) -> Result<Vec<ClearanceRow>> {
     let AtRest { robot, equilibrium: rest, .. } = at_rest;
     let straight = StraightMove::between(&rest.pose, end);
-    let found = around.on_the_way(&straight, rest_at(at_rest)).map_err(|(fraction, error)| {
-        NoSolution(format!("at {} % of the move: {error}", significant(100.0 * fraction, 4)))
+    let mut rest_at = rest_at(at_rest);
+    let watched = |pose: &Pose| {
+        // The way is searched from its start on.
+        let [way, whole] = [pose, end].map(|pose| (pose.position_w - rest.pose.position_w).norm());
+        let [turn, whole_turn] = [pose, end].map(|pose| pose.rot_wp.angle_to(&rest.pose.rot_wp));
+        let part = if whole > 0.0 { way / whole } else { turn / whole_turn.max(f64::MIN_POSITIVE) };
+        watch.progress((PARTS as f64 * part) as usize, PARTS, "parts of the way");
+        if watch.is_cancelled() { Err(Unheld::Cancelled) } else { rest_at(pose).map_err(Unheld::Statics) }
+    };
+    let found = around.on_the_way(&straight, watched).map_err(|(fraction, unheld)| match unheld {
+        Unheld::Cancelled => anyhow::Error::from(Cancelled),
+        Unheld::Statics(error) => {
+            NoSolution(format!("at {} % of the move: {error}", significant(100.0 * fraction, 4))).into()
+        }
     })?;
     let row = |of: &OnTheWay| ClearanceRow {
         fraction: Some(of.fraction),
@@ -171,6 +196,11 @@ impl ClearanceRow {
         }
     }
 
+    /// True if the pair does not touch and keeps its required distance.
+    pub fn is_kept(&self) -> bool {
+        self.margin_m >= 0.0
+    }
+
     /// Columns of the pairs; those of a move and of gusts are read if there are such.
     pub fn columns(moves: bool, sways: bool) -> Columns<Self> {
         Columns::new([
@@ -181,8 +211,10 @@ impl ClearanceRow {
             .plain("first"),
             column("second", "", "name of the other cable, body or obstacle", |row: &Self| row.second.clone())
                 .plain("second"),
-            column("distance_m", "m", "distance between the surfaces", |row: &Self| row.distance_m)
-                .decimals("distance", "m", 4),
+            column("distance_m", "m", "distance between the surfaces, negative in an overlap", |row: &Self| {
+                row.distance_m
+            })
+            .decimals("distance", "m", 4),
             column("fraction", "1", "fraction of the move where the margin is least", |row: &Self| row.fraction)
                 .decimals("at part of way", "", 4)
                 .read_if(moves),

@@ -5,6 +5,7 @@ use super::{Clearance, Surroundings};
 use crate::path::StraightMove;
 use crate::robot::Pose;
 use crate::statics::Equilibrium;
+use std::rc::Rc;
 
 /// Search for a way between two poses.
 #[derive(Debug, Clone, PartialEq)]
@@ -27,30 +28,38 @@ impl Surroundings<'_> {
         straight: &StraightMove,
         rest_at: &mut dyn FnMut(&Pose) -> Result<Equilibrium, E>,
     ) -> bool {
-        let mut station = |fraction: f64| {
+        let mut station = |fraction: f64, of: Option<&[usize]>| {
             let rest = rest_at(&straight.pose(fraction)).ok()?;
-            let station = self.station(fraction, &rest);
-            let is_free = station.clearances.iter().flatten().all(|of: &Clearance| of.margin() >= 0.0);
+            let all: Vec<usize>;
+            let of = match of {
+                Some(of) => of,
+                None => {
+                    all = (0..self.at(&rest).pairs().len()).collect();
+                    &all
+                }
+            };
+            let station = self.station(fraction, &rest, of);
+            let is_free = station.clearances.iter().flatten().all(Clearance::is_kept);
             is_free.then_some((station, rest))
         };
-        let Some((end, _)) = station(1.0) else { return false };
-        let Some((mut from, rest)) = station(0.0) else { return false };
+        let Some((end, _)) = station(1.0, None) else { return false };
+        let Some((start, rest)) = station(0.0, None) else { return false };
         let ways: Vec<f64> = self.at(&rest).pairs().iter().map(|pair| self.way_of(*pair, straight)).collect();
 
-        // The nearest end of the rest of the way comes last.
-        let mut ahead: Vec<Station> = vec![end];
-        while let Some(to) = ahead.last() {
-            if least_between(&from, to, &ways).all(|(_, least)| least >= 0.0) {
-                let Some(reached) = ahead.pop() else { break };
-                from = reached;
+        // Parts of the way, the nearest one last. Each is divided for those pairs alone that may be too near in it.
+        let mut ahead: Vec<[Rc<Station>; 2]> = vec![[Rc::new(start), Rc::new(end)]];
+        while let Some([from, to]) = ahead.pop() {
+            let open: Vec<usize> =
+                least_between(&from, &to, &ways).filter(|(_, least)| *least < 0.0).map(|(k, _)| k).collect();
+            if open.is_empty() {
                 continue;
             }
-            let middle = 0.5 * (from.fraction + to.fraction);
             if to.fraction - from.fraction <= MIN_STEP {
                 return false;
             }
-            let Some((middle, _)) = station(middle) else { return false };
-            ahead.push(middle);
+            let Some((middle, _)) = station(0.5 * (from.fraction + to.fraction), Some(&open)) else { return false };
+            let middle = Rc::new(middle);
+            ahead.extend([[middle.clone(), to], [from, middle]]);
         }
         true
     }

@@ -5,6 +5,7 @@ use crate::math::Vec3;
 use crate::path::StraightMove;
 use crate::robot::{Body, Pose, Robot};
 use crate::statics::Equilibrium;
+use std::rc::Rc;
 
 /// Bound of the least distance on the way [m]: nowhere on the way a pair is nearer by more than this, for straight cables
 /// surely, and with sag as far as it changes evenly between two stations.
@@ -189,7 +190,7 @@ fn bisected([mut low, mut high]: [f64; 2], first: f64, mut value: impl FnMut(f64
 /// Distances of all pairs at one place of a move.
 pub(super) struct Station {
     pub(super) fraction: f64,
-    /// Distances of the pairs, in their order; `None` without one.
+    /// Distances of the pairs, in their order; `None` without one, and for a pair that is not compared there.
     pub(super) clearances: Vec<Option<Clearance>>,
     /// Signs of the pairs of cables: the side on which the first passes the second.
     sides: Vec<f64>,
@@ -214,59 +215,62 @@ impl Surroundings<'_> {
         let mut rest = |fraction: f64| rest_at(&straight.pose(fraction)).map_err(|error| (fraction, error));
         let start = rest(0.0)?;
         let pairs = self.at(&start).pairs();
-        let mut stations = vec![self.station(0.0, &start), self.station(1.0, &rest(1.0)?)];
+        let all: Vec<usize> = (0..pairs.len()).collect();
+        let ends = [self.station(0.0, &start, &all), self.station(1.0, &rest(1.0)?, &all)];
         let ways: Vec<f64> = pairs.iter().map(|pair| self.way_of(*pair, straight)).collect();
 
-        // Stations between those where some pair may be nearer than known so far.
-        let mut found: Vec<Option<OnTheWay>> = vec![None; stations[0].clearances.len()];
-        for station in &stations {
-            keep_least(&mut found, station);
-        }
-        let mut at = 0;
-        while at + 1 < stations.len() {
-            let [one, other] = [&stations[at], &stations[at + 1]];
-            if other.fraction - one.fraction > MIN_STEP && may_be_nearer(&found, one, other, &ways) {
-                let fraction = 0.5 * (one.fraction + other.fraction);
-                let middle = self.station(fraction, &rest(fraction)?);
-                keep_least(&mut found, &middle);
-                stations.insert(at + 1, middle);
-            } else {
-                at += 1;
+        let mut found: Vec<Option<OnTheWay>> = vec![None; pairs.len()];
+        ends.iter().for_each(|station| keep_least(&mut found, station));
+        let mut sided: Vec<(usize, [Rc<Station>; 2])> = Vec::new();
+
+        // Parts of the way, the nearest one last. Each is divided for those pairs alone that may be nearer in it than
+        // known.
+        let mut ahead = vec![(ends.map(Rc::new), all)];
+        while let Some(([one, other], open)) = ahead.pop() {
+            let is_long = other.fraction - one.fraction > MIN_STEP;
+            let nearer = if is_long { may_be_nearer(&found, [&one, &other], &ways, &open) } else { Vec::new() };
+            let settled = open.into_iter().filter(|k| nearer.binary_search(k).is_err());
+            sided.extend(
+                settled.filter(|k| one.sides[*k] * other.sides[*k] < 0.0).map(|k| (k, [one.clone(), other.clone()])),
+            );
+            if nearer.is_empty() {
+                continue;
             }
+            let fraction = 0.5 * (one.fraction + other.fraction);
+            let middle = Rc::new(self.station(fraction, &rest(fraction)?, &nearer));
+            keep_least(&mut found, &middle);
+            ahead.push(([middle.clone(), other], nearer.clone()));
+            ahead.push(([one, middle], nearer));
         }
 
         // Cables that change sides between two stations cross, unless one passes an end of the other.
-        for neighbours in stations.windows(2) {
-            for (k, found) in found.iter_mut().enumerate().filter_map(|(k, found)| Some((k, found.as_mut()?))) {
-                let ends = [neighbours[0].sides[k], neighbours[1].sides[k]];
-                if ends[0] * ends[1] >= 0.0 {
-                    continue;
-                }
-                let between = [neighbours[0].fraction, neighbours[1].fraction];
-                let mut pair_at = |fraction: f64| {
-                    let rest = rest(fraction)?;
-                    let at = self.at(&rest);
-                    Ok(at.clearance(pairs[k], f64::INFINITY).map(|found| (at.side(&found), found)))
-                };
-                let side = |fraction: f64| Some(pair_at(fraction).ok()??.0);
-                let crossing = bisected(between, ends[0], side);
-                let Some((_, clearance)) = pair_at(crossing)? else { continue };
-                if clearance.points_w[0].metric_distance(&clearance.points_w[1]) < CROSSED {
-                    found.crossings.push(crossing);
-                    if clearance.margin() < found.least.margin() {
-                        (found.least, found.fraction) = (clearance, crossing);
-                    }
+        for (k, neighbours) in sided {
+            let Some(found) = &mut found[k] else { continue };
+            let between = [neighbours[0].fraction, neighbours[1].fraction];
+            let mut pair_at = |fraction: f64| {
+                let rest = rest(fraction)?;
+                let at = self.at(&rest);
+                Ok(at.clearance(pairs[k], f64::INFINITY).map(|found| (at.side(&found), found)))
+            };
+            let side = |fraction: f64| Some(pair_at(fraction).ok()??.0);
+            let crossing = bisected(between, neighbours[0].sides[k], side);
+            let Some((_, clearance)) = pair_at(crossing)? else { continue };
+            if clearance.points_w[0].metric_distance(&clearance.points_w[1]) < CROSSED {
+                found.crossings.push(crossing);
+                if clearance.margin() < found.least.margin() {
+                    (found.least, found.fraction) = (clearance, crossing);
                 }
             }
         }
         Ok(found.into_iter().flatten().collect())
     }
 
-    /// Distances at a place of a move.
-    pub(super) fn station(&self, fraction: f64, rest: &Equilibrium) -> Station {
+    /// Distances of some pairs, by their numbers, at a place of a move.
+    pub(super) fn station(&self, fraction: f64, rest: &Equilibrium, of: &[usize]) -> Station {
         let at = self.at(rest);
         let pairs = at.pairs();
-        let clearances: Vec<Option<Clearance>> = pairs.iter().map(|pair| at.clearance(*pair, f64::INFINITY)).collect();
+        let mut clearances: Vec<Option<Clearance>> = vec![None; pairs.len()];
+        of.iter().for_each(|k| clearances[*k] = at.clearance(pairs[*k], f64::INFINITY));
         let sides = clearances.iter().map(|found| found.map_or(0.0, |found| at.side(&found))).collect();
         let sagittas = at.spans.iter().map(|span| span.arc([0.0, span.length]).sagitta).collect();
         Station { fraction, clearances, sides, sagittas }
@@ -304,13 +308,16 @@ fn keep_least(found: &mut [Option<OnTheWay>], station: &Station) {
     }
 }
 
-/// True if some pair may be nearer between two stations than known so far, by more than the tolerance.
-fn may_be_nearer(found: &[Option<OnTheWay>], one: &Station, other: &Station, ways: &[f64]) -> bool {
+/// Pairs among some, by their ascending numbers, that may be nearer between two stations than known so far, by more
+/// than the tolerance.
+fn may_be_nearer(found: &[Option<OnTheWay>], [one, other]: [&Station; 2], ways: &[f64], among: &[usize]) -> Vec<usize> {
     let known = |k: usize| found[k].as_ref().map(|known| known.least.margin());
-    least_between(one, other, ways).any(|(k, least)| known(k).is_some_and(|known| least < known - WAY_TOLERANCE))
+    let bounds = least_between(one, other, ways).filter(|(k, _)| among.binary_search(k).is_ok());
+    let nearer = bounds.filter(|(k, least)| known(*k).is_some_and(|known| *least < known - WAY_TOLERANCE));
+    nearer.map(|(k, _)| k).collect()
 }
 
-/// Lower bounds of the margins of all pairs between two stations, with the numbers of the pairs, (40u).
+/// Lower bounds of the margins of the pairs that are compared at two stations, with the numbers of the pairs, (40u).
 pub(super) fn least_between(one: &Station, other: &Station, ways: &[f64]) -> impl Iterator<Item = (usize, f64)> {
     let step = other.fraction - one.fraction;
     let sag = |i: usize| (one.sagittas[i] - other.sagittas[i]).abs();

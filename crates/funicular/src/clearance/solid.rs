@@ -1,15 +1,18 @@
 //! Bodies at their places: distances from segments, points and each other.
 
+use super::depth;
 use crate::math::Vec3;
 use crate::robot::{Body, Pose, Solid, from_vector, vector};
+use parry3d_f64::bounding_volume::BoundingVolume;
 use parry3d_f64::math::{Pose as Placement, Rot3, Vector};
 use parry3d_f64::query::{self, ClosestPoints};
 use parry3d_f64::shape::{Segment, SharedShape};
 
 /// Body at a place in the world.
 pub(super) struct PlacedBody {
-    shape: SharedShape,
-    /// Frame of the shape in the world.
+    /// Parts of the body: a mesh may have several, any other body has one.
+    shapes: Vec<SharedShape>,
+    /// Frame of the shapes in the world.
     frame: Pose,
     method: Method,
 }
@@ -26,11 +29,11 @@ enum Method {
 
 /// Nearest points of a body and a segment.
 pub(super) struct NearSegment {
-    /// Distance [m]; zero inside, but negative in a half space.
+    /// Distance [m]; inside, the depth of the deepest point with a negative sign.
     pub(super) distance: f64,
-    /// Place of the nearest point on the segment, from 0 to 1.
+    /// Place of the nearest or deepest point on the segment, from 0 to 1.
     pub(super) fraction: f64,
-    /// Nearest point of the body, world axes [m]; inside, the point of the segment.
+    /// Nearest point of the surface of the body, world axes [m].
     pub(super) point_w: Vec3,
 }
 
@@ -48,7 +51,7 @@ impl PlacedBody {
 
     /// Shape in a frame.
     pub(super) fn of_shape(shape: SharedShape, frame: &Pose) -> Self {
-        Self { shape, frame: *frame, method: Method::Library }
+        Self { shapes: vec![shape], frame: *frame, method: Method::Library }
     }
 
     fn of_body(body: &Body, frame: Pose) -> Self {
@@ -57,8 +60,8 @@ impl PlacedBody {
             Solid::HalfSpace => Method::HalfSpace,
             Solid::Box { .. } | Solid::Mesh(_) => Method::Library,
         };
-        let (shape, turn) = body.solid.shape();
-        Self { shape, frame: Pose { rot_wp: frame.rot_wp * turn, ..frame }, method }
+        let (shapes, turn) = body.solid.shapes();
+        Self { shapes, frame: Pose { rot_wp: frame.rot_wp * turn, ..frame }, method }
     }
 
     fn local(&self, point_w: &Vec3) -> Vec3 {
@@ -83,111 +86,138 @@ impl PlacedBody {
             Method::Cylinder { radius, half_length } => {
                 let fraction = nearest_to_cylinder(&from, &to, *radius, *half_length);
                 let offset = from_cylinder(&at(fraction), *radius, *half_length);
-                (offset.norm(), fraction, at(fraction) - offset)
+                if offset == Vec3::zeros() {
+                    depth::in_cylinder(&from, &to, *radius, *half_length)
+                } else {
+                    (offset.norm(), fraction, at(fraction) - offset)
+                }
             }
-            Method::Library => self.by_library(&from, &to),
+            Method::Library => {
+                let of_parts = self.shapes.iter().map(|shape| by_library(shape, &from, &to));
+                let nearest = of_parts.min_by(|a, b| a.0.total_cmp(&b.0));
+                nearest.unwrap_or((f64::INFINITY, 0.0, from))
+            }
         };
         NearSegment { distance, fraction, point_w: self.frame.point_w(&point) }
     }
 
-    /// Distance, fraction and nearest point of a segment in the frame of the shape.
-    fn by_library(&self, from: &Vec3, to: &Vec3) -> (f64, f64, Vec3) {
-        let along = to - from;
-        let length = along.norm();
-        if length <= f64::EPSILON * from.norm() {
-            let point = vector(from);
-            let projected = self.shape.project_local_point(point, true);
-            let distance = if projected.is_inside { 0.0 } else { (projected.point - point).length() };
-            return (distance, 0.0, from_vector(projected.point));
-        }
-
-        // A segment inside of a closed surface touches nothing of it.
-        if self.shape.as_trimesh().is_some() && self.shape.contains_local_point(vector(from)) {
-            return (0.0, 0.0, *from);
-        }
-        let segment = Segment::new(vector(from), vector(to));
-        let identity = Placement::IDENTITY;
-        match query::closest_points(&identity, &segment, &identity, &*self.shape.0, f64::INFINITY) {
-            Ok(ClosestPoints::WithinMargin(on_segment, on_shape)) => {
-                let fraction = (from_vector(on_segment) - from).dot(&along) / (length * length);
-                ((on_segment - on_shape).length(), fraction.clamp(0.0, 1.0), from_vector(on_shape))
-            }
-            // It touches: the nearest points are not known, and any division of the arc finds them.
-            _ => (0.0, 0.5, from + along * 0.5),
-        }
-    }
-
-    /// Distance of this body of the platform from an obstacle, and the nearest points [m]. Between cylinders and other
-    /// bodies it is exact to 1e-5 m.
+    /// Distance of this body of the platform from an obstacle, negative by the depth where they overlap, and the
+    /// nearest points [m]. Between cylinders and other bodies it is exact to 1e-5 m.
     pub(super) fn nearest_to(&self, obstacle: &Self) -> (f64, [Vec3; 2]) {
         if matches!(obstacle.method, Method::HalfSpace) {
             let (point_w, height) = self.lowest(obstacle);
             return (height, [point_w, point_w - obstacle.frame.rot_wp * Vec3::z() * height]);
         }
         let (own, other) = (self.placement(), obstacle.placement());
-        let inside = |outer: &Self, inner: &Self| {
-            // One of two bodies may be inside the other without touching its surface.
-            let point = outer.local(&inner.any_point_w());
-            outer.shape.contains_local_point(vector(&point))
-        };
-        if inside(obstacle, self) || inside(self, obstacle) {
-            let point_w = self.any_point_w();
-            return (0.0, [point_w, point_w]);
+        let each = self.shapes.iter().flat_map(|one| obstacle.shapes.iter().map(move |two| [one, two]));
+        let pairs = each.map(|[one, two]| {
+            let inside = |outer: &SharedShape, at: &Self, inner_w: Vec3| {
+                // One of two bodies may be inside the other without touching its surface.
+                outer.contains_local_point(vector(&at.local(&inner_w)))
+            };
+            let touch = inside(two, obstacle, self.any_point_w(one)) || inside(one, self, obstacle.any_point_w(two));
+            if touch {
+                return self.overlap(obstacle, [one, two]);
+            }
+            match query::closest_points(&own, &*one.0, &other, &*two.0, f64::INFINITY) {
+                Ok(ClosestPoints::WithinMargin(a, b)) => ((a - b).length(), [from_vector(a), from_vector(b)]),
+                _ => self.overlap(obstacle, [one, two]),
+            }
+        });
+        let nearest = pairs.min_by(|a, b| a.0.total_cmp(&b.0));
+        nearest.unwrap_or((f64::INFINITY, [self.frame.position_w, obstacle.frame.position_w]))
+    }
+
+    /// Depth of the overlap of two parts that touch, with a negative sign, and the points between which it is measured
+    /// [m]: for convex bodies the shortest way that separates them, otherwise the greatest depth of an edge of one in
+    /// the other.
+    fn overlap(&self, obstacle: &Self, [one, two]: [&SharedShape; 2]) -> (f64, [Vec3; 2]) {
+        let (own, other) = (self.placement(), obstacle.placement());
+        if one.as_trimesh().is_none()
+            && two.as_trimesh().is_none()
+            && let Ok(Some(contact)) = query::contact(&own, &*one.0, &other, &*two.0, 0.0)
+            && contact.dist < 0.0
+        {
+            return (contact.dist, [from_vector(contact.point1), from_vector(contact.point2)]);
         }
-        match query::closest_points(&own, &*self.shape.0, &other, &*obstacle.shape.0, f64::INFINITY) {
-            Ok(ClosestPoints::WithinMargin(one, two)) => ((one - two).length(), [from_vector(one), from_vector(two)]),
-            _ => (0.0, [self.any_point_w(); 2]),
+
+        let [own_box, other_box] = [one.compute_aabb(&own), two.compute_aabb(&other)];
+        let mut deepest = (0.0, [self.any_point_w(one); 2]);
+        for (edges_of, edges, within, reach) in [(self, one, obstacle, other_box), (obstacle, two, self, own_box)] {
+            for edge in depth::edges(edges) {
+                let [from_w, to_w] = edge.map(|end| edges_of.frame.point_w(&end));
+                if !Segment::new(vector(&from_w), vector(&to_w)).local_aabb().intersects(&reach) {
+                    continue;
+                }
+                let near = within.nearest_to_segment(&from_w, &to_w);
+                if near.distance < deepest.0 {
+                    let points_w = [from_w + (to_w - from_w) * near.fraction, near.point_w];
+                    let is_own = std::ptr::eq(edges_of, self);
+                    deepest = (near.distance, if is_own { points_w } else { [points_w[1], points_w[0]] });
+                }
+            }
         }
+        deepest
     }
 
     /// Point of the body that is lowest over a half space, and its height [m].
     fn lowest(&self, half_space: &Self) -> (Vec3, f64) {
         let down = self.frame.rot_wp.inverse() * (half_space.frame.rot_wp * -Vec3::z());
-        let point = match (self.shape.as_support_map(), self.shape.as_trimesh()) {
-            (Some(convex), _) => convex.local_support_point(vector(&down)),
+        let down = vector(&down);
+        let lowest_of = |shape: &SharedShape| match (shape.as_support_map(), shape.as_trimesh()) {
+            (Some(convex), _) => convex.local_support_point(down),
             (None, Some(mesh)) => {
-                let down = vector(&down);
                 let lowest = mesh.vertices().iter().max_by(|a, b| a.dot(down).total_cmp(&b.dot(down)));
                 lowest.copied().unwrap_or(Vector::ZERO)
             }
             (None, None) => Vector::ZERO,
         };
-        let point_w = self.frame.point_w(&from_vector(point));
+        let point = self.shapes.iter().map(lowest_of).max_by(|a, b| a.dot(down).total_cmp(&b.dot(down)));
+        let point_w = self.frame.point_w(&point.map_or_else(Vec3::zeros, from_vector));
         (point_w, half_space.local(&point_w).z)
     }
 
-    /// Some point of the body, world axes [m].
-    fn any_point_w(&self) -> Vec3 {
-        let corner = self.shape.as_trimesh().and_then(|mesh| mesh.vertices().first());
-        let point = corner.copied().or_else(|| Some(self.shape.as_support_map()?.local_support_point(Vector::X)));
+    /// Some point of a part of the body, world axes [m].
+    fn any_point_w(&self, shape: &SharedShape) -> Vec3 {
+        let corner = shape.as_trimesh().and_then(|mesh| mesh.vertices().first());
+        let point = corner.copied().or_else(|| Some(shape.as_support_map()?.local_support_point(Vector::X)));
         self.frame.point_w(&point.map_or_else(Vec3::zeros, from_vector))
     }
 }
 
-/// Number of halvings that find the nearest point of a segment to a cylinder: 1e-16 of its length.
-const HALVINGS: usize = 53;
+/// Distance, fraction and nearest point of a segment in the frame of a shape; inside, those of the deepest point.
+fn by_library(shape: &SharedShape, from: &Vec3, to: &Vec3) -> (f64, f64, Vec3) {
+    let along = to - from;
+    let length = along.norm();
+    if length <= f64::EPSILON * from.norm() {
+        let point = vector(from);
+        let projected = shape.project_local_point(point, true);
+        if projected.is_inside {
+            return depth::in_shape(shape, from, from);
+        }
+        return ((projected.point - point).length(), 0.0, from_vector(projected.point));
+    }
+
+    // A segment inside of a closed surface touches nothing of it.
+    if shape.as_trimesh().is_some() && shape.contains_local_point(vector(from)) {
+        return depth::in_shape(shape, from, to);
+    }
+    let segment = Segment::new(vector(from), vector(to));
+    let identity = Placement::IDENTITY;
+    match query::closest_points(&identity, &segment, &identity, &*shape.0, f64::INFINITY) {
+        Ok(ClosestPoints::WithinMargin(on_segment, on_shape)) => {
+            let fraction = (from_vector(on_segment) - from).dot(&along) / (length * length);
+            ((on_segment - on_shape).length(), fraction.clamp(0.0, 1.0), from_vector(on_shape))
+        }
+        _ => depth::in_shape(shape, from, to),
+    }
+}
 
 /// Place of the nearest point of a segment to a cylinder along y. The distance is convex along the segment, so its slope
 /// changes its sign once.
 fn nearest_to_cylinder(from: &Vec3, to: &Vec3, radius: f64, half_length: f64) -> f64 {
     let along = to - from;
-    let slope = |fraction: f64| from_cylinder(&(from + along * fraction), radius, half_length).dot(&along);
-    if slope(0.0) >= 0.0 {
-        return 0.0;
-    }
-    if slope(1.0) <= 0.0 {
-        return 1.0;
-    }
-    let (mut low, mut high) = (0.0, 1.0);
-    for _ in 0..HALVINGS {
-        let middle = 0.5 * (low + high);
-        match slope(middle) {
-            0.0 => return middle,
-            below if below < 0.0 => low = middle,
-            _ => high = middle,
-        }
-    }
-    0.5 * (low + high)
+    depth::lowest_place(|fraction| from_cylinder(&(from + along * fraction), radius, half_length).dot(&along))
 }
 
 /// Vector from the nearest point of a cylinder along y to a point; zero inside.

@@ -20,6 +20,7 @@ mod platform;
 pub(super) mod range;
 mod read;
 mod required;
+mod stl;
 mod supports;
 mod tensor;
 mod winch_limits;

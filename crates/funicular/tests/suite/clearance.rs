@@ -312,6 +312,97 @@ fn a_cable_through_a_closed_mesh_and_one_inside_it_touch_it() {
     assert!(of_pair(&found, ClearancePair::PlatformAndObstacle { body: 0, obstacle: 0 }).distance <= 0.0);
 }
 
+/// Height of a point over the surface of a box with edges of 2 cm, as a mesh or not, or of a cylinder, negative inside.
+fn height(body: &Body, point_w: &Vec3) -> f64 {
+    let local = body.pose.rot_wp.inverse() * (point_w - body.pose.position_w);
+    let over = match &body.solid {
+        Solid::Cylinder { radius, half_length } => vec![local.x.hypot(local.y) - radius, local.z.abs() - half_length],
+        _ => local.iter().map(|x| x.abs() - 0.01).collect(),
+    };
+    let outside = over.iter().map(|over| over.max(0.0).powi(2)).sum::<f64>().sqrt();
+    outside + over.into_iter().fold(f64::NEG_INFINITY, f64::max).min(0.0)
+}
+
+/// Robot whose ropes have no diameter and whose file requires no distances.
+fn without_diameter() -> Robot {
+    let mut robot = cogiro();
+    for cable in &mut robot.cables {
+        cable.material.dimensions = funicular::robot::RopeDimensions::default();
+    }
+    robot
+}
+
+#[test]
+fn a_rope_without_diameter_in_a_solid_is_never_free_whatever_is_required() {
+    let robot = without_diameter();
+    let (mut robot, rest) = at_rest(&robot, Pose::new([1.0, 0.5, 1.5], [0.0; 3]), 100.0);
+    let cable = &rest.cables[2];
+    let middle = cable.hanging.as_ref().unwrap().point_w(0.5 * cable.unstrained_length);
+    let place = Pose::new(middle.into(), [10.0, 20.0, 30.0]);
+    let solids = [
+        Solid::Box { half: Vec3::new(0.2, 0.3, 0.1) },
+        Solid::Cylinder { radius: 0.1, half_length: 0.3 },
+        Solid::HalfSpace,
+        mesh_of_box([0.2, 0.3, 0.1]),
+    ];
+    for solid in solids {
+        robot.obstacles = vec![column("post", place, solid.clone())];
+        for distance in [0.0, 0.05] {
+            robot.clearance = Some(RequiredClearance { obstacles: distance, ..RequiredClearance::default() });
+            let around = Surroundings::of(&robot);
+            let pair = ClearancePair::CableAndObstacle { cable: 2, obstacle: 0 };
+            let found = of_pair(&around.clearances(&rest, None), pair);
+            assert!(found.touches() && !found.is_kept() && found.margin() < -0.03 - distance, "{solid:?} {found:?}");
+        }
+
+        // A file that says nothing about distances is judged by its obstacle all the same.
+        robot.clearance = None;
+        let around = Surroundings::of(&robot);
+        assert!(!around.least(&rest, None).unwrap().is_kept(), "{solid:?}");
+        let warned = funicular::warnings::of_statics(&robot, &rest);
+        assert!(warned.iter().any(|of| of.to_string().contains("touch and overlap by")), "{solid:?} {warned:?}");
+        assert!(warned.iter().any(|of| of.to_string().contains("have no diameter")), "{warned:?}");
+    }
+}
+
+/// Two boxes along the axes overlap by the least overlap along an axis, and a body in another one is deeper than that.
+#[test]
+fn bodies_in_obstacles_have_the_depth_of_the_way_out() {
+    let mut robot = without_diameter();
+    let pose = Pose::new([0.5, -0.3, 1.5], [0.0; 3]);
+    let half = [0.2, 0.15, 0.1];
+    robot.platform.bodies = vec![column("case", Pose::new([0.0; 3], [0.0; 3]), Solid::Box { half: half.into() })];
+    let others = [0.4, 0.5, 0.3];
+    for shift in [[0.55, 0.0, 0.0], [0.0, -0.6, 0.1], [0.1, 0.1, 0.35], [0.0, 0.0, 0.0], [0.02, 0.0, 0.05]] {
+        let place = Pose::new([0.5 + shift[0], -0.3 + shift[1], 1.5 + shift[2]], [0.0; 3]);
+        let overlap = |k: usize| half[k] + others[k] - f64::abs(shift[k]);
+        let expected = (0..3).map(overlap).fold(f64::INFINITY, f64::min);
+        for (solid, is_exact) in [(Solid::Box { half: others.into() }, true), (mesh_of_box(others), false)] {
+            robot.obstacles = vec![column("table", place, solid)];
+            let (robot, rest) = at_rest(&robot, pose, 100.0);
+            let pair = ClearancePair::PlatformAndObstacle { body: 0, obstacle: 0 };
+            let found = of_pair(&Surroundings::of(&robot).clearances(&rest, None), pair);
+            assert!(!found.is_kept(), "{shift:?} {found:?}");
+            if is_exact {
+                assert!((found.distance + expected).abs() < 1e-6, "{shift:?} {found:?} {expected}");
+            } else {
+                // The deepest point of the case is no deeper than the way out.
+                assert!(found.distance < -0.04 && found.distance >= -expected - 1e-9, "{shift:?} {found:?} {expected}");
+            }
+        }
+    }
+
+    // Faces that touch, and a gap.
+    for (gap, kept) in [(0.0, false), (1e-6, true)] {
+        let place = Pose::new([0.5 + half[0] + others[0] + gap, -0.3, 1.5], [0.0; 3]);
+        robot.obstacles = vec![column("table", place, Solid::Box { half: others.into() })];
+        let (robot, rest) = at_rest(&robot, pose, 100.0);
+        let pair = ClearancePair::PlatformAndObstacle { body: 0, obstacle: 0 };
+        let found = of_pair(&Surroundings::of(&robot).clearances(&rest, None), pair);
+        assert_eq!(found.is_kept(), kept, "{found:?}");
+    }
+}
+
 #[test]
 fn a_cable_that_pierces_a_small_body_touches_it_straight_or_sagging() {
     let pose = Pose::new([1.0, 0.5, 1.5], [0.0; 3]);
@@ -337,12 +428,27 @@ fn a_cable_that_pierces_a_small_body_touches_it_straight_or_sagging() {
             }
             let around = Surroundings::of(&robot);
             let found = around.clearances(&rest, None);
-            for obstacle in 0..3 {
+            let points = match model {
+                StaticModel::Ideal => {
+                    let cable = &rest.cables[2];
+                    let at = |k: usize| cable.attachment_w + cable.chord_w() * (k as f64 / 200_000.0);
+                    (0..=200_000).map(at).collect()
+                }
+                _ => sampled(&rest.cables[2], 200_000),
+            };
+            for (obstacle, body) in robot.obstacles.iter().enumerate() {
                 let pierced = of_pair(&found, ClearancePair::CableAndObstacle { cable: 2, obstacle });
-                let inside = pierced.distance + robot.cables[2].radius();
-                assert!((0.0..=BODY_TOLERANCE).contains(&inside), "{model:?} {along} {obstacle}: {inside}");
+                let depth = pierced.distance + robot.cables[2].radius();
+                let sampled = points.iter().map(|point_w| height(body, point_w)).fold(f64::INFINITY, f64::min);
+                assert!(
+                    depth <= sampled + BODY_TOLERANCE && depth > sampled - 2e-4,
+                    "{model:?} {along} {depth} {sampled}"
+                );
+                assert!(depth < -4e-3 && !pierced.is_kept());
+                let apart = (pierced.points_w[0] - pierced.points_w[1]).norm();
+                assert!((apart + depth).abs() < 2.0 * BODY_TOLERANCE, "{pierced:?}");
             }
-            assert!(around.least(&rest, Some(ClearanceKind::Obstacles)).unwrap().margin() <= BODY_TOLERANCE);
+            assert!(around.least(&rest, Some(ClearanceKind::Obstacles)).unwrap().margin() < -4e-3);
         }
     }
 }

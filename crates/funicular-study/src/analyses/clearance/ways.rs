@@ -1,8 +1,9 @@
 //! Ways around: from pose to pose through others where the straight move touches.
 
 use super::{PoseRow, rest_at};
+use crate::Watch;
 use crate::at_rest::AtRest;
-use crate::error::NoSolution;
+use crate::error::{Cancelled, NoSolution};
 use crate::text::decimals;
 use anyhow::Result;
 use funicular::clearance::Surroundings;
@@ -53,14 +54,25 @@ pub(super) fn refuse_blocked(at_rest: &AtRest, around: &Surroundings, end: &Pose
 
 impl WayAround {
     /// Searches a way through a lattice of positions between the anchors, with the orientations of both ends.
-    pub(super) fn find(at_rest: &AtRest, around: &Surroundings, end: &Pose) -> Self {
+    ///
+    /// # Errors
+    /// Work that was stopped.
+    pub(super) fn find(at_rest: &AtRest, around: &Surroundings, end: &Pose, watch: &dyn Watch) -> anyhow::Result<Self> {
         let start = at_rest.equilibrium.pose;
         let candidates = candidates(&at_rest.robot, [&start, end]);
-        let found = around.free_way([&start, end], &candidates, MOST_MOVES, &mut rest_at(at_rest));
-        Self {
+        let mut rest_at = rest_at(at_rest);
+        // A move through poses without an equilibrium is none, so that a stopped search ends soon.
+        let mut watched = |pose: &Pose| {
+            if watch.is_cancelled() { Err(()) } else { rest_at(pose).map_err(|_| ()) }
+        };
+        let found = around.free_way([&start, end], &candidates, MOST_MOVES, &mut watched);
+        if watch.is_cancelled() {
+            return Err(Cancelled.into());
+        }
+        Ok(Self {
             through: found.through.map(|poses| poses.iter().map(PoseRow::of).collect()),
             moves_examined: found.moves,
-        }
+        })
     }
 }
 

@@ -106,9 +106,9 @@ pub(super) fn part_of_inertia<'a>(planned: &Planned, motions: impl Iterator<Item
     motions.filter_map(part).reduce(f64::max)
 }
 
-/// Required distance over the distance of a pair.
+/// Required distance over the distance of a pair; infinite where it touches.
 fn part_of_clearance(pair: &Clearance) -> f64 {
-    if pair.distance > 0.0 { pair.required / pair.distance } else { f64::INFINITY }
+    if pair.touches() { f64::INFINITY } else { pair.required / pair.distance }
 }
 
 /// Limits of the winch of a cable.

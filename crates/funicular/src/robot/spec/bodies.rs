@@ -3,11 +3,11 @@
 use super::key::{Absent, Key, KeyValue, Shape};
 use super::range::Range;
 use super::read::{Named, Reader, Section, shortened};
+use super::stl;
 use crate::math::Vec3;
 use crate::robot::{Body, Cable, ClosedMesh, PlatformMotion, Pose, RequiredClearance, Robot, Solid, State};
 use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
-use std::io::Cursor;
 
 /// Largest size of a mesh over the size of its robot: a hall has up to ten, and millimetres read as metres make even a
 /// part of a fiftieth of the robot larger.
@@ -212,17 +212,19 @@ fn mesh(reader: &mut Reader, section: &Section) -> Option<ClosedMesh> {
         reader.issue(section.span.clone(), message).help(help);
     };
 
-    let bytes = BASE64_STANDARD.decode(encoded).ok();
-    let Some(Ok(stl)) = bytes.map(|bytes| stl_io::read_stl(&mut Cursor::new(bytes))) else {
-        refuse("is no STL file", "export it as STL, binary or text");
+    let Ok(bytes) = BASE64_STANDARD.decode(encoded) else {
+        refuse("is no STL file: the text in the robot file is not base64", "write it as \"data:model/stl;base64,…\"");
         return None;
     };
-    if stl.vertices.iter().any(|vertex| vertex.0.iter().any(|number| !number.is_finite())) {
-        refuse("has corners that are no numbers", "export it again");
-        return None;
-    }
-    let corner = |i: usize| Vec3::from(stl.vertices[i].0.map(|number| f64::from(number) * scale));
-    let triangles: Vec<[Vec3; 3]> = stl.faces.iter().map(|face| face.vertices.map(corner)).collect();
+    let corners = match stl::read(&bytes) {
+        Ok(corners) => corners,
+        Err(error) => {
+            refuse(&format!("is no STL file: {error}"), "export it again as STL, binary or text");
+            return None;
+        }
+    };
+    let corner = |of: &[f32; 3]| Vec3::from(of.map(|number| f64::from(number) * scale));
+    let triangles: Vec<[Vec3; 3]> = corners.iter().map(|triangle| [0, 1, 2].map(|k| corner(&triangle[k]))).collect();
     match ClosedMesh::of_triangles(&triangles) {
         Ok(mesh) => Some(mesh),
         Err(error) => {
