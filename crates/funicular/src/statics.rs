@@ -58,7 +58,9 @@ mod friction; // interval in which friction of pulleys leaves the equilibrium
 mod stiffness; // tangent stiffness and stability
 mod tension_gain; // nearness to a singular pose
 
-pub use capacity::{LoadCapacity, LoadFactor, WrenchClosure, load_factor_bounds, wrench_closure};
+pub use capacity::{
+    LoadCapacity, LoadFactor, WrenchClosure, load_factor_bounds, load_factor_bounds_in_wind, wrench_closure,
+};
 pub(crate) use capacity::{LoadCoefficients, required_wrench};
 pub use closed_form::closed_form_margin;
 pub use drag::{antisymmetric_fraction, drag_effect, drag_stiffness, stiffness_along_coordinates, tangent_with_drag};

@@ -51,7 +51,8 @@ pub(super) fn nearest(one: &FreeSpan, other: &FreeSpan, enough: f64) -> Option<N
     let mut best = minimum_in(one, other, &first.of);
     let (mut next, mut queue) = (Some(first), BinaryHeap::new());
     while let Some(Bounded { lower, of: pair }) = next.take().or_else(|| queue.pop()) {
-        if lower >= best.distance - TOLERANCE {
+        // No points are nearer than those that touch: two cables on one line touch everywhere.
+        if lower.max(0.0) >= best.distance - TOLERANCE {
             break;
         }
         let [own, others] = &pair.arcs;

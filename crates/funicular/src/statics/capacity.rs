@@ -7,6 +7,7 @@ mod wind;
 
 pub use closure::{WrenchClosure, wrench_closure};
 pub use load_factor::{LoadFactor, load_factor_bounds};
+pub use wind::load_factor_bounds_in_wind;
 
 use super::equilibrium::Equilibrium;
 use super::error::StaticsError;
@@ -160,7 +161,34 @@ impl<'a> LoadCapacity<'a> {
             return self.margin_in_wind();
         }
         let margins = facets.iter().map(|facet| facet.outer - self.required.reach(&-facet.normal));
-        margins.reduce(f64::min)
+        self.as_judged(margins.reduce(f64::min)?)
+    }
+
+    /// Capacity margin with the sign of the verdict. The hull of sagging cables may contain loads that no tensions within
+    /// the limits hold; then the plane at the end of the load that binds is one more facet.
+    fn as_judged(&self, margin: f64) -> Option<f64> {
+        match &self.rest {
+            Err(_) if margin < 0.0 => return Some(margin),
+            Err(StaticsError::BeyondLimits(miss)) => return Some(-miss.by),
+            Err(_) => return None,
+            Ok(_) => {}
+        }
+        let facets = self.available().facets();
+        let inner = facets.iter().map(|facet| facet.inner - self.required.reach(&-facet.normal)).reduce(f64::min);
+        let is_clear = inner.is_some_and(|inner| inner >= 0.0) || self.available().is_straight();
+        let is_slacker = self.may_be_slacker();
+        if is_clear || margin < 0.0 && !is_slacker {
+            return Some(margin);
+        }
+        if self.required.is_empty() {
+            return Some(margin).filter(|margin| *margin >= 0.0);
+        }
+        let held = self.worst_plane().ok()?;
+        if held.multiple >= 1.0 {
+            // Cables that are slacker than those of the facets hold the loads: no facet tells how much more.
+            return Some(margin).filter(|margin| *margin >= 0.0);
+        }
+        Some(margin.min((held.multiple - 1.0) * held.along))
     }
 
     /// Largest acceleration in every direction from rest [m/s²], with the dead load alone; angular accelerations count

@@ -109,8 +109,9 @@ pub enum StaticsError {
     },
     /// A straight cable would need negative tension.
     #[error(
-        "no equilibrium with cables in tension: cable \"{cable}\" would need {tension:.4} N at this pose{}; choose \
+        "no equilibrium with cables in tension: cable \"{cable}\" would need {} N at this pose{}; choose \
          another pose, mass or centre of mass",
+        newtons(*tension),
         because(obstacle.as_deref())
     )]
     NegativeTension {
@@ -124,8 +125,9 @@ pub enum StaticsError {
     /// No tensions found for sagging cables at a pose where a straight one would need negative tension. This is no
     /// proof that there are none: the balance of sagging cables is not linear.
     #[error(
-        "no tensions found that hold this pose: straight, cable \"{cable}\" would need {tension:.4} N{}; sagging, \
+        "no tensions found that hold this pose: straight, cable \"{cable}\" would need {} N{}; sagging, \
          {}; choose another pose, mass or centre of mass",
+        newtons(*tension),
         because(obstacle.as_deref()),
         searched(*starts, *residual, *max_tension)
     )]
@@ -146,8 +148,9 @@ pub enum StaticsError {
     /// Ideal cables of given lengths close at a pose where one of them would need negative tension.
     #[error(
         "no equilibrium with cables in tension: ideal cables of these lengths close at position ({x:.4}, {y:.4}, \
-         {z:.4}) m, where cable \"{cable}\" would need {tension:.4} N; choose other lengths, another mass or centre of \
-         mass, or the static model `spring` or `catenary`, whose platform moves until all cables pull or are slack"
+         {z:.4}) m, where cable \"{cable}\" would need {} N; choose other lengths, another mass or centre of \
+         mass, or the static model `spring` or `catenary`, whose platform moves until all cables pull or are slack",
+        newtons(*tension)
     )]
     LengthsPush {
         /// Name of the cable with the most negative tension.
@@ -492,6 +495,15 @@ impl StaticsError {
                 | Self::LostInRounding { .. }
                 | Self::TensionsNotConverged { .. }
         )
+    }
+}
+
+/// Tension that is not positive, with enough digits to be told from zero; rounding is zero.
+fn newtons(tension: f64) -> String {
+    match tension.abs() {
+        size if size < 1e-9 => "0".to_owned(),
+        size if size < 1e-3 => format!("{tension:.1e}"),
+        _ => format!("{tension:.4}"),
     }
 }
 

@@ -217,6 +217,9 @@ const STALLED_ROUND: f64 = 0.5;
 /// section 15.
 const MAX_ROUNDS: usize = 100;
 
+/// Maximum number of rounds after each other without a lower residual.
+const MAX_IDLE_ROUNDS: usize = 10;
+
 /// Stable equilibrium that elastic cables reach from a start.
 pub(super) fn descend_to_equilibrium(
     robot: &Robot,
@@ -230,14 +233,20 @@ pub(super) fn descend_to_equilibrium(
     if robot.wind_turns_with_cables() {
         // Each equilibrium is found with the drag of the previous pose. Pose and drag converge: each round reduces the
         // difference by the ratio of the drag's turn to the stiffness.
-        let mut last = f64::INFINITY;
+        let (mut last, mut least, mut idle) = (f64::INFINITY, f64::INFINITY, 0);
         for _ in 0..MAX_ROUNDS {
             search = EnergySearch::with_drag_of(robot, lengths, model, &here);
             here = search.at(here.pose);
             if here.residual < CONVERGED || (here.residual < here.limit && here.residual > STALLED_ROUND * last) {
                 break;
             }
-            last = here.residual;
+
+            // Drag that jumps between two poses, or a platform that slides away, comes to no end.
+            idle = if here.residual < least { 0 } else { idle + 1 };
+            if idle > MAX_IDLE_ROUNDS || iterations > MAX_ITERATIONS {
+                break;
+            }
+            (last, least) = (here.residual, least.min(here.residual));
             let more;
             (here, more) = search.minimise(here.pose);
             iterations += more;

@@ -36,6 +36,10 @@ pub struct NearestEquilibrium {
 /// Maximum number of steps; 3 to 30 are observed.
 const MAX_STEPS: usize = 300;
 
+/// Iterations of forward statics in all after which no further step is made. Searches that end take up to some
+/// thousands; one without an end took ten thousand.
+const MAX_ITERATIONS: usize = 20_000;
+
 /// Remaining approach along the surface, over the size of the robot, at which the pose counts as nearest; and the value
 /// that is accepted if rounding allows no further approach.
 const MAX_APPROACH: f64 = 1e-11;
@@ -172,6 +176,9 @@ pub fn nearest_equilibrium(
         if search.could_move() <= MAX_APPROACH * size && search.violation() <= MAX_APPROACH {
             break;
         }
+        if search.iterations > MAX_ITERATIONS {
+            break;
+        }
         if !search.step() && !search.shorten() {
             break;
         }
@@ -274,7 +281,15 @@ impl<'a> SurfaceSearch<'a> {
         let lengths = self.lengths.iter().zip(&by_length).map(|(l, d)| (l + d).max(MIN_SHORTENED * l));
         let lengths: Vec<f64> = lengths.collect();
         let start = self.coordinates.moved(&self.here.pose, &motion);
-        let Ok(next) = forward(self.robot, &lengths, self.model, Some(&start)) else { return false };
+        let next = match forward(self.robot, &lengths, self.model, Some(&start)) {
+            Ok(next) => next,
+            Err(error) => {
+                if let StaticsError::NotConverged { iterations, .. } = error {
+                    self.iterations += iterations;
+                }
+                return false;
+            }
+        };
 
         self.iterations += next.iterations;
         let missing = gap(self.robot, &next.pose, self.requested);

@@ -199,6 +199,11 @@ pub fn inverse(robot: &Robot, pose: &Pose, model: StaticModel) -> Result<Equilib
     }
 }
 
+/// True if the tensions of a robot at a pose are a matter of its load alone: as many cables as degrees of freedom.
+pub(super) fn has_unique_tensions(robot: &Robot, pose: &Pose, model: StaticModel) -> bool {
+    ConstraintAtPose::of(robot, pose, model) == ConstraintAtPose::Full
+}
+
 /// Ways in which cables constrain the platform at a pose.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum ConstraintAtPose {

@@ -1,14 +1,16 @@
 //! Load factor: the largest multiple of the required loads that the cables hold in every combination.
 
 use super::required_set::{LoadCoefficients, RequiredSet};
-use super::{LoadCapacity, wind_loads_cables, with_lightest_payload};
-use crate::math::{Vec3, Vec6, order};
+use super::{LoadCapacity, wind_loads_cables, with_lightest_payload, within_limits};
+use crate::math::{Mat6, Vec3, Vec6, order};
 use crate::platform::{Coordinates, load_size, load_wrench};
 use crate::robot::{Pose, Robot};
-use crate::statics::equilibrium::CableState;
+use crate::statics::equilibrium::{CableState, Equilibrium};
 use crate::statics::error::StaticsError;
 use crate::statics::exit_points;
+use crate::statics::limits::{Limit, TensionMargin};
 use crate::statics::model::StaticModel;
+use crate::statics::solve::{has_unique_tensions, inverse};
 use crate::statics::tension::{
     LimitAtCable, RaySearch, TensionRule, WrenchRay, cables_at, equilibrium_of, limits_reached, start_from,
 };
@@ -20,12 +22,9 @@ use crate::statics::wrench_set::{
 /// bound itself is exact to about 1e-9.
 const OPEN_GAP: f64 = 1e-7;
 
-/// Gap over the multiple above which the search begins again several times. The bends of heavy ropes leave gaps of up
-/// to 1 % where there is no higher optimum. At 316 poses of CoGiRo with ropes of 0.6 kg/m no other start was better.
-const WIDE_GAP: f64 = 0.02;
-
-/// Maximum number of further starts.
-const MAX_STARTS: usize = 12;
+/// Gaps over the multiple above which the search begins again more often, and the number of starts up to each. The bends
+/// of heavy ropes leave gaps of up to 1 % where there is no higher optimum; one that was higher by 1.2e-4 has been met.
+const GAPS: [(f64, usize); 3] = [(OPEN_GAP, 1), (1e-5, 5), (0.02, 12)];
 
 /// Maximum number of directions tried for a set without vertices. Each step to the worst load of the last direction
 /// gains about two digits; robots of the library take 2 to 5.
@@ -33,6 +32,11 @@ const MAX_DIRECTIONS: usize = 30;
 
 /// Change of the worst load, over its size, at which the search for a set without vertices ends.
 const SAME_LOAD: f64 = 1e-9;
+
+/// First step of a search along a load beyond the sag of (37), over the multiple, and the number of steps: 30 doublings,
+/// and as many halvings.
+const FIRST_STEP: f64 = 1e-3;
+const MAX_STEPS: usize = 90;
 
 /// Largest multiple of the required loads.
 #[derive(Debug, Clone, PartialEq)]
@@ -69,6 +73,28 @@ struct HeldMultiple {
     limits: Vec<LimitAtCable>,
     cables: Vec<CableState>,
     residual: f64,
+}
+
+impl HeldMultiple {
+    /// Multiple of a load that nothing limits.
+    fn unlimited() -> Self {
+        Self {
+            multiple: f64::INFINITY,
+            upper_bound: f64::INFINITY,
+            direction: Vec6::zeros(),
+            limits: Vec::new(),
+            cables: Vec::new(),
+            residual: 0.0,
+        }
+    }
+}
+
+/// Plane through the largest multiple of the load that binds, beyond which the cables reach no farther.
+pub(super) struct WorstPlane {
+    /// Largest multiple of the load.
+    pub multiple: f64,
+    /// Size of the load at right angles to the plane [N].
+    pub along: f64,
 }
 
 impl LoadCapacity<'_> {
@@ -113,6 +139,14 @@ impl LoadCapacity<'_> {
         }
     }
 
+    /// Plane in which the multiples of the load that binds end.
+    pub(super) fn worst_plane(&self) -> Result<WorstPlane, StaticsError> {
+        let (coefficients, held) = self.worst_load(self.available())?;
+        let load = self.required.load(&coefficients);
+        let along = -held.direction.dot(&load) / held.direction.norm();
+        Ok(WorstPlane { multiple: held.multiple, along: if along > 0.0 { along } else { load.norm() } })
+    }
+
     /// Value of [`Self::load_factor`] alone, in less time: straight cables have it from the facets, and bounds of the bends
     /// of sagging ones are enough to choose the loads.
     ///
@@ -135,7 +169,7 @@ impl LoadCapacity<'_> {
 
     /// Smallest ratio of the reach of the cables to that of the required loads over all facets; `None` without facets, or
     /// with exit points that move with the tensions.
-    fn smallest(&self, available: &AvailableWrenches, reach: impl Fn(&Facet) -> f64) -> Option<f64> {
+    pub(super) fn smallest(&self, available: &AvailableWrenches, reach: impl Fn(&Facet) -> f64) -> Option<f64> {
         if exit_points::depend_on_tensions(self.robot(), self.model) {
             return None;
         }
@@ -171,7 +205,8 @@ impl LoadCapacity<'_> {
                 worst = Some((at, held));
             }
         }
-        let (at, held) = worst.ok_or(StaticsError::NothingRequired)?;
+        // Without any load that the platform can feel, every multiple is held.
+        let (at, held) = worst.unwrap_or((0, HeldMultiple::unlimited()));
         Ok((self.required.vertex(at), held))
     }
 
@@ -187,6 +222,9 @@ impl LoadCapacity<'_> {
         let mut worst: Option<(LoadCoefficients, HeldMultiple)> = None;
         for _ in 0..MAX_DIRECTIONS {
             let load = self.required.load(&at);
+            if load.norm() == 0.0 {
+                return Ok((at, HeldMultiple::unlimited()));
+            }
             let held = self.largest_multiple(&load)?;
             let next_at = self.required.farthest(&-held.direction);
             let next = self.required.load(&next_at);
@@ -204,11 +242,33 @@ impl LoadCapacity<'_> {
     /// Largest multiple of one reduced load that the cables hold in addition to the dead load.
     fn largest_multiple(&self, load: &Vec6) -> Result<HeldMultiple, StaticsError> {
         let (robot, model) = (self.robot(), self.model);
-        if !exit_points::depend_on_tensions(robot, model) {
-            return self.multiple_at_exit_points(robot, load);
+        let found = if exit_points::depend_on_tensions(robot, model) {
+            let solve = |held: &Robot, _: Option<&HeldMultiple>| self.multiple_at_exit_points(held, load);
+            exit_points::with_places(robot, &self.pose, model, solve, |held| &mut held.cables, &[])
+        } else {
+            self.multiple_at_exit_points(robot, load)
+        }?;
+        let is_open = found.multiple.is_finite() && self.may_be_slacker();
+        Ok(if is_open { self.with_slacker_cables(load, found) } else { found })
+    }
+
+    /// True if a cable with the load that binds is slacker than (37). The load factor of a robot with as many cables as
+    /// degrees of freedom counts such cables; its capacity margin and its largest acceleration do not.
+    pub fn counts_slacker_cables(&self, factor: &LoadFactor) -> bool {
+        let is_slacker = |(cable, state): (&CableAtPose, &CableState)| {
+            let tau = state.hanging.as_ref().map_or(f64::INFINITY, |hanging| hanging.catenary.parallel_tension());
+            tau < cable.slackest * (1.0 - SAME_LOAD)
+        };
+        self.cables.iter().zip(&factor.cables).any(is_slacker)
+    }
+
+    /// True if the tensions are unique and a cable may be slacker than (37), which limits the sag of all other robots.
+    pub(super) fn may_be_slacker(&self) -> bool {
+        let is_unique = has_unique_tensions(self.robot(), &self.pose, self.model);
+        is_unique && {
+            let reaches = reaches_of(&self.cables);
+            WrenchSet { reaches: &reaches, motion: self.robot().platform.motion }.may_be_slacker()
         }
-        let solve = |held: &Robot, _: Option<&HeldMultiple>| self.multiple_at_exit_points(held, load);
-        exit_points::with_places(robot, &self.pose, model, solve, |held| &mut held.cables, &[])
     }
 
     /// Largest multiple of cables that end at fixed points.
@@ -222,8 +282,9 @@ impl LoadCapacity<'_> {
 
         // Another optimum may be higher: begin again from the tensions that reach farthest in the direction of the
         // bound, and if the gap is wide, from others between the limits.
-        for k in 0..MAX_STARTS {
-            let open = if k == 0 { OPEN_GAP } else { WIDE_GAP };
+        let starts = GAPS.iter().map(|(_, starts)| *starts).max().unwrap_or(0);
+        for k in 0..starts {
+            let open = GAPS.iter().find(|(_, starts)| k < *starts).map_or(f64::INFINITY, |(gap, _)| *gap);
             if best.multiple.is_infinite() || best.upper_bound - best.multiple <= open * best.multiple {
                 break;
             }
@@ -239,6 +300,60 @@ impl LoadCapacity<'_> {
             best.upper_bound = upper_bound.max(best.multiple);
         }
         Ok(best)
+    }
+
+    /// The same multiple without the limit (37) of the sag, which as many cables as degrees of freedom do not have: their
+    /// tensions are those of the equilibrium, however slack. It follows the equilibrium as the load grows.
+    fn with_slacker_cables(&self, load: &Vec6, best: HeldMultiple) -> HeldMultiple {
+        let robot = self.robot();
+        let held = |multiple: f64| {
+            let loaded = self.with_extra(robot, &(load * multiple));
+            inverse(&loaded, &self.pose, self.model).and_then(|rest| within_limits(&loaded, rest)).ok()
+        };
+        let mut step = FIRST_STEP * best.multiple.max(load_size(robot) / load.norm());
+        let (mut at, mut beyond) = (best.multiple, None);
+        let Some(mut rest) = held(at + SAME_LOAD * step) else { return best };
+        for _ in 0..MAX_STEPS {
+            let next = beyond.map_or(at + step, |beyond| f64::midpoint(at, beyond));
+            match held(next) {
+                Some(found) => (at, rest, step) = (next, found, 2.0 * step),
+                None => beyond = Some(next),
+            }
+            if beyond.is_some_and(|beyond| beyond - at <= SAME_LOAD * beyond) {
+                break;
+            }
+        }
+        if beyond.is_none() {
+            return HeldMultiple::unlimited();
+        }
+
+        // The limit that ends it, and the direction that only this tension changes.
+        let Some((limits, direction)) = self.ending_limit(&rest, load) else { return best };
+        let upper_bound = best.upper_bound.max(at);
+        HeldMultiple { multiple: at, upper_bound, direction, limits, cables: rest.cables, residual: rest.residual }
+    }
+
+    /// Tensions at their limits in an equilibrium with unique tensions, and the direction against a load in which the
+    /// tension nearest to its limit is the only one that matters; `None` for dependent cables.
+    fn ending_limit(&self, rest: &Equilibrium, load: &Vec6) -> Option<(Vec<LimitAtCable>, Vec6)> {
+        let robot = self.robot();
+        let mut cables = cables_at(robot, &self.pose, self.model, &TensionRule::Lowest).ok()?;
+        let mut columns = Mat6::identity();
+        let mut nearest: Option<(usize, TensionMargin)> = None;
+        for (i, (cable, state)) in cables.iter_mut().zip(&rest.cables).enumerate() {
+            cable.set(state.hanging.as_ref()?.catenary.parallel_tension());
+            columns.set_column(i, &robot.platform.motion.reduced(&cable.column()));
+            let margin = cable.range.margin(state);
+            if nearest.is_none_or(|(_, least)| margin.distance() < least.distance()) {
+                nearest = Some((i, margin));
+            }
+        }
+
+        let (i, TensionMargin { range, min, max }) = nearest?;
+        let limit = if min - range.minimum < range.maximum - max { Limit::Minimum } else { Limit::Maximum };
+        let direction: Vec6 = columns.try_inverse()?.row(i).transpose();
+        let sign = -direction.dot(load).signum();
+        Some((limits_reached(&cables, &[(i, limit)]), direction * sign))
     }
 
     /// Largest multiple by a search from the tensions of cables, whose ranges are `set`.
@@ -267,18 +382,16 @@ impl LoadCapacity<'_> {
         let upper_bound = if end.unlimited || along <= 0.0 {
             f64::INFINITY
         } else {
-            (direction.dot(&own) + set.reach(&direction).0) / (along * size)
+            let reach = if has_unique_tensions(self.robot(), pose, self.model) {
+                set.reach_with_slack(&direction)
+            } else {
+                set.reach(&direction).0
+            };
+            (direction.dot(&own) + reach) / (along * size)
         };
 
         if multiple.is_infinite() {
-            return Ok(HeldMultiple {
-                multiple,
-                upper_bound,
-                direction,
-                limits: Vec::new(),
-                cables: Vec::new(),
-                residual: 0.0,
-            });
+            return Ok(HeldMultiple { direction, ..HeldMultiple::unlimited() });
         }
         let loaded = self.with_extra(robot, &(load * multiple));
         let rest = equilibrium_of(&loaded, pose, self.model, cables, 0);

@@ -3,12 +3,16 @@
 //! Equation (40l1) of docs/theory.md.
 
 use super::required_set::RequiredSet;
-use super::{LoadCapacity, LoadFactor};
+use super::{LoadCapacity, LoadFactor, wind_loads_cables};
 use crate::math::{Vec3, any_normal};
 use crate::platform::{Coordinates, wrench_of};
-use crate::robot::Wind;
+use crate::robot::{Pose, Robot, Wind};
 use crate::statics::error::StaticsError;
+use crate::statics::exit_points;
+use crate::statics::model::StaticModel;
+use crate::statics::wrench_set::{BulgeSearch, Facet};
 use std::borrow::Cow;
+use std::cell::Cell;
 use std::f64::consts::TAU;
 
 /// Number of directions in which the worst wind is sought at first. The load factor over the direction is the least of
@@ -25,6 +29,32 @@ const SAME_MULTIPLE: f64 = 1e-11;
 /// Maximum number of pressures tried for one direction, a guard: 3 to 5 are usual.
 const MAX_PRESSURES: usize = 60;
 
+/// Bounds of the load factor at a pose with required wind on the cables, as [`load_factor_bounds`](super::load_factor_bounds)
+/// for calm ropes: with their drag in a wind of `multiple` of the required pressure, they are on that side of the multiple
+/// on which the load factor is. They take a hundredth of the time of the load factor. `None` without wind on the cables,
+/// with exit points that move with the tensions, and without facets.
+///
+/// # Errors
+/// As [`LoadCapacity::at`]; a dead load that is not held.
+///
+/// # References
+/// docs/theory.md, equation (40l1).
+pub fn load_factor_bounds_in_wind(
+    robot: &Robot,
+    pose: &Pose,
+    model: StaticModel,
+    multiple: f64,
+) -> Result<Option<[f64; 2]>, StaticsError> {
+    if !wind_loads_cables(robot, model) || exit_points::depend_on_tensions(robot, model) {
+        return Ok(None);
+    }
+    let capacity = LoadCapacity::at(robot, pose, model, None)?;
+    match capacity.bounds_in_wind(multiple) {
+        Err(StaticsError::NoLoadFactor) => Ok(None),
+        bounds => bounds.map(Some),
+    }
+}
+
 impl<'a> LoadCapacity<'a> {
     /// Load factor with the wind on the cables: the least over all directions of the wind.
     pub(super) fn load_factor_in_wind(&self) -> Result<LoadFactor, StaticsError> {
@@ -36,6 +66,23 @@ impl<'a> LoadCapacity<'a> {
     pub(super) fn margin_in_wind(&self) -> Option<f64> {
         let margin = |wind: &Wind| Ok(self.in_wind(wind, 1.0)?.margin().unwrap_or(f64::NAN));
         self.in_worst_wind(margin, |margin| *margin).ok().filter(|margin| !margin.is_nan())
+    }
+
+    /// Bounds of the load factor from the facets, with the drag of the ropes in a wind of a multiple of the pressure: they
+    /// are on that side of the multiple on which the load factor is.
+    fn bounds_in_wind(&self, multiple: f64) -> Result<[f64; 2], StaticsError> {
+        self.rest.as_ref().map_err(Clone::clone)?;
+        let least = Cell::new(f64::INFINITY);
+        let upper_in = |wind: &Wind| {
+            let blown = self.in_wind(wind, multiple)?;
+            let available = blown.wrenches(BulgeSearch::Bounds);
+            let bound = |reach: fn(&Facet) -> f64| blown.smallest(&available, reach).ok_or(StaticsError::NoLoadFactor);
+            let [lower, upper] = [bound(|facet| facet.inner)?, bound(|facet| facet.outer)?];
+            least.set(least.get().min(lower));
+            Ok(upper)
+        };
+        let upper = self.in_worst_wind(upper_in, |upper| *upper)?;
+        Ok([least.get(), upper])
     }
 
     /// Load factor in wind from one direction. The pressure on the cables has the multiple of all loads.

@@ -11,6 +11,9 @@ const MAX_HALVINGS: usize = 100;
 /// one up to 0.98.
 const STEEP: f64 = 0.95;
 
+/// Relative distance within which a tension counts as the slackest one, and a minimum as its tension.
+const AT_SLACKEST: f64 = 1e-9;
+
 /// Rounding of the sum of all contributions, relative to their magnitudes.
 const ROUNDING: f64 = 1e-12;
 
@@ -50,6 +53,19 @@ impl WrenchSet<'_> {
             tensions.push(best.tau);
         }
         (bound, tensions)
+    }
+
+    /// Reach in the direction `y` with cables that may also be slacker than (37), by an upper bound; infinite where the
+    /// weight of rope that hangs ever deeper pulls that way.
+    pub(in crate::statics) fn reach_with_slack(&self, y: &Vec6) -> f64 {
+        let (taut, _) = self.reach(y);
+        let slack = self.reaches.iter().map(|reach| reach.slack_excess(y, &self.motion));
+        taut + slack.sum::<f64>()
+    }
+
+    /// Cables whose minimum tension would allow them to be slacker than (37).
+    pub(in crate::statics) fn may_be_slacker(&self) -> bool {
+        self.reaches.iter().any(ReachableTensions::may_be_slacker)
     }
 
     /// True if the direction `y` proves that no tensions balance a load, with the points of maximum contribution of the
@@ -116,6 +132,32 @@ impl ReachableTensions {
             ends[1].set(minimum);
         }
         Self { ends }
+    }
+
+    /// True if the slackest state that (37) allows is within the limit of the minimum tension.
+    pub(in crate::statics) fn may_be_slacker(&self) -> bool {
+        let cable = &self.ends[0];
+        let is_slackest = cable.slackest > 0.0 && cable.tau() <= cable.slackest * (1.0 + AT_SLACKEST);
+        is_slackest && cable.min_tension().value > cable.range.minimum * (1.0 + AT_SLACKEST)
+    }
+
+    /// Bound of what a slacker cable contributes in the direction `y` beyond the slackest state that (37) allows [N, in
+    /// the unit of y]. Its horizontal force is smaller than there; its vertical force on the platform falls with it if
+    /// the anchor is above, and points down if the anchor is below.
+    fn slack_excess(&self, y: &Vec6, motion: &PlatformMotion) -> f64 {
+        if !self.may_be_slacker() {
+            return 0.0;
+        }
+        let cable = &self.ends[0];
+        let (force_w, up_w) = (cable.force().0, cable.hanging.axes_w().1);
+        let in_direction = |force_w: &Vec3| y.dot(&motion.reduced(&cable.wrench(force_w)));
+        let (vertical, upward) = (force_w.dot(&up_w), in_direction(&up_w));
+        if upward < 0.0 {
+            return f64::INFINITY;
+        }
+        let horizontal = in_direction(&(force_w - up_w * vertical));
+        let highest = if cable.sin() >= 0.0 { vertical } else { vertical.max(0.0) };
+        (horizontal.max(0.0) + upward * highest - in_direction(&force_w)).max(0.0)
     }
 
     fn seen(&self, y: &Vec6, motion: &PlatformMotion) -> DirectionalShare {
