@@ -119,8 +119,8 @@ pub struct ModelResult {
     ///
     /// For a constant stiffness the counterpart is the mode with the most similar platform motion, with a MAC of at
     /// least [`SAME_MOTION`] and a frequency within a factor of two. For a dynamic model, most of whose modes hardly
-    /// move the platform, modes are paired in the order of their frequencies. If only modes of the platform are compared,
-    /// the motion decides for every model.
+    /// move the platform, modes are paired in the order of their frequencies. If only modes of the platform are
+    /// compared, the motion decides for every model.
     pub matches: Vec<Match>,
     /// Number of compared modes of the reference without a counterpart.
     pub missed: usize,

@@ -103,9 +103,9 @@ pub struct Mode {
     /// Fraction of the kinetic energy that each flexible support has, in the order of the robot. Empty on a rigid
     /// frame.
     pub support_energy_fractions: Vec<f64>,
-    /// Share of the stretch of each cable in the energy of deformation: its loss factor η adds half of η times this share
-    /// to the damping ratio. What the shares of all cables leave is geometric stiffness: tensions, sag and lever arms.
-    /// Empty unless the strains are known: for ropes with loss, and by [`Dynamics::with_strains`].
+    /// Share of the stretch of each cable in the energy of deformation: its loss factor η adds half of η times this
+    /// share to the damping ratio. What the shares of all cables leave is geometric stiffness: tensions, sag and lever
+    /// arms. Empty unless the strains are known: for ropes with loss, and by [`Dynamics::with_strains`].
     pub stretching_shares: Vec<f64>,
     /// Motion of the platform (δp [m], δθ [rad]) about its origin, world axes; its largest scaled component is 1. Zero
     /// if the platform is at rest.
@@ -143,8 +143,8 @@ impl Modes {
     }
 
     /// Indices of the modes below the first one of the platform that move it considerably, with at least
-    /// [`CONSIDERABLE_SHARE`] of their kinetic energy: a motion of the platform that is split over several modes beside a
-    /// resonance of a cable. All such modes if none has the fraction `share`.
+    /// [`CONSIDERABLE_SHARE`] of their kinetic energy: a motion of the platform that is split over several modes
+    /// beside a resonance of a cable. All such modes if none has the fraction `share`.
     pub fn share_platform(&self, share: f64) -> Vec<usize> {
         let end = self.first_platform(share).unwrap_or(self.modes.len());
         (0..end).filter(|&i| self.modes[i].platform_energy_fraction >= CONSIDERABLE_SHARE).collect()

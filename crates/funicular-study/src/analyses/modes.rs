@@ -46,8 +46,8 @@ pub struct Modes {
     /// First mode of the platform; absent if none lies below the limit.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub first_platform_mode: Option<FirstPlatformMode>,
-    /// Modes below it that move the platform considerably, with at least a fifth of their kinetic energy: a motion of the
-    /// platform that is split beside a resonance of a cable.
+    /// Modes below it that move the platform considerably, with at least a fifth of their kinetic energy: a motion of
+    /// the platform that is split beside a resonance of a cable.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub share_platform: Vec<FirstPlatformMode>,
     pub cable_names: Vec<String>,

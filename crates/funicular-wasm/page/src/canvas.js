@@ -1,8 +1,8 @@
 // Canvas of the view.
 
 /**
- * Canvas with its context, which is missing where the browser has no WebGL. Without a graphics card smooth edges and fine
- * pixels take longer than a frame.
+ * Canvas with its context, which is missing where the browser has no WebGL. Without a graphics card smooth edges and
+ * fine pixels take longer than a frame.
  */
 export function canvasOf() {
   const made = (antialias) => {

@@ -3,8 +3,8 @@
 import { short } from "./format.js";
 
 /**
- * Modes below the first one of the platform with a considerable share of its motion; of all listed modes while the first
- * one is not known.
+ * Modes below the first one of the platform with a considerable share of its motion; of all listed modes while the
+ * first one is not known.
  * @param {object} frame `modes`, and `first` with its index
  * @param {number} considerable least share of the kinetic energy
  */

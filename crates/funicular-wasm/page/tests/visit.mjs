@@ -133,10 +133,16 @@ test("the key figure names modes that share the motion of the platform", async (
     await page.fill("[data-pose='1']", "0");
     await page.fill("[data-pose='2']", "1.5");
     await page.keyboard.press("Enter");
-    await page.waitForFunction((to) => Math.abs(window.funicular.frame.position[0] - to) < 1e-9 && window.funicular.idle, Number(x.toFixed(1)));
+    await page.waitForFunction(
+      (to) => Math.abs(window.funicular.frame.position[0] - to) < 1e-9 && window.funicular.idle,
+      Number(x.toFixed(1)),
+    );
     await settled();
     const words = await text("#hud");
-    const now = { hz: Number(/Platform resonance\s+([\d.]+) Hz/.exec(words)[1]), told: /move(s?) the platform, too/.test(words) };
+    const now = {
+      hz: Number(/Platform resonance\s+([\d.]+) Hz/.exec(words)[1]),
+      told: /move(s?) the platform, too/.test(words),
+    };
     if (last && Math.abs(now.hz / last.hz - 1) > 0.05) {
       assert.ok(now.told || last.told, `${x.toFixed(1)}: ${last.hz} to ${now.hz} Hz without a word`);
     }

@@ -15,7 +15,13 @@ const faults = [];
 before(async () => {
   browser = await chromium.launch({
     executablePath: process.env.FUNICULAR_BROWSER,
-    args: ["--no-sandbox", "--disable-dev-shm-usage", "--disable-gpu", "--disable-3d-apis", "--proxy-server=127.0.0.1:9"],
+    args: [
+      "--no-sandbox",
+      "--disable-dev-shm-usage",
+      "--disable-gpu",
+      "--disable-3d-apis",
+      "--proxy-server=127.0.0.1:9",
+    ],
   });
   page = await browser.newPage({ viewport: { width: 1440, height: 900 } });
   page.setDefaultTimeout(60_000);

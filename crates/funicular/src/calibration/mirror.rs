@@ -1,5 +1,5 @@
-//! Mirror images of single anchors. If all points of the platform from which a cable was read lie in a plane, or on a line
-//! of a planar robot, its anchor may as well stand on the other side of it.
+//! Mirror images of single anchors. If all points of the platform from which a cable was read lie in a plane, or on a
+//! line of a planar robot, its anchor may as well stand on the other side of it.
 
 use super::frame::CalibrationFrame;
 use super::search::ITERATIONS_OF_START;

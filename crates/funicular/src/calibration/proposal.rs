@@ -36,9 +36,9 @@ pub struct ProposedPose {
     pub deviations: Vec<f64>,
 }
 
-/// Chooses poses one after the other, each so that the criterion falls most. `weights` are factors of the variances, one
-/// per unknown; a factor of stiffness or mass counts as one length of mean variance. At each pose is measured what the rows have: readings of all cables, and the tensions and coordinates that
-/// any row has.
+/// Chooses poses one after the other, each so that the criterion falls most. `weights` are factors of the variances,
+/// one per unknown; a factor of stiffness or mass counts as one length of mean variance. At each pose is measured what
+/// the rows have: readings of all cables, and the tensions and coordinates that any row has.
 pub fn proposals(
     of: &Calibration,
     fit: &CalibrationFit,

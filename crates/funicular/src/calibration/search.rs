@@ -1,5 +1,5 @@
-//! Search for all minima that fit: starts from the file, from nothing but lengths, and from anchors that are moved; other
-//! poses of single rows; mirror images.
+//! Search for all minima that fit: starts from the file, from nothing but lengths, and from anchors that are moved;
+//! other poses of single rows; mirror images.
 
 use super::frame::CalibrationFrame;
 use super::mirror::OtherMinimum;
@@ -16,8 +16,8 @@ const ENOUGH_OF_NOISE: usize = 2;
 /// Deviations of χ² above its expectation up to which a minimum fits as noise does.
 const OF_NOISE: f64 = 3.0;
 
-/// Starts after which a search ends whose best χ² is this many times that of noise: then the readings are wrong, not the
-/// starts.
+/// Starts after which a search ends whose best χ² is this many times that of noise: then the readings are wrong, not
+/// the starts.
 const STARTS_OF_MISFIT: usize = 5;
 const FAR_FROM_NOISE: f64 = 100.0;
 
@@ -27,7 +27,8 @@ pub(super) const ITERATIONS_OF_START: usize = 80;
 /// Rise of χ² up to which another minimum is kept, in the variance of the residuals.
 const FITS_AS_WELL: f64 = 20.0;
 
-/// Decrease of χ² by a mirror image, in the variance of the residuals, above which the readings choose it: three deviations.
+/// Decrease of χ² by a mirror image, in the variance of the residuals, above which the readings choose it: three
+/// deviations.
 const CHOSEN: f64 = 9.0;
 
 /// Distance of two minima, relative to the spread of the anchors, up to which they are one.

@@ -52,8 +52,8 @@ pub enum CombinationPart {
 pub struct WeakCombination {
     /// Standard deviation along the direction, of its lengths together [m].
     pub deviation: f64,
-    /// Direction over all unknowns, unit vector of its lengths, in the inner frame; a factor stands there with the metres
-    /// for which it counts.
+    /// Direction over all unknowns, unit vector of its lengths, in the inner frame; a factor stands there with the
+    /// metres for which it counts.
     pub direction: Vec<f64>,
     /// Parts with their amounts for one deviation.
     pub parts: Vec<(CombinationPart, f64)>,
@@ -62,8 +62,8 @@ pub struct WeakCombination {
 }
 
 impl Calibration {
-    /// Weakest combinations of a fit, the weakest first, at most `count`. Each factor of stiffness, mass or supports has the
-    /// weight of a length of mean deviation, so that its unit does not decide.
+    /// Weakest combinations of a fit, the weakest first, at most `count`. Each factor of stiffness, mass or supports
+    /// has the weight of a length of mean deviation, so that its unit does not decide.
     pub fn weak_combinations(
         &self,
         fit: &CalibrationFit,

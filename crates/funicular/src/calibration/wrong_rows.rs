@@ -41,9 +41,9 @@ struct Rest {
     fit: CalibrationFit,
 }
 
-/// Rows that may be wrong, the worst one first, one at a time: each is the row without which the others fit best, from the
-/// robot file and from the fit. The list ends where the others fit as noise, or where a row is not `beyond` noise, whose
-/// variance is at least `least_variance` of that of the data: 1 where their deviations are known, else 0.
+/// Rows that may be wrong, the worst one first, one at a time: each is the row without which the others fit best, from
+/// the robot file and from the fit. The list ends where the others fit as noise, or where a row is not `beyond` noise,
+/// whose variance is at least `least_variance` of that of the data: 1 where their deviations are known, else 0.
 pub fn wrong_rows(
     of: &Calibration,
     fit: &CalibrationFit,
@@ -107,8 +107,8 @@ impl Rest {
         Some(tried.swap_remove(best.0))
     }
 
-    /// Places of the rows in the order of suspicion: by the decrease of χ² of the linearised fit, and by how badly the row
-    /// fits with the values of the file, in turn.
+    /// Places of the rows in the order of suspicion: by the decrease of χ² of the linearised fit, and by how badly the
+    /// row fits with the values of the file, in turn.
     fn suspicious(&self, frame: &CalibrationFrame) -> Vec<usize> {
         let of = &self.of;
         let left_out = of.precision(&self.fit, frame).rows_left_out(frame);
@@ -157,7 +157,8 @@ impl Rest {
 }
 
 impl Calibration {
-    /// Pose of one row with the unknowns held, the best from a start, the middle, and places about the start; with its χ².
+    /// Pose of one row with the unknowns held, the best from a start, the middle, and places about the start; with its
+    /// χ².
     pub(super) fn best_pose_of_row(&self, values: &[f64], row: &MeasuredRow, start: &Pose) -> (Pose, f64) {
         let starts = [*start, self.middle(), self.nearby(start, 15_485_863), self.nearby(start, 32_452_843)];
         let found = starts.map(|start| self.pose_of_row(values, row, &start));

@@ -113,8 +113,8 @@ fn other_minima(of: &CalibrationReport) -> Option<String> {
             if of.of.translations_w().len() == 2 { ("line", "line on which") } else { ("plane", "plane in which") };
         let telling = telling.unwrap_or_else(|| format!("measure a row off this {flat}"));
         return Some(format!(
-            "{} of values fit the readings, see `minima`: χ² {}, and {} with {} on the other side of the {where_rows_lie} the \
-             rows lie; {telling}",
+            "{} of values fit the readings, see `minima`: χ² {}, and {} with {} on the other side of the \
+             {where_rows_lie} the rows lie; {telling}",
             counted(1 + of.found.others.len(), "set"),
             significant(best.chi2, 4),
             significant(image.fit.chi2, 4),

@@ -114,7 +114,8 @@ pub struct ReadingRow {
     pub roll_pitch_yaw_deg: [f64; 3],
     /// Residuals of the cables that were read.
     pub residuals: Vec<CableResidual>,
-    /// Decrease of χ² if the row is left out, in the variance of the residuals; absent for a row that no other row checks.
+    /// Decrease of χ² if the row is left out, in the variance of the residuals; absent for a row that no other row
+    /// checks.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub chi2_drop: Option<f64>,
     /// Largest decrease that noise gives in one of as many rows with 95 %.
@@ -174,8 +175,8 @@ pub struct WeakRow {
     /// Share of the words in the combination.
     pub share: f64,
     pub words: String,
-    /// Unit vector over the values that are lengths, with inner conditions; factors stand with the metres for which they
-    /// count.
+    /// Unit vector over the values that are lengths, with inner conditions; factors stand with the metres for which
+    /// they count.
     pub direction: Vec<f64>,
 }
 
@@ -197,7 +198,8 @@ pub struct MinimumRow {
     pub values: Vec<f64>,
     /// Largest difference of an anchor, attachment or offset from the best minimum.
     pub farthest_m: f64,
-    /// Cables whose anchors stand on the other side of the plane or line of their rows; empty for another kind of minimum.
+    /// Cables whose anchors stand on the other side of the plane or line of their rows; empty for another kind of
+    /// minimum.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub mirrored: Vec<String>,
     /// Rows whose poses differ most, from 1.
@@ -216,8 +218,8 @@ pub struct ProposalRow {
     /// Rule of the tensions at the pose, if they are a matter of choice.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub tension_rule: Option<&'static str>,
-    /// Root of the sum of the variances of the chosen lengths after this pose and those before it; absent if factors alone
-    /// are chosen.
+    /// Root of the sum of the variances of the chosen lengths after this pose and those before it; absent if factors
+    /// alone are chosen.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub total_m: Option<f64>,
     /// Largest deviation of a length then; absent if factors alone are chosen.
