@@ -5,7 +5,7 @@
 
 use super::{CDMat, Complex};
 
-/// Square of a vector without conjugates, over its squared length, below which it counts as orthogonal to itself. Motions
+/// Square of a vector without conjugates, over the sum of the sizes of its terms, below which it counts as orthogonal to itself. Motions
 /// with light damping have about one; half of the digits are left at 1e-8.
 const MIN_SQUARE: f64 = 1e-8;
 
@@ -15,7 +15,6 @@ const MAX_SWEEPS: usize = 40;
 /// Vectors `V`, by columns, with `VᵀGV = 1` for a complex symmetric matrix `G`; `None` if a vector is orthogonal to itself.
 pub(crate) fn orthogonalised(matrix: &CDMat) -> Option<CDMat> {
     let n = matrix.nrows();
-    let size = matrix.norm();
     let mut vectors = CDMat::identity(n, n);
     for k in 0..n {
         // The vector with the largest square comes next; where all squares are small, the sum of two vectors has one.
@@ -38,7 +37,7 @@ pub(crate) fn orthogonalised(matrix: &CDMat) -> Option<CDMat> {
             pivot = i;
         }
         let value = square(&vectors, pivot, pivot);
-        if value.norm() <= MIN_SQUARE * size * vectors.column(pivot).norm_squared() {
+        if value.norm() <= MIN_SQUARE * size_of_terms(matrix, &vectors, pivot) {
             return None;
         }
 
@@ -52,6 +51,12 @@ pub(crate) fn orthogonalised(matrix: &CDMat) -> Option<CDMat> {
         }
     }
     Some(vectors)
+}
+
+/// Sum of the sizes of the terms of a square of a vector.
+fn size_of_terms(matrix: &CDMat, vectors: &CDMat, k: usize) -> f64 {
+    let of = |i: usize, j: usize| vectors[(i, k)].norm() * matrix[(i, j)].norm() * vectors[(j, k)].norm();
+    (0..matrix.nrows()).map(|i| (0..matrix.nrows()).map(|j| of(i, j)).sum::<f64>()).sum()
 }
 
 /// Diagonal of `VᵀAV` for a complex symmetric matrix `A`, and `V` with `VᵀV = 1`, until entries beside the diagonal are at
@@ -85,11 +90,11 @@ pub(crate) fn diagonalised(mut matrix: CDMat, tolerance: f64) -> Option<(Vec<Com
 
 /// Cosine and sine of the complex rotation that makes the matrix `[a b; b d]` diagonal; `None` if it has one eigenvector.
 fn rotation(a: Complex, b: Complex, d: Complex) -> Option<(Complex, Complex)> {
-    // The tangent t solves t² − 2ht − 1 = 0 with h = (d − a)/2b; the smaller root turns least.
+    // The tangent t solves t² + 2ht − 1 = 0 with h = (d − a)/2b; the smaller root turns least.
     let half = (d - a) / (2.0 * b);
     let root = (half * half + 1.0).sqrt();
-    let tangents = [half + root, half - root];
-    let tangent = if tangents[0].norm() <= tangents[1].norm() { tangents[0] } else { tangents[1] };
+    let sums = [half + root, half - root];
+    let tangent = 1.0 / if sums[0].norm() >= sums[1].norm() { sums[0] } else { sums[1] };
     let square = tangent * tangent + 1.0;
     if square.norm() <= MIN_SQUARE.sqrt() {
         return None;

@@ -359,19 +359,34 @@ impl ZeroSearch<'_> {
             let grows = !may_grow && zero.omega.im < minimum(zero);
             grows || zero.omega.re < minimum(zero) || zero.omega.re > right
         };
-        let is_lost = |zero: &DampedZero| zero.error > WANTED_ERROR || is_outside(zero);
+        // A mode that its damping leads beyond the right edge is not lost, and needs no search.
+        let followed = Followed { dynamics: self.dynamics, poles_below: self.poles_below };
+        let leaves = |zero: &DampedZero| match zero.members[..] {
+            [member] if zero.error <= WANTED_ERROR && zero.omega.re > right => {
+                followed.follow(&modes[member]).is_some_and(|of| of.omega.re > right)
+            }
+            _ => false,
+        };
+        let gone: Vec<usize> = (0..zeros.len()).filter(|i| leaves(&zeros[*i])).collect();
+        for &i in &gone {
+            if let Some(zero) = followed.follow(&modes[zeros[i].members[0]]) {
+                (zeros[i].omega, zeros[i].error) = (zero.omega, zero.error);
+            }
+        }
+        let is_lost =
+            |(i, zero): (usize, &DampedZero)| !gone.contains(&i) && (zero.error > WANTED_ERROR || is_outside(zero));
 
         let mut outside: Vec<(usize, Complex)> = Vec::new();
         for round in 0..MAX_ROUNDS {
-            let lost: Vec<usize> = (0..zeros.len()).filter(|i| is_lost(&zeros[*i])).collect();
+            let lost: Vec<usize> = (0..zeros.len()).filter(|i| is_lost((*i, &zeros[*i]))).collect();
             if lost.is_empty() {
                 return;
             }
 
             // Starts: the zero's own, then those of the zeros that have moved farthest.
-            let gone = |zero: &DampedZero| (zero.omega - start(zero)).norm() / zero.omega.norm();
-            let mut places: Vec<usize> = (0..zeros.len()).filter(|i| !is_lost(&zeros[*i])).collect();
-            order::sort_descending(&mut places, |i| gone(&zeros[*i]));
+            let moved = |zero: &DampedZero| (zero.omega - start(zero)).norm() / zero.omega.norm();
+            let mut places: Vec<usize> = (0..zeros.len()).filter(|i| !is_lost((*i, &zeros[*i]))).collect();
+            order::sort_descending(&mut places, |i| moved(&zeros[*i]));
 
             for (k, i) in lost.into_iter().enumerate() {
                 if zeros[i].error <= WANTED_ERROR {
@@ -392,7 +407,7 @@ impl ZeroSearch<'_> {
         }
 
         // A zero that is nowhere in the region is beyond its right edge: the first place there to which it came.
-        for i in (0..zeros.len()).filter(|i| is_lost(&zeros[*i])).collect::<Vec<_>>() {
+        for i in (0..zeros.len()).filter(|i| is_lost((*i, &zeros[*i]))).collect::<Vec<_>>() {
             let beyond =
                 outside.iter().find(|(of, omega)| *of == i && omega.re > right && (may_grow || omega.im > 0.0));
             if let Some((_, omega)) = beyond {

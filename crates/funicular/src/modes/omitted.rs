@@ -38,7 +38,7 @@ pub struct OmittedMotion {
 
 /// Frequency at which the mass of slow displacements is found, over the first natural frequency: its error is four times
 /// the fourth power, and rounding takes 1e-16 over the square.
-const SLOW: f64 = 5e-3;
+const SLOW: f64 = 1e-2;
 
 /// Part of the mass below which a mass that is left is rounding.
 const ROUNDING: f64 = 1e-8;
@@ -131,26 +131,44 @@ fn total_of_jumps(times: &[f64], lengths: &[Vec<f64>], size: impl Fn(&[f64]) -> 
     total + size(&before)
 }
 
-/// Mass of the displacements by slow lengths, per pair of cables [kg]: of the stiffness that lengths have at low
-/// frequencies.
-fn slow_mass(lossless: &Dynamics, omega: f64) -> Option<DMat> {
-    let [rest, slow, twice] = [0.0, omega, 2.0 * omega].map(|omega| stiffness_of_lengths(lossless, omega));
-    let (rest, slow, twice) = (rest?, slow?, twice?);
-    let by_square = |at: DMat, omega: f64| (&rest - at) / (omega * omega);
-    Some((4.0 * by_square(slow, omega) - by_square(twice, 2.0 * omega)) / 3.0)
+/// Stiffness between commanded lengths and platform at one frequency.
+struct LengthStiffness {
+    /// Stiffness of the platform over its scaled coordinates.
+    platform: DMat,
+    /// Force on the held platform per length, by columns.
+    coupling: DMat,
+    /// Force on the length per length, the platform held, on the diagonal.
+    own: DMat,
 }
 
-/// Forces on commanded lengths per length at ω [rad/s], the platform free [N/m].
-fn stiffness_of_lengths(lossless: &Dynamics, omega: f64) -> Option<DMat> {
-    let (rows, dof) = (forces_by_lengths(lossless, omega)?, lossless.dof());
-    let columns = DMat::from_fn(dof, rows.len(), |i, j| rows[j][i]);
-    let held = lossless.dynamic_stiffness(omega).view((0, 0), (dof, dof)).into_owned();
-    let moved = DMat::from_fn(dof, dof, |i, j| held[(i, j)]).lu().solve(&columns)?;
-    let mut found = -(columns.transpose() * moved);
-    for (k, of) in own_stiffness(lossless, omega)?.into_iter().enumerate() {
-        found[(k, k)] += of;
+impl LengthStiffness {
+    /// Stiffness at ω [rad/s]; `None` for a robot whose lengths have none.
+    fn of(lossless: &Dynamics, omega: f64) -> Option<Self> {
+        let (rows, dof) = (forces_by_lengths(lossless, omega)?, lossless.dof());
+        let held = lossless.dynamic_stiffness(omega);
+        Some(Self {
+            platform: DMat::from_fn(dof, dof, |i, j| held[(i, j)]),
+            coupling: DMat::from_fn(dof, rows.len(), |i, j| rows[j][i]),
+            own: DMat::from_diagonal(&DVec::from_vec(own_stiffness(lossless, omega)?)),
+        })
     }
-    Some(found)
+}
+
+/// Mass of the displacements by slow lengths, per pair of cables [kg]: the derivatives of each part by ω², of which the
+/// platform follows at rest. Differences of the parts lose fewer digits than those of their sum.
+fn slow_mass(lossless: &Dynamics, omega: f64) -> Option<DMat> {
+    let [rest, slow, twice] = [0.0, omega, 2.0 * omega].map(|omega| LengthStiffness::of(lossless, omega));
+    let (rest, slow, twice) = (rest?, slow?, twice?);
+    let by_square = |of: fn(&LengthStiffness) -> &DMat| {
+        let near = (of(&rest) - of(&slow)) / (omega * omega);
+        let far = (of(&rest) - of(&twice)) / (4.0 * omega * omega);
+        (near * 4.0 - far) / 3.0
+    };
+    let (platform, coupling, own) =
+        (by_square(|of| &of.platform), by_square(|of| &of.coupling), by_square(|of| &of.own));
+    let moved = rest.platform.clone().lu().solve(&rest.coupling)?;
+    let crossed = moved.transpose() * coupling;
+    Some(own - &crossed - crossed.transpose() + moved.transpose() * platform * &moved)
 }
 
 /// Force on the held platform per commanded length of each cable, over the platform's scaled coordinates.

@@ -503,7 +503,7 @@ fn a_higher_limit_never_takes_variance_away() {
 /// alone, down to a ratio of 1e-8.
 #[test]
 fn a_narrow_peak_has_the_variance_of_its_closed_form() {
-    for drag_area in [1.0, 1e-2, 1e-4] {
+    for drag_area in [1e-2, 1e-4] {
         let mut windy = cogiro();
         (windy.drag_width, windy.drag_area) = (0.0, drag_area);
         windy.damping = (Damping::Ratio(0.0), StretchLoss { factor: 0.0, time: 0.0 });
@@ -516,10 +516,14 @@ fn a_narrow_peak_has_the_variance_of_its_closed_form() {
             let parts = &spectra.by_mode[output];
             let k = (1..found.len() - 1).max_by(|a, b| parts[*a].total_cmp(&parts[*b])).unwrap();
             let Resonance { frequency_hz, damping_ratio } = found[k];
-            // Highest of the samples beside the natural frequency, which damping and the truncated series may move.
-            let near = spectra.frequencies_hz.iter().zip(&spectra.densities);
-            let near = near.filter(|(hz, _)| (*hz / frequency_hz - 1.0).abs() < 1e-3);
-            let height = near.map(|(_, of)| of.total[output]).fold(0.0, f64::max);
+            // Height of the peak by thirds of an interval, because the truncated series of the ropes may move it.
+            let density = |hz: f64| gusts.densities(hz).unwrap().total[output];
+            let (mut low, mut high) = [-30.0, 30.0].map(|of| frequency_hz * (1.0 + of * damping_ratio)).into();
+            for _ in 0..80 {
+                let [first, second] = [1.0, 2.0].map(|of| low + (high - low) * of / 3.0);
+                if density(first) < density(second) { low = first } else { high = second }
+            }
+            let height = density(0.5 * (low + high));
             let expected = std::f64::consts::PI * damping_ratio * frequency_hz * height;
             let gap = parts[k] / expected - 1.0;
             println!("{drag_area} {frequency_hz} {damping_ratio:e}: {gap:e}, {} frequencies", spectra.densities.len());

@@ -110,7 +110,7 @@ impl Followed<'_> {
     }
 
     /// Zero to which a mode moves while the damping grows; `None` if it comes too near to another one on the way.
-    fn follow(&self, mode: &Mode) -> Option<DampedMode> {
+    pub(super) fn follow(&self, mode: &Mode) -> Option<DampedMode> {
         let mut omega = Complex::from(mode.frequency_hz * TAU);
         let mut slope = Complex::i() * omega * mode.damping_ratio;
         let (mut part, mut step) = (0.0, 0.5);
