@@ -6,7 +6,7 @@ mod files;
 pub(crate) mod values;
 
 use crate::shell;
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, anyhow};
 use clap::{Arg, ArgAction, ArgMatches, Args, Command, FromArgMatches};
 pub(crate) use files::{
     CalibrateArgs, ChangeArgs, DesignArgs, DrawArgs, DrawModesArgs, ExportArgs, FigureArgs, FileArgs, Format, GustArgs,
@@ -15,6 +15,7 @@ pub(crate) use files::{
 };
 use files::{OptionalRobotArgs, RobotArgs};
 use funicular_study::request::{self, CommandInfo, Declared, Experiment, Key, Request, RequestRobot, ResponsePoints};
+use funicular_study::wording::Words;
 use serde_json::{Map, Value};
 use std::path::PathBuf;
 
@@ -75,7 +76,7 @@ impl Cli {
         let mut keys = declared::given(&self.matches, &command.keys);
         keys.insert("command".to_owned(), command.name.into());
         keys.extend(further);
-        Ok(Request::from_value(Value::Object(keys))?)
+        Request::from_value(Value::Object(keys)).map_err(|error| anyhow!("{}", error.message(Words::Program)))
     }
 }
 

@@ -21,7 +21,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 use std::fs;
 use std::io::{self, Write};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 /// Watch that ends long work when a handler of a signal raises, as that of Ctrl-C does, and tells a function how far it
@@ -235,8 +235,8 @@ pub(crate) fn try_file(path: PathBuf) -> PyResult<()> {
 }
 
 /// Tries the files that are given.
-pub(crate) fn try_files(paths: &[&Option<PathBuf>]) -> PyResult<()> {
-    paths.iter().filter_map(|path| path.as_ref()).try_for_each(|path| try_file(path.clone()))
+pub(crate) fn try_files(paths: &[Option<&Path>]) -> PyResult<()> {
+    paths.iter().flatten().try_for_each(|path| try_file(path.to_path_buf()))
 }
 
 /// Writes a text to a file, which is complete or absent.

@@ -221,7 +221,7 @@ fn a_request_that_cannot_be_read_says_where_and_what_there_is() {
         ("[]".to_owned(), "the request is not a JSON object"),
         (r#"{"robot": {"text": ""}}"#.to_owned(), "it has no `command`"),
         (r#"{"command": "static"}"#.to_owned(), "there is no command `static`; did you mean `statics`?"),
-        (r#"{"command": "statics"}"#.to_owned(), "a request of `statics` needs ROBOT"),
+        (r#"{"command": "statics"}"#.to_owned(), "a request of `statics` needs `robot`"),
         (
             format!(r#"{{"command": "statics", "robot": {{"text": {text}}}, "poze": [0, 0, 1]}}"#),
             "no key `poze`; did you mean `pose`?",
@@ -233,7 +233,7 @@ fn a_request_that_cannot_be_read_says_where_and_what_there_is() {
         (format!(r#"{{"command": "statics", "robot": {{"text": {text}}}, "pose": [0, 0]}}"#), "a pose is [x, y, z]"),
         (
             format!(r#"{{"command": "statics", "robot": {{"text": {text}}}, "mass_kg": -1}}"#),
-            "--mass-kg: -1 is not positive",
+            "`mass_kg`: -1 is not positive",
         ),
         (
             format!(r#"{{"command": "statics", "robot": {{"text": {text}}}, "static_model": "catenery"}}"#),
@@ -241,7 +241,7 @@ fn a_request_that_cannot_be_read_says_where_and_what_there_is() {
         ),
         (
             format!(r#"{{"command": "compare", "robot": {{"text": {text}}}}}"#),
-            "a request of `compare` needs --below-hz",
+            "a request of `compare` needs `below_hz`",
         ),
         (
             format!(

@@ -120,7 +120,7 @@ impl PyRobot {
     fn trajectory(&self, py: Python<'_>, given: &Bound<'_, PyDict>, page: Option<PathBuf>) -> PyResult<PyAnswered> {
         let asked = self.request_of("trajectory", given)?;
         let Request::Trajectory(request) = &asked else { unreachable!("the request is of trajectory") };
-        answers::try_files(&[&page])?;
+        answers::try_files(&[page.as_deref()])?;
         let found = py.detach(|| {
             let mut watch = CtrlC::new();
             let found = trajectory::run((*self.robot).clone(), request, &mut watch);
@@ -146,7 +146,7 @@ impl PyRobot {
     ) -> PyResult<PyAnswered> {
         let request = self.request_of("calibrate", given)?;
         let is_svg = figure.as_deref().map(figure_is_svg).transpose()?;
-        answers::try_files(&[&page, &figure])?;
+        answers::try_files(&[page.as_deref(), figure.as_deref()])?;
         let found = py.detach(|| {
             let mut watch = CtrlC::new();
             let found = run_on(&request, Some((*self.robot).clone()), &mut watch);
@@ -182,7 +182,7 @@ impl PyRobot {
         if let Some(path) = animation.as_deref().filter(|path| !figure_is_svg(path).unwrap_or_default()) {
             return Err(errors::input(format!("`animation` {}: the file ends in .svg", path.display())));
         }
-        answers::try_files(&[&page, &figure, &animation])?;
+        answers::try_files(&[page.as_deref(), figure.as_deref(), animation.as_deref()])?;
         let (found, raised) = py.detach(|| {
             let mut watch = CtrlC::telling(progress);
             let found = simulate::run((*self.robot).clone(), request, &mut watch);
@@ -220,7 +220,7 @@ impl PyRobot {
         let Request::Workspace(request) = &asked else { unreachable!("the request is of workspace") };
         let formats: Vec<(SurfaceFormat, PathBuf)> =
             surfaces.into_iter().map(|path| Ok((surface_format(&path)?, path))).collect::<PyResult<_>>()?;
-        answers::try_files(&[&page])?;
+        answers::try_files(&[page.as_deref()])?;
         formats.iter().try_for_each(|(_, path)| answers::try_file(path.clone()))?;
         let study = WorkspaceStudy::new((*self.robot).clone(), request).map_err(|error| errors::study(&error))?;
         let found = workspace_of(py, study, threads, progress)?;
