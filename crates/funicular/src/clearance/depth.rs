@@ -169,6 +169,7 @@ struct Part {
 /// convex, so that no point of a part is deeper than the farther one of its ends is from any triangle.
 fn in_mesh(mesh: &TriMesh, from: &Vec3, to: &Vec3) -> (f64, f64, Vec3) {
     let at = |fraction: f64| vector(&(from + (to - from) * fraction));
+    let length = (to - from).norm();
     let mut best = (0.0, 0.5, from + (to - from) * 0.5);
     let bounded = |places: [f64; 2], best: &mut (f64, f64, Vec3)| {
         let middle = 0.5 * (places[0] + places[1]);
@@ -180,7 +181,11 @@ fn in_mesh(mesh: &TriMesh, from: &Vec3, to: &Vec3) -> (f64, f64, Vec3) {
         }
         let triangle = mesh.triangle(nearest);
         let away = |end: Vector| (triangle.project_local_point(end, true).point - end).length();
-        Bounded { lower: -away(at(places[0])).max(away(at(places[1]))), of: Part { places } }
+        // Nor is a point deeper than the middle by more than its way from there: parts outside are left out soon.
+        let height = if projected.is_inside { -depth } else { depth };
+        let along = 0.5 * (places[1] - places[0]) * length;
+        let lower = (height - along).max(-away(at(places[0])).max(away(at(places[1]))));
+        Bounded { lower, of: Part { places } }
     };
 
     let mut queue = BinaryHeap::from([bounded([0.0, 1.0], &mut best)]);

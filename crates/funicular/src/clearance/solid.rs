@@ -1,6 +1,6 @@
 //! Bodies at their places: distances from segments, points and each other.
 
-use super::depth;
+use super::{BODY_TOLERANCE, depth};
 use crate::math::Vec3;
 use crate::robot::{Body, Pose, Solid, from_vector, vector};
 use parry3d_f64::bounding_volume::BoundingVolume;
@@ -204,13 +204,19 @@ fn by_library(shape: &SharedShape, from: &Vec3, to: &Vec3) -> (f64, f64, Vec3) {
     }
     let segment = Segment::new(vector(from), vector(to));
     let identity = Placement::IDENTITY;
-    match query::closest_points(&identity, &segment, &identity, &*shape.0, f64::INFINITY) {
+    let outside = match query::closest_points(&identity, &segment, &identity, &*shape.0, f64::INFINITY) {
         Ok(ClosestPoints::WithinMargin(on_segment, on_shape)) => {
             let fraction = (from_vector(on_segment) - from).dot(&along) / (length * length);
             ((on_segment - on_shape).length(), fraction.clamp(0.0, 1.0), from_vector(on_shape))
         }
-        _ => depth::in_shape(shape, from, to),
+        _ => return depth::in_shape(shape, from, to),
+    };
+    if outside.0 > BODY_TOLERANCE {
+        return outside;
     }
+    // The library may give the point at which a segment pierces a surface.
+    let inside = depth::in_shape(shape, from, to);
+    if inside.0 < 0.0 { inside } else { outside }
 }
 
 /// Place of the nearest point of a segment to a cylinder along y. The distance is convex along the segment, so its slope
