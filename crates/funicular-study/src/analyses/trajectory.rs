@@ -42,8 +42,8 @@ const KEY: &str = "path";
 /// Number of parts of a path between its rows, if nothing says how many.
 const PARTS: f64 = 200.0;
 
-/// Number of parts of a path whose ends are computed beside the rows: with 200 the largest accelerations of the examples
-/// were 0.3 % lower, with 800 0.02 % higher.
+/// Number of parts of a path whose ends are computed beside the rows: every phase has at least eight of its own, and of
+/// a smooth peak between two of 400 parts less than a thousandth is lost.
 const OWN_PARTS: usize = 400;
 
 /// Part of a row beyond the last one that counts as rounding.
