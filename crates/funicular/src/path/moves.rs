@@ -10,8 +10,8 @@ use crate::robot::Pose;
 /// Number of times at which the distance to a pose is looked at while two moves overlap.
 const LOOKS: usize = 200;
 
-/// Number of times that the limits of two moves which overlap are lowered; one time leaves 10 % for two equal moves, and
-/// four leave nothing. What is left then slows the whole path down.
+/// Largest number of times that the limits of two moves which overlap are lowered. What is left then slows the whole path
+/// down, so that more rounds would make it faster at most.
 const ROUNDS: usize = 4;
 
 /// Moves from pose to pose.

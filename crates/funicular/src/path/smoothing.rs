@@ -11,7 +11,7 @@ const WEIGHT_FACTOR: f64 = 10.0;
 const MAX_WEIGHT: f64 = 1e10;
 
 /// Part of the sum that the barrier may leave, half of the square of Newton's decrement at which a weight is done, and
-/// largest numbers of steps and of halvings of a step: a weight took up to 11 steps and 6 halvings.
+/// largest numbers of steps and of halvings of a step, for the end of the iteration: every result is inside the bounds.
 const GAP: f64 = 1e-3;
 const DONE: f64 = 1e-4;
 const MAX_STEPS: usize = 40;

@@ -80,6 +80,7 @@ fn keeps_limits(planned: &Planned, count: usize, watch: &mut dyn Watch) -> Resul
         Err(error) if ErrorKind::of(&error) == ErrorKind::NoSolution => return Ok(false),
         Err(error) => return Err(error),
     };
-    let within = |k: usize| used::most(&samples.used(&plain, k)).is_none_or(|(_, part)| part <= 1.0 + ROUNDING);
+    let within =
+        |k: usize| used::most(&used::parts(&samples, &plain, k)).is_none_or(|(_, part)| part <= 1.0 + ROUNDING);
     Ok((0..samples.times.len()).all(within))
 }

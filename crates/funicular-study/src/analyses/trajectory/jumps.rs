@@ -1,8 +1,8 @@
 //! Times at which lengths or their rates jump, each with its cause.
 
 use super::Planned;
+use super::at_time::{in_motion, lengths};
 use super::instants::Instant;
-use super::samples::{in_motion, lengths};
 use crate::at_rest::{LEFT, MIN_TENSION};
 use crate::text::significant;
 use anyhow::Result;

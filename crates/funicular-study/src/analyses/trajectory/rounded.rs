@@ -6,15 +6,15 @@ use crate::request::NumberColumns;
 use crate::text::{short, significant};
 use funicular::path::smoothed_within;
 
-/// Accelerations by rounding, over those of the smoothed motion, from which on a warning comes: a path of 1 mm every 0.1 s
-/// had 0.2 and tensions that were right to 2 %, one of 0.1 mm every 10 ms had 3 and lost most of a tension.
+/// Accelerations by rounding, over those of the smoothed motion, from which on a warning comes. A motion with 1.4 m/s² in
+/// steps of 1 mm every 0.1 s has some 0.2, and tensions that are right to 2 %; steps of 0.1 mm every 10 ms have 2 and more.
 const MAX_PART: f64 = 0.4;
 
 /// Unit of the last digit below which a column has all digits [m or degrees].
 const MIN_UNIT: f64 = 1e-9;
 
-/// Part of the noise of fourth differences that sixth differences show at least if the values are noisy; smooth values have
-/// 0.1 and less.
+/// Part of the noise of fourth differences that sixth differences show at least if the values are noisy: white noise has
+/// 1, and smooth values the square of their frequency times the step.
 const NOISE: f64 = 0.7;
 
 /// Noise over the unit of the last digit from which on it is none of rounding, which has 0.29.

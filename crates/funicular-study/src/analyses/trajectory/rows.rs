@@ -1,6 +1,7 @@
 //! Rows of a trajectory, and their columns.
 
-use super::samples::{MotionSamples, lengths};
+use super::at_time::lengths;
+use super::samples::MotionSamples;
 use super::used::UsedLimit;
 use crate::analyses::fields::{self, AXES};
 use crate::analyses::shared::PoseRow;

@@ -1,23 +1,18 @@
 //! A robot at the times of a path: lengths, tensions, winches, and where lengths or their rates jump.
 
+use super::Planned;
+use super::at_time::{in_motion, lengths};
 use super::instants::{Instant, instants};
 use super::jumps::{self, LengthJump, Sample};
-use super::used::UsedLimit;
-use super::{Planned, used};
-use crate::error::{Cancelled, NoSolution};
-use crate::text::significant;
+use crate::error::Cancelled;
 use crate::watch::Watch;
-use anyhow::{Result, anyhow};
+use anyhow::Result;
 use funicular::clearance::{Clearance, Surroundings};
-use funicular::path::Side;
 use funicular::robot::{MotorLoad, Robot};
-use funicular::trajectory::{AlongPath, InMotion, length_accelerations};
+use funicular::trajectory::{InMotion, length_accelerations};
 
 /// Times between two looks at whether the work shall stop.
 const PER_LOOK: usize = 50;
-
-/// Largest number of times at which the reserve of the inertia is computed.
-const MAX_RESERVES: usize = 800;
 
 /// Robot at the times of a path, ascending. Both sides of a jump are two of them.
 pub(super) struct MotionSamples {
@@ -31,9 +26,6 @@ pub(super) struct MotionSamples {
     pub(super) nearest: Vec<Option<Clearance>>,
     /// Jumps of lengths or of their rates.
     pub(super) jumps: Vec<LengthJump>,
-    /// Largest part that the inertia is of the one that any tensions within their limits hold; `None` where the tensions
-    /// are no matter of choice.
-    pub(super) inertia: Option<f64>,
 }
 
 /// Winch of a cable at one time; without a winch in the file that of a plain drum at the anchor.
@@ -99,9 +91,7 @@ impl MotionSamples {
         let around = planned.judged.clearance.then(|| Surroundings::of(planned.robot));
         let nearest = |k: &usize| around.as_ref().and_then(|around| around.least(&motions[*k].equilibrium, None));
         let nearest = rows.iter().map(nearest).collect();
-        let stride = motions.len().div_ceil(MAX_RESERVES);
-        let inertia = planned.judged.inertia.then(|| used::part_of_inertia(planned, motions.iter().step_by(stride)));
-        Self { times, motions, accelerations, rows, nearest, jumps, inertia: inertia.flatten() }
+        Self { times, motions, accelerations, rows, nearest, jumps }
     }
 
     /// Winch of a cable at the time with this index.
@@ -114,25 +104,4 @@ impl MotionSamples {
         let motor = cable.anchor.winch.as_ref().map(|winch| winch.motor(tension, speed, acceleration));
         WinchInMotion { speed, acceleration, motor }
     }
-
-    /// Used part of every limit at the time with this index.
-    pub(super) fn used(&self, planned: &Planned, k: usize) -> Vec<(UsedLimit, f64)> {
-        used::parts(self, planned, k)
-    }
-}
-
-/// Robot beside a time of a path.
-pub(super) fn in_motion(along: &mut AlongPath, planned: &Planned, time: f64, side: Side) -> Result<InMotion> {
-    along.at(&planned.path.beside(time, side)).map_err(|error| {
-        let mut text = format!("{} s after the start of the path: {error}", significant(time, 4));
-        if let Some(rounded) = &planned.rounded {
-            text.push_str(&format!("; {}", rounded.advice()));
-        }
-        if error.is_no_solution() { NoSolution(text).into() } else { anyhow!(text) }
-    })
-}
-
-/// Unstrained lengths [m].
-pub(super) fn lengths(motion: &InMotion) -> Vec<f64> {
-    motion.equilibrium.cables.iter().map(|cable| cable.unstrained_length).collect()
 }

@@ -1,7 +1,8 @@
 //! Lengths of a controller that changes them in straight lines between its stations.
 
 use super::Planned;
-use super::samples::{MotionSamples, lengths};
+use super::at_time::{in_motion, lengths};
+use super::samples::MotionSamples;
 use anyhow::Result;
 use funicular::path::Side;
 use funicular::statics;
@@ -52,8 +53,8 @@ impl Stations {
         let half = 0.5 * interval;
         let middle = samples.times[k].clamp(half, duration - half);
         let mut along = planned.along();
-        let [from, to, at] = [middle - half, middle + half, middle]
-            .map(|time| super::samples::in_motion(&mut along, planned, time, Side::After));
+        let [from, to, at] =
+            [middle - half, middle + half, middle].map(|time| in_motion(&mut along, planned, time, Side::After));
         let (from, to, at) = (lengths(&from?), lengths(&to?), at?);
         let on_line: Vec<f64> = from.iter().zip(&to).map(|(from, to)| 0.5 * (from + to)).collect();
         let errors = lengths(&at).into_iter().zip(&on_line).map(|(at, line)| (at - line).abs());

@@ -11,6 +11,9 @@ use funicular::trajectory::InMotion;
 /// Excess of a tension by choice over its limit that is the error of the rule's solution.
 const ROUNDING_OF_RULE: f64 = 1e-6;
 
+/// Largest number of times at which the reserve of the inertia is computed.
+const MAX_RESERVES: usize = 800;
+
 /// Limit, of which a motion uses a part.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum UsedLimit {
@@ -91,8 +94,12 @@ fn of_winch(samples: &MotionSamples, robot: &Robot, k: usize, i: usize) -> Vec<(
 }
 
 /// Inertia over the largest multiple of it that tensions within their limits hold, the largest on the path; `None` where
-/// the dead load alone is not held.
-pub(super) fn part_of_inertia<'a>(planned: &Planned, motions: impl Iterator<Item = &'a InMotion>) -> Option<f64> {
+/// the dead load alone is not held, and where the tensions are no matter of choice.
+pub(super) fn part_of_inertia(planned: &Planned, motions: &[InMotion]) -> Option<f64> {
+    if !planned.judged.inertia {
+        return None;
+    }
+    let stride = motions.len().div_ceil(MAX_RESERVES);
     let mut robot = Robot { required: RequiredLoads::default(), ..planned.robot.clone() };
     let part = |motion: &InMotion| {
         let [force_w, moment_w] = motion.point.inertia(planned.robot);
@@ -103,7 +110,7 @@ pub(super) fn part_of_inertia<'a>(planned: &Planned, motions: impl Iterator<Item
         let capacity = LoadCapacity::at(&robot, &motion.point.pose, planned.model, None).ok()?;
         Some(1.0 / capacity.load_factor().ok()?.value)
     };
-    motions.filter_map(part).reduce(f64::max)
+    motions.iter().step_by(stride).filter_map(part).reduce(f64::max)
 }
 
 /// Required distance over the distance of a pair; infinite where it touches.
