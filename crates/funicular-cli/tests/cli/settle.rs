@@ -373,3 +373,42 @@ fn a_page_shows_the_decay_and_the_lengths() {
         assert!(text.contains(part), "{part}");
     }
 }
+
+/// Symmetric robots have motions that share a frequency: every robot of the library with damping and every new one has an
+/// answer.
+#[test]
+fn every_robot_with_damping_has_a_decay() {
+    let release = ["settle", "-", "--release-n", "0,0,-1"];
+    for (name, text) in funicular_robots::ALL {
+        if text.contains("damping_ratio") {
+            let found = json_of(&release, text);
+            assert!(number(&found["settled_s"]) <= number(&found["surely_settled_s"]), "{name}");
+            assert!(number(&found["lowest_tension"]["tension_n"]) > 0.0, "{name}");
+        }
+    }
+    for more in [&["--cables", "3"][..], &["--cables", "4"], &["--cables", "6"], &["--cables", "8"]] {
+        let file = succeed(&[&["new"][..], more].concat());
+        let output = run_with(&release, &file);
+        assert!(output.status.success(), "{more:?}: {}", stderr(&output));
+    }
+}
+
+/// A stop says what the modes above the limit may add, and never that it has settled "after 0 s" of no modes.
+#[test]
+fn a_stop_states_its_bounds() {
+    let stop = ["settle", "-", "--pose", "0,0,1.5", "--stop-m-s", "0.2,0,0"];
+    let cogiro = std::fs::read_to_string(robot("cogiro.toml")).unwrap();
+    let output = run_with(&[&stop[..], &["--below-hz", "5.5"]].concat(), &cogiro);
+    assert!(output.status.success(), "{}", stderr(&output));
+    let text = String::from_utf8_lossy(&output.stdout).into_owned();
+    assert!(text.contains("All modes above the limit together move the point by at most"), "{text}");
+    assert!(stderr(&output).contains("the modes above 5.5 Hz may"), "{}", stderr(&output));
+
+    // The limit that the program chooses leaves little.
+    let found = json_of(&stop, &cogiro);
+    assert!(number(&found["omitted_m"]) < number(&found["tolerance_m"]), "{found}");
+
+    let none = run_with(&[&stop[..], &["--below-hz", "0.1"]].concat(), &cogiro);
+    assert_eq!(none.status.code(), Some(2));
+    assert!(stderr(&none).contains("no mode in which the platform moves lies below 0.1 Hz"), "{}", stderr(&none));
+}

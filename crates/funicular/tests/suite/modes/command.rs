@@ -5,7 +5,7 @@ use super::release::exponential;
 use funicular::cable::catenary_dynamic::DriveSignal;
 use funicular::dynamics::{Dynamics, Linearisation};
 use funicular::math::{Complex, DMat, Vec3};
-use funicular::modes::{self, CommandedMotions, Decay, LengthCommand, damped};
+use funicular::modes::{self, CommandedMotions, Decay, LengthCommand, OmittedModes, damped};
 use funicular::path::{Profile, Shaper, ShaperKind};
 use funicular::reduced_model::{DampingAt, RequestedModel, SecondOrder, reduce};
 use funicular::response::{Quantity, Signal};
@@ -340,4 +340,45 @@ fn a_course_is_a_ramp_with_one_box_and_has_the_way_of_its_mean_time() {
     let smooth = Profile::new(&[1.2, 0.3, 0.1]);
     assert!((smooth.done(0.8) - 0.5).abs() < 1e-13 && (smooth.remaining(0.0) - 0.8).abs() < 1e-13);
     assert!((smooth.duration() - 1.6).abs() < 1e-15 && smooth.remaining(1.6) == 0.0 && smooth.done(-1.0) == 0.0);
+}
+
+/// What the modes above a limit add to a stop stays within the bounds of a list that ends there, from the mass of slow
+/// displacements that the listed modes leave: with a higher limit the bounds fall.
+#[test]
+fn modes_above_the_limit_stay_within_their_bounds() {
+    let mut robot = Robot::from_toml(funicular_robots::COGIRO).unwrap();
+    robot.cables.iter_mut().for_each(|cable| cable.material.damping = Damping::Ratio(1e-5));
+    let rest = statics::solve(&robot, StaticModel::Catenary, None).unwrap().equilibrium;
+    let rates = rates_of(&robot, &rest);
+    let mut lossless = robot.clone();
+    lossless.cables.iter_mut().for_each(|cable| cable.material.damping = Damping::Ratio(0.0));
+    let arm_w = Vec3::new(0.3, -0.2, 0.1);
+    let stretch: Vec<f64> = (robot.cables.iter().zip(&rest.cables))
+        .map(|(cable, state)| cable.material.axial_stiffness / state.unstrained_length)
+        .collect();
+
+    for times in [&[][..], &[0.05], &[0.4, 0.1]] {
+        let command = LengthCommand::Stop { rates: rates.clone(), profile: Profile::new(times) };
+        let found = [4.5, 7.0, 10.0, 16.0, 24.0].map(|below_hz| {
+            let dynamics = Dynamics::about(&robot, &rest, Linearisation::default(), below_hz).unwrap();
+            let list = modes::below(&dynamics, below_hz);
+            let damped = damped::damped_modes(&dynamics, &list);
+            let decay = CommandedMotions::of(&dynamics, &list, &damped, &arm_w).unwrap().after(&command);
+            let still = Dynamics::about(&lossless, &rest, Linearisation::default(), below_hz).unwrap();
+            let omitted = OmittedModes::of(&still, &list, &arm_w, stretch.clone()).expect("a bound");
+            (decay, omitted.bounds(&command))
+        });
+        let (last, _) = &found[found.len() - 1];
+        for (decay, bounds) in &found[..found.len() - 1] {
+            let gaps = (0..400).map(|i| {
+                let time = f64::from(i) * 0.01;
+                (decay.at(time) - last.at(time)).norm()
+            });
+            let gap = gaps.fold(0.0, f64::max);
+            println!("{times:?}: {gap:e} of {:e} m, {:e} N", bounds.distance, bounds.mean_tensions[0]);
+            assert!(gap <= bounds.distance * 1.001, "{times:?}: {gap:e} {:e}", bounds.distance);
+        }
+        assert!(found.windows(2).all(|pair| pair[1].1.distance <= pair[0].1.distance), "{times:?}");
+        assert!(found[4].1.distance < 0.2 * found[0].1.distance, "{times:?}");
+    }
 }

@@ -118,8 +118,8 @@ fn symmetric() -> Robot {
     .unwrap()
 }
 
-/// Motions that share a frequency are found together: the motion is that of a robot that lacks a gram on one side of its
-/// symmetry, whose frequencies differ, and at the release that of all modes.
+/// Motions that share a frequency are found together: the motion is that of a robot whose inertia about
+/// one axis is a millionth larger, so that its frequencies differ, and at the release that of all modes.
 #[test]
 fn motions_that_share_a_frequency_have_a_decay() {
     let released = |robot: &Robot| {
@@ -133,14 +133,14 @@ fn motions_that_share_a_frequency_have_a_decay() {
     };
     let robot = symmetric();
     let mut other = robot.clone();
-    other.platform.center_of_mass_p.x += 1e-6;
+    other.platform.inertia_p[(0, 0)] *= 1.0 + 1e-6;
     let [both, apart] = [&robot, &other].map(released);
     let size = both.held.norm();
     assert!(both.decay.motions.len() < apart.decay.motions.len());
     assert!((both.decay.at(0.0) - both.held).norm() <= both.omitted, "{both:?}");
     for time in [0.0, 0.03, 0.4, 1.7, 9.0] {
         let gap = (both.decay.at(time) - apart.decay.at(time)).norm();
-        assert!(gap < 1e-4 * size, "{time} s: {gap:e} of {size:e}");
+        assert!(gap < 1e-3 * size, "{time} s: {gap:e} of {size:e}");
     }
-    assert!((both.decay.envelope(0.0)) <= apart.decay.envelope(0.0) * (1.0 + 1e-4));
+    assert!((both.decay.envelope(0.0)) <= apart.decay.envelope(0.0) * (1.0 + 1e-3));
 }
