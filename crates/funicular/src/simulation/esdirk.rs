@@ -10,8 +10,9 @@ mod state;
 
 use super::arrow::Arrow;
 use super::dense::DenseOutput;
+use super::resting::RestingRope;
 use super::rope::{Newton, WoundLength};
-use super::system::{BODY, MotionNumbers, System, turn_rate};
+use super::system::{BODY, MotionNumbers, System, three, turn_rate};
 use crate::math::Vec3;
 use rolling::Rolling;
 use stage::NotSolved;
@@ -126,11 +127,12 @@ impl Stepper {
     }
 
     /// Brings the motion to rest where all forces balance and every rope leaves its wheel along its tangent, from a place
-    /// near it; `false` if there is no such place.
-    pub(super) fn settle(&mut self) -> bool {
+    /// near it; `false` if there is no such place. `narrow` has the load per length of each rope that hangs in a bend too
+    /// narrow for its mesh.
+    pub(super) fn settle(&mut self, narrow: &[Option<Vec3>]) -> bool {
         const ROUNDS: usize = 20;
         for _ in 0..ROUNDS {
-            if !self.settle_on_wheels() {
+            if !self.settle_on_wheels(narrow) {
                 return false;
             }
             if !self.roll_wheels(Rolling::AtRest) {
@@ -140,21 +142,33 @@ impl Stepper {
         true
     }
 
-    /// Brings the motion to rest with the wrap angles held.
-    fn settle_on_wheels(&mut self) -> bool {
+    /// Brings the motion to rest with the wrap angles held. Ropes in narrow bends are at rest between their ends at every
+    /// step, because Newton's method finds no hold on them, until their ends hardly move.
+    fn settle_on_wheels(&mut self, narrow: &[Option<Vec3>]) -> bool {
         const STEPS: usize = 50;
+        /// Change below which Newton's method takes all nodes along [m]: far below their distance, far above rounding.
+        const CLOSE: f64 = 1e-6;
+        let mut by_ends = narrow.iter().any(Option::is_some);
         let lengths = self.system.lengths(self.time);
         let of = Newton { mass: 0.0, damping: 0.0, stiffness: 1.0 };
         self.now.v.fill(0.0);
         self.now.a.fill(0.0);
         let (mut least, mut stalled) = (f64::INFINITY, 0);
-        for _ in 0..STEPS {
+        for step in 0..STEPS {
+            if by_ends {
+                self.hang(narrow, &lengths);
+            }
             self.evaluate(&lengths);
             if self.arrow.factor(&self.system, self.time, &lengths, &self.now, &self.needed, of).is_err() {
                 return false;
             }
             let mut change = self.needed.clone();
             self.arrow.solve(&self.system, &mut change);
+            if by_ends {
+                for i in (0..narrow.len()).filter(|i| narrow[*i].is_some()) {
+                    change[self.system.of_rope(i)].fill(0.0);
+                }
+            }
             let size = change.iter().fold(0.0_f64, |most, of| most.max(of.abs()));
             if !size.is_finite() {
                 return false;
@@ -165,6 +179,11 @@ impl Stepper {
                 *x += part * change;
             }
             self.absorb_turn();
+            if by_ends {
+                // Rounding of their forces may move soft platforms by more.
+                by_ends = size > CLOSE && step < STEPS / 2;
+                continue;
+            }
             stalled = if size < 0.5 * least { 0 } else { stalled + 1 };
             least = least.min(size);
             if size < 1e-13 || (stalled > 2 && least < 1e-9) {
@@ -174,6 +193,23 @@ impl Stepper {
             }
         }
         false
+    }
+
+    /// Brings ropes in narrow bends to rest between their ends.
+    fn hang(&mut self, narrow: &[Option<Vec3>], lengths: &[WoundLength]) {
+        let body = self.system.body_motion(&self.now);
+        self.system.fill_ends(&body, lengths, &mut self.now);
+        for (i, load_w) in narrow.iter().enumerate().filter_map(|(i, load_w)| Some((i, (*load_w)?))) {
+            let range = self.system.of_rope(i);
+            let ends_w = [range.start, range.end - 3].map(|from| three(&self.now.x, from));
+            let length = self.system.free_length(i, &lengths[i], &self.now).value;
+            let resting = RestingRope { rope: &self.system.ropes[i], length, load_w, ends_w };
+            let Some(nodes_w) = resting.nodes(&(-load_w * length)) else { continue };
+            for (node, node_w) in nodes_w.iter().enumerate() {
+                let from = range.start + 3 * node;
+                self.now.x[from..from + 3].copy_from_slice(node_w.as_slice());
+            }
+        }
     }
 
     /// Takes the turn of the motion into the rotation of the system.

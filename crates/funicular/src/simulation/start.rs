@@ -376,10 +376,10 @@ pub(super) fn at_rest(
         rotation: rest.pose.rot_wp,
         evaluations: 0,
     };
-    let now = hanging(robot, &system, rest)?;
+    let (now, narrow) = hanging(robot, &system, rest)?;
     lock(&mut system, &now);
     let mut stepper = Stepper::new(system, now, settings.tolerance, robot.platform_length());
-    if !stepper.settle() {
+    if !stepper.settle(&narrow) {
         return Err(SimulationError::NoRest(rest_fault(robot, rest, &stepper.system)));
     }
     let_go(robot, &mut stepper, holds_tension);
@@ -462,9 +462,15 @@ fn let_go(robot: &Robot, stepper: &mut Stepper, holds_tension: &dyn Fn(usize) ->
     }
 }
 
-/// Nodes on the curves of the cables at rest, and what lies behind them.
-fn hanging(robot: &Robot, system: &System, rest: &Equilibrium) -> Result<MotionNumbers, SimulationError> {
+/// Nodes on the curves of the cables at rest, and what lies behind them; with the load per length of each rope in a bend
+/// too narrow for its mesh.
+fn hanging(
+    robot: &Robot,
+    system: &System,
+    rest: &Equilibrium,
+) -> Result<(MotionNumbers, Vec<Option<Vec3>>), SimulationError> {
     let mut motion = MotionNumbers::zeros(system.size);
+    let mut narrow = vec![None; system.ropes.len()];
     let put =
         |motion: &mut MotionNumbers, from: usize, at: &Vec3| motion.x[from..from + 3].copy_from_slice(at.as_slice());
     put(&mut motion, 0, &rest.pose.point_w(&system.body.center_p));
@@ -472,9 +478,14 @@ fn hanging(robot: &Robot, system: &System, rest: &Equilibrium) -> Result<MotionN
         let hanging = rest.cables[i].hanging.as_ref().ok_or(SimulationError::NotElastic)?;
         let length = hanging.catenary.rope().unstrained_length;
         let state = &rest.cables[i];
-        for (node, at) in nodes_at_rest(rope, hanging, state).iter().enumerate() {
+        let nodes_w = nodes_on_curve(rope, hanging);
+        for (node, at) in nodes_w.iter().enumerate() {
             put(&mut motion, system.offsets[i] + 3 * node, at);
         }
+        let load_w = hanging.load_w();
+        let ends_w = [nodes_w[0], hanging.end_w];
+        let is_narrow = load_w.norm() > 0.0 && RestingRope { rope, length, load_w, ends_w }.is_coarse(&nodes_w);
+        narrow[i] = is_narrow.then_some(load_w);
         if let Some(index) = robot.cables[i].anchor.support {
             put(&mut motion, System::of_support(index).start, &state.displacement_w);
         }
@@ -485,21 +496,16 @@ fn hanging(robot: &Robot, system: &System, rest: &Equilibrium) -> Result<MotionN
             motion.x[from..from + stations.len()].copy_from_slice(&stations);
         }
     }
-    Ok(motion)
+    Ok((motion, narrow))
 }
 
-/// Nodes of a rope on its catenary. Where the mesh is too coarse to follow its bend, they are those of the mesh at rest
-/// between the same ends.
-fn nodes_at_rest(rope: &RopeMesh, hanging: &HangingCable, state: &CableState) -> Vec<Vec3> {
+/// Nodes of a rope on its catenary.
+fn nodes_on_curve(rope: &RopeMesh, hanging: &HangingCable) -> Vec<Vec3> {
     let (length, degree) = (hanging.catenary.rope().unstrained_length, rope.basis.degree);
     let on_catenary = |node: usize| {
         let (e, q) = (node / degree, node % degree);
         let sigma = (e as f64 + rope.basis.nodes[q]) / rope.elements as f64;
         if node == rope.last() { hanging.end_w } else { hanging.point_w(sigma * length) }
     };
-    let nodes_w: Vec<Vec3> = (0..=rope.last()).map(on_catenary).collect();
-    let ends_w = [nodes_w[0], hanging.end_w];
-    let resting = RestingRope { rope, length, load_w: hanging.load_w(), ends_w };
-    let found = if resting.is_coarse(&nodes_w) { resting.nodes(&state.force_on_platform_w) } else { None };
-    found.unwrap_or(nodes_w)
+    (0..=rope.last()).map(on_catenary).collect()
 }
