@@ -38,8 +38,8 @@ pub(super) fn section(reference: &ReferenceTable<CentreRow>) -> Result<Section> 
     }
     Ok(Section {
         title: "Centre of the tensions, computed independently",
-        note: "The tension rule `centre`: minimum of the logarithms of the distances from the limits, with sagging cables, \
-               over fixed anchors and over pulleys; random poses, some near the border, some with a load.",
+        note: "The tension rule `centre`: minimum of the logarithms of the distances from the limits, with sagging \
+               cables, over fixed anchors and over pulleys; random poses, some near the border, some with a load.",
         rows,
     })
 }
