@@ -38,8 +38,8 @@ pub(super) fn section(reference: &ReferenceTable<CentreRow>) -> Result<Section> 
     }
     Ok(Section {
         title: "Centre of the tensions, computed independently",
-        note: "The tension rule `centre`: minimum of the logarithms of the distances from the limits, with sagging cables, \
-               over fixed anchors and over pulleys; random poses, some near the border, some with a load.",
+        note: "The tension rule `centre`: minimum of the logarithms of the distances from the limits, with sagging \
+               cables, over fixed anchors and over pulleys; random poses, some near the border, some with a load.",
         rows,
     })
 }
@@ -64,6 +64,9 @@ fn found(row: &CentreRow) -> Result<Found<'_>> {
 /// Numbers of the reference and of the program at one pose.
 type Pair = (Vec<f64>, Vec<f64>);
 
+/// Quantity with its numbers at a pose.
+type Quantity<'a> = (&'static str, Box<dyn Fn(&Found) -> Pair + 'a>);
+
 /// Comparison of the pair with the largest difference, relative to its largest number.
 fn compared(case: &Case, quantity: &str, pairs: impl Iterator<Item = Pair>, tolerance: f64) -> Option<Comparison> {
     let difference = |(theirs, ours): &Pair| over(largest_difference(theirs, ours), largest(theirs));
@@ -77,7 +80,6 @@ fn at_poses(case: &Case, all: &[Found]) -> Vec<Comparison> {
         found.centre.equilibrium.cables.iter().map(of).collect()
     };
     let limit = |found: &Found, side: usize| -> Vec<f64> { found.centre.limits.iter().map(|of| of[side]).collect() };
-    type Quantity<'a> = (&'static str, Box<dyn Fn(&Found) -> Pair + 'a>);
     let quantities: [Quantity; 5] = [
         (
             "tensions along the chords [N], worst pose",

@@ -1,8 +1,9 @@
 //! Limits of τ of the rule `centre` as scalars, with their coefficients.
 //!
 //! A limit of τ belongs to another tension of the same cable at the same pose, with its own shape and its own exit
-//! point. Its differential is that of τ there, less the change of length that keeps the lowest or the highest tension at
-//! its limit. Both are followed through the partial derivatives of the cable at this tension (docs/theory.md, (60t4)).
+//! point. Its differential is that of τ there, less the change of length that keeps the lowest or the highest tension
+//! at its limit. Both are followed through the partial derivatives of the cable at this tension (docs/theory.md,
+//! (60t4)).
 
 use super::GradientError;
 use super::adjoint::CableAdjoint;
@@ -105,9 +106,9 @@ fn reached(limit: &TauLimit<'_>, state: &CableState, tension: &ParallelTension) 
     sum
 }
 
-/// Adds `factor` times coefficients over the state at a limit, followed to chord, load and stiffness, which are those of
-/// the equilibrium as well, or over a pulley to the outer variables. Length is left out: all that is added together does
-/// not depend on it.
+/// Adds `factor` times coefficients over the state at a limit, followed to chord, load and stiffness, which are those
+/// of the equilibrium as well, or over a pulley to the outer variables. Length is left out: all that is added together
+/// does not depend on it.
 fn add_followed(sum: &mut CableAdjoint<f64>, of: &CableAdjoint<f64>, partials: &CablePartials, factor: f64) {
     let force = Vec3::from(of.force);
     add_real(&mut sum.load, Vec3::from(of.load) * factor);

@@ -241,7 +241,9 @@ pub enum StaticsError {
     },
     /// The tensions have no room between their limits.
     #[error(
-        "the tension rule `centre` needs tensions strictly between their limits, and at this pose that of cable          \"{cable}\" is at one: the best tensions leave a room of {room:.4} N; widen the limits of tension, choose the          rule `lowest` or `closest`, or a pose further inside"
+        "the tension rule `centre` needs tensions strictly between their limits, and at this pose that of cable \
+         \"{cable}\" is at one: the best tensions leave a room of {room:.4} N; widen the limits of tension, choose the \
+         rule `lowest` or `closest`, or a pose further inside"
     )]
     NoCentre {
         /// Name of the cable with the least room.

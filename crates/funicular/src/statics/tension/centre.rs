@@ -33,13 +33,13 @@ const MAX_PART: f64 = 0.95;
 /// Fraction of Newton's step below which the search has run into the limits: no tensions within them, or none found.
 const MIN_FRACTION: f64 = 1e-9;
 
-/// Change of a tension over its distance from the nearer limit, and over the size of the tensions, that ends the search:
-/// Newton's method squares the first, and the second is rounding.
+/// Change of a tension over its distance from the nearer limit, and over the size of the tensions, that ends the
+/// search: Newton's method squares the first, and the second is rounding.
 const LAST_STEP: f64 = 1e-8;
 const ROUNDING: f64 = 1e-13;
 
-/// Maximum change of a tension over its distance from the nearer limit with which a derivative that holds the exit point
-/// is good enough for a step.
+/// Maximum change of a tension over its distance from the nearer limit with which a derivative that holds the exit
+/// point is good enough for a step.
 const FAR: f64 = 1e-2;
 
 /// Minimum curvature of the Lagrangian over that of the logarithms in a step; only very slack cables come near.
@@ -84,8 +84,8 @@ pub struct TensionCentre {
 /// search starts; the result does not depend on it but for rounding.
 ///
 /// # Errors
-/// [`StaticsError`], as for [`distribute_tensions`]; [`StaticsError::NoCentre`] if the tensions cannot be strictly within
-/// their limits.
+/// [`StaticsError`], as for [`distribute_tensions`]; [`StaticsError::NoCentre`] if the tensions cannot be strictly
+/// within their limits.
 ///
 /// # Example
 /// ```

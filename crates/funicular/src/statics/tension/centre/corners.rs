@@ -1,8 +1,8 @@
 //! Lowest and highest tension of a hanging span as smooth functions of its forces.
 //!
 //! The highest tension of a cable has a kink where the cable goes level, and the lowest one a jump of its curvature
-//! where the lowest point reaches an end. Absolute value and maximum are rounded over a hundredth of the weight, so that
-//! the limits of τ are smooth functions of pose and numbers (docs/theory.md, (40b2) and (40b3)).
+//! where the lowest point reaches an end. Absolute value and maximum are rounded over a hundredth of the weight, so
+//! that the limits of τ are smooth functions of pose and numbers (docs/theory.md, (40b2) and (40b3)).
 
 /// Width over which corners are rounded, as a part of the weight of the span.
 const ROUNDED: f64 = 0.01;
@@ -105,8 +105,8 @@ impl SpanForces {
 mod tests {
     use super::*;
 
-    /// Derivatives by central differences, on both sides of every corner; and the distance from the true tensions, which
-    /// (40b2) bounds.
+    /// Derivatives by central differences, on both sides of every corner; and the distance from the true tensions,
+    /// which (40b2) bounds.
     #[test]
     fn rounded_tensions_are_near_the_true_ones_and_have_their_derivatives() {
         let (h, weight) = (40.0, 6.0_f64);
