@@ -1,15 +1,79 @@
-//! Progress bar or spinner for work that takes more than a second, on a terminal only.
+//! Progress of work that takes long: a bar or spinner on a terminal, a line every ten seconds anywhere else.
 
+use crate::errors;
 use crate::interrupt::{self, Computes};
 use funicular_study::Watch;
 use indicatif::{ProgressBar, ProgressStyle};
-use std::sync::atomic::Ordering;
+use std::io::{self, IsTerminal};
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{self, RecvTimeoutError, Sender};
+use std::sync::{Mutex, PoisonError};
 use std::thread::{self, JoinHandle};
 use std::time::{Duration, Instant};
 
 /// Time before progress is shown. Most commands end before it.
 const PATIENCE: Duration = Duration::from_millis(700);
+
+/// Time between two lines of progress into a file or pipe.
+const BETWEEN_LINES: Duration = Duration::from_secs(10);
+
+/// Items that are done, of those known to be needed, for the next line.
+static SHOWN: Mutex<Option<(usize, usize, &'static str)>> = Mutex::new(None);
+
+/// Flag that is set while a thread writes lines.
+static WRITES_LINES: AtomicBool = AtomicBool::new(false);
+
+/// Thread that writes a line of progress every ten seconds while it exists, if stderr is no terminal and no other one
+/// writes them.
+pub(crate) struct ProgressLines {
+    thread: Option<(Sender<()>, JoinHandle<()>)>,
+}
+
+impl ProgressLines {
+    pub(crate) fn new() -> Self {
+        if io::stderr().is_terminal() || WRITES_LINES.swap(true, Ordering::Relaxed) {
+            return Self { thread: None };
+        }
+        show(None);
+        let (done, is_done) = mpsc::channel();
+        let started = Instant::now();
+        let thread = thread::spawn(move || {
+            while is_done.recv_timeout(BETWEEN_LINES) == Err(RecvTimeoutError::Timeout) {
+                let shown = *SHOWN.lock().unwrap_or_else(PoisonError::into_inner);
+                errors::to_stderr(&line(shown, started.elapsed()));
+            }
+        });
+        Self { thread: Some((done, thread)) }
+    }
+}
+
+impl Drop for ProgressLines {
+    fn drop(&mut self) {
+        if let Some((done, thread)) = self.thread.take() {
+            drop(done);
+            // No line comes after what is printed next.
+            let _ = thread.join();
+            WRITES_LINES.store(false, Ordering::Relaxed);
+        }
+    }
+}
+
+fn show(items: Option<(usize, usize, &'static str)>) {
+    *SHOWN.lock().unwrap_or_else(PoisonError::into_inner) = items;
+}
+
+/// Line about items that are done, of those known to be needed, after a time.
+fn line(shown: Option<(usize, usize, &'static str)>, after: Duration) -> String {
+    let seconds = after.as_secs();
+    match shown {
+        Some((done, total, what)) if done > 0 && total > done => {
+            let left = after.as_secs_f64() * (total - done) as f64 / done as f64;
+            format!("{done} of {total} {what} after {seconds} s, about {left:.0} s left for these")
+        }
+        Some((done, _, what)) => format!("{done} {what} after {seconds} s"),
+        None => format!("computing for {seconds} s"),
+    }
+}
 
 /// Counts finished items up to `total`.
 pub(crate) struct Progress {
@@ -19,6 +83,7 @@ pub(crate) struct Progress {
     what: &'static str,
     template: &'static str,
     bar: Option<ProgressBar>,
+    _lines: ProgressLines,
 }
 
 /// Template with the count and the remaining time.
@@ -28,7 +93,8 @@ const WITH_RATE: &str = "{bar:40} {human_pos}/{human_len} {msg}, {per_sec}, {eta
 
 impl Progress {
     pub(crate) fn new(total: usize, what: &'static str) -> Self {
-        Self { started: Instant::now(), total, done: 0, what, template: PLAIN, bar: None }
+        let lines = ProgressLines::new();
+        Self { started: Instant::now(), total, done: 0, what, template: PLAIN, bar: None, _lines: lines }
     }
 
     /// Adds the rate to the display.
@@ -41,6 +107,7 @@ impl Progress {
     /// Adds `count` finished items.
     pub(crate) fn advance(&mut self, count: usize) {
         self.done += count;
+        show(Some((self.done, self.total, self.what)));
         if self.bar.is_none() && self.started.elapsed() > PATIENCE {
             // indicatif draws on stderr, and draws nothing if stderr is not a terminal.
             let bar = ProgressBar::new(self.total as u64).with_elapsed(self.started.elapsed());
@@ -71,16 +138,17 @@ impl Drop for Progress {
     }
 }
 
-/// Progress bar of an analysis, drawn if stderr is a terminal. Ctrl-C stops the analysis while it exists.
+/// Progress of an analysis. Ctrl-C stops the analysis while it exists.
 pub(crate) struct TerminalProgress {
     /// Bar, and what it counts.
     bar: Option<(Progress, &'static str)>,
     _computes: Computes,
+    _lines: ProgressLines,
 }
 
 impl TerminalProgress {
     pub(crate) fn new() -> Self {
-        Self { bar: None, _computes: interrupt::stop_analysis() }
+        Self { bar: None, _computes: interrupt::stop_analysis(), _lines: ProgressLines::new() }
     }
 }
 
@@ -102,6 +170,7 @@ impl Watch for TerminalProgress {
 /// Spinner that appears once a command takes long, and stays until it is dropped.
 pub(crate) struct WaitingSpinner {
     done: Option<(Sender<()>, JoinHandle<()>)>,
+    _lines: ProgressLines,
 }
 
 impl WaitingSpinner {
@@ -116,7 +185,7 @@ impl WaitingSpinner {
                 spinner.finish_and_clear();
             }
         });
-        Self { done: Some((done, thread)) }
+        Self { done: Some((done, thread)), _lines: ProgressLines::new() }
     }
 }
 
@@ -127,5 +196,22 @@ impl Drop for WaitingSpinner {
             // The line is cleared before anything else is printed. A failed spinner is ignored.
             let _ = thread.join();
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lines_say_what_is_done_and_what_is_left() {
+        let after = Duration::from_secs(20);
+        assert_eq!(
+            line(Some((50, 200, "positions")), after),
+            "50 of 200 positions after 20 s, about 60 s left for these"
+        );
+        assert_eq!(line(Some((200, 200, "positions")), after), "200 positions after 20 s");
+        assert_eq!(line(Some((0, 200, "rows")), after), "0 rows after 20 s");
+        assert_eq!(line(None, after), "computing for 20 s");
     }
 }

@@ -9,6 +9,7 @@ use crate::output::{self, Sink};
 use crate::progress::Progress;
 use crate::table::counted;
 use anyhow::{Result, bail};
+use funicular_files::endings::Kind;
 use funicular_files::{Begin, CsvRows, Guard, Opened, Outcome, SweepFile, threads};
 use funicular_study::Request;
 use funicular_study::sweep::{Plan, PreparedSweep};
@@ -90,24 +91,26 @@ fn to_stdout(plan: &Plan, threads: NonZeroUsize) -> Result<()> {
 
 fn to_file(job: &Job, plan: &Plan, record: Record, path: &Path, threads: NonZeroUsize) -> Result<()> {
     let run = job.run;
+    // A file of rows as CSV says nothing of a summary.
+    let format = run.format.filter(|format| *format != Format::Csv);
     let begin = Begin::of(run.resume, run.discard);
     let range = record.range();
     let rows = record.rows_of(range.clone());
 
     let opened = funicular_files::Job::open(path, record, begin)?;
     // Before the rows, so that a slip can be corrected before hours of work.
-    if run.format.is_none() {
+    if format.is_none() {
         warn(job);
     }
     let mut work = match opened {
         Opened::Done => {
             errors::note(&format!("{} already contains all of {}", path.display(), counted(rows, "row")));
-            if run.format.is_none() {
+            if format.is_none() {
                 return Ok(());
             }
             let mut summary = Summary::new(job, plan.columns());
             SweepFile::open(path)?.each(|chunk| summary.add(chunk))?;
-            return summary.print(run.format);
+            return summary.print(format);
         }
         Opened::Work(work) => work,
     };
@@ -137,7 +140,7 @@ fn to_file(job: &Job, plan: &Plan, record: Record, path: &Path, threads: NonZero
 
     work.finish()?;
     errors::note(&format!("{} in {}", counted(rows, "row"), path.display()));
-    if run.format.is_some() { summary.print(run.format) } else { Ok(()) }
+    if format.is_some() { summary.print(format) } else { Ok(()) }
 }
 
 /// Prints the warnings about the robot, once per run. A summary has them in its own place.
@@ -150,8 +153,8 @@ fn refuse_output(job: &Job, guard: &mut Guard, path: &Path) -> Result<()> {
     if path.as_os_str() == "-" {
         bail!("rows go to standard output with --format csv and without -o");
     }
-    if job.run.format == Some(Format::Csv) {
-        bail!("--format csv is for standard output: leave out -o, or give -o a name that ends in .csv");
+    if job.run.format == Some(Format::Csv) && Kind::of(path) != Some(Kind::Csv) {
+        bail!("--format csv and the ending of -o contradict each other: give -o a name that ends in .csv");
     }
     Ok(guard.writes_rows(path, true)?)
 }

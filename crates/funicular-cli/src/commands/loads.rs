@@ -45,6 +45,10 @@ impl Printed for Loads {
 /// Load factor with its bounds, and the tensions at the load that binds.
 fn required_text(held: &RequiredHeld) -> String {
     let Some(factor) = held.load_factor else {
+        if held.force_n.iter().chain(&held.moment_n_m).all(|part| *part == 0.0) {
+            return "\nLoad factor: unlimited, the required loads act along motions that the platform does not have\n"
+                .to_owned();
+        }
         return "\nLoad factor: unlimited, no maximum tension limits it; give --max-tension-n\n".to_owned();
     };
     let bounds = [

@@ -4,7 +4,7 @@ use crate::args::{ChangeArgs, Cli, DrawArgs, FigureArgs, OutputArgs, WorkspaceAr
 use crate::errors::{self, Interrupted};
 use crate::interrupt::{STOPPED, stop_at_next_row};
 use crate::output::{Content, FigureSink, Printed, Sink, Target};
-use crate::progress::Progress;
+use crate::progress::{Progress, ProgressLines};
 use crate::robot_file;
 use crate::table::{Table, counted, short, significant, vector};
 use anyhow::{Result, bail};
@@ -113,13 +113,23 @@ fn open_surface<'a>(path: &'a Path, guard: &mut Guard) -> Result<(Target, Surfac
 fn compute(study: &WorkspaceStudy, threads: Option<NonZeroUsize>) -> Result<Workspace> {
     // A stopped search keeps its positions, however long their surface takes.
     stop_at_next_row(None)?;
+    let _lines = ProgressLines::new();
     let mut bar: Option<Progress> = None;
+    let mut positions = 0;
     let mut progress = |done: usize, total: usize, what: &'static str| {
+        positions = done;
         bar.get_or_insert_with(|| Progress::with_rate(total, what)).reach(done, total);
     };
     let run = WorkspaceRun { threads: threads::or_all(threads), cancel: &STOPPED };
     let found = run.run(study, &mut progress)?;
-    found.ok_or_else(|| Interrupted("stopped before anything was found".to_owned()).into())
+    let nothing = || {
+        Interrupted(format!(
+            "stopped after {}, before the first steps of the grid were done: there is no set yet; give a ⟪grid⟫ with \
+             fewer values",
+            counted(positions, "position")
+        ))
+    };
+    found.ok_or_else(|| nothing().into())
 }
 
 impl Printed for Workspace {
@@ -134,9 +144,9 @@ impl Printed for Workspace {
         let volume = self.volume();
         if let Some(plane) = &self.plane {
             line("plane", &format!("{} = {} m", plane.axis, short(plane.at_m, 6)));
-            line("area", &format!("{} m²{}", significant(plane.area_m2, 6), change_text(self)));
+            line("area", &format!("{} m²{}", significant(plane.area_m2, 6), error_text(self)));
         } else {
-            line("volume", &format!("{} m³{}", significant(volume.volume_m3, 6), change_text(self)));
+            line("volume", &format!("{} m³{}", significant(volume.volume_m3, 6), error_text(self)));
             line("area", &format!("{} m²", significant(volume.area_m2.unwrap_or(0.0), 6)));
         }
         if let Some(centroid) = volume.centroid_m {
@@ -188,11 +198,9 @@ fn orientation_text(of: &Workspace) -> String {
     }
 }
 
-/// Change of the volume from double steps, as the measure of its error.
-fn change_text(of: &Workspace) -> String {
-    of.change_by_halving().map_or_else(String::new, |change| {
-        format!("; halving the steps changed it by {} %", significant(100.0 * change, 2))
-    })
+/// Largest expected error of the volume.
+fn error_text(of: &Workspace) -> String {
+    of.relative_error().map_or_else(String::new, |error| format!(" ± {} %", significant(100.0 * error, 2)))
 }
 
 fn pieces_text(pieces: &[PartOfWorkspace]) -> String {

@@ -125,3 +125,37 @@ fn loads_that_contradict_themselves_are_refused_with_a_remedy() {
         assert!(code == Some(2) && message.contains(words), "{arguments:?}: {code:?} {message}");
     }
 }
+
+/// The pose alone decides on wrench closure, so that a map has it also where no tensions hold the dead load.
+#[test]
+fn closure_is_known_where_the_dead_load_is_not_held() {
+    let (header, rows) = csv(&[
+        "map",
+        &robot("ipanema2.toml"),
+        "--grid",
+        "x=-9:9:3",
+        "--grid",
+        "y=0",
+        "--grid",
+        "z=1",
+        "--quantity",
+        "load-factor,closure,tension-factor",
+        "--required-force-n",
+        "10,10,10",
+    ]);
+    let at = |name: &str| header.iter().position(|column| column == name).unwrap();
+    let [feasible, closure, factor] = ["feasible", "closure", "tension_factor"].map(at);
+    let value = |row: usize, column: usize| rows[row][column].as_str();
+    assert_eq!([0, 1, 2].map(|row| value(row, feasible)), ["false", "true", "false"]);
+    assert_eq!([0, 1, 2].map(|row| value(row, closure)), ["0.0", "1.0", "0.0"]);
+    assert!([0, 2].iter().all(|row| value(*row, factor) == "0.0" && value(*row, at("load_factor")).is_empty()));
+}
+
+/// The weight of a payload is at right angles to the plane of a level planar robot, which does not feel it.
+#[test]
+fn a_payload_that_a_planar_robot_does_not_feel_is_held_without_limit() {
+    let arguments = ["loads", &robot("kntu-planar.toml"), "--required-payload-max-kg", "5"];
+    let found = json(&arguments);
+    assert!(found["required"]["held"].as_bool() == Some(true) && found["required"]["load_factor"].is_null(), "{found}");
+    assert!(succeed(&arguments).contains("motions that the platform does not have"));
+}

@@ -227,3 +227,38 @@ fn a_planar_platform_has_an_area() {
     let svg = std::fs::read_to_string(&figure).unwrap();
     assert!(svg.contains("<svg") && svg.contains("anchor"), "{svg}");
 }
+
+/// A limit that is met exactly over a region is kept there: the set is that without the limit, and its stated error bounds
+/// the difference from a finer grid. A section at a face of the grid has the area of one just inside.
+#[test]
+fn a_limit_that_is_met_exactly_over_a_region_loses_nothing() {
+    let hall = super::project("docs/quick-start/hall.toml");
+    let grid = |steps: [usize; 3]| {
+        [("x=-10:10", steps[0]), ("y=-6:6", steps[1]), ("z=2:8", steps[2])]
+            .map(|(of, count)| format!("{of}:{}", count + 1))
+    };
+    let found = |steps: [usize; 3], more: &[&str]| {
+        let [x, y, z] = grid(steps);
+        json(&[&["workspace", &hall, "--grid", &x, "--grid", &y, "--grid", &z][..], more].concat())
+    };
+    let volume = |of: &serde_json::Value| number(&of["volumes"][0]["volume_m3"]);
+    let stated = |of: &serde_json::Value| number(&of["volumes"][0]["volume_error_m3"]);
+    let plain = found([16, 12, 8], &["--section", "z=2,2.0001"]);
+    let limited = found([16, 12, 8], &["--at-least", "tension_margin_n=0"]);
+    assert!((volume(&limited) / volume(&plain) - 1.0).abs() < 0.01, "{} {}", volume(&limited), volume(&plain));
+    let at_limit = found([16, 12, 8], &["--at-least", "tension_min_n=50"]);
+    assert!((volume(&at_limit) / volume(&plain) - 1.0).abs() < 0.01, "{} {}", volume(&at_limit), volume(&plain));
+
+    let fine = found([32, 24, 16], &[]);
+    let change = (volume(&fine) - volume(&plain)).abs();
+    assert!(change < stated(&plain) && stated(&fine) < stated(&plain), "{change} {}", stated(&plain));
+    let areas: Vec<f64> = [0, 1].map(|i| number(&plain["sections"][i]["area_m2"])).into();
+    assert!(areas[1] > 10.0 && (areas[0] / areas[1] - 1.0).abs() < 1e-3, "{areas:?}");
+
+    let refused = run(&["workspace", &hall, "--at-least", "load-factor=1"]);
+    assert!(
+        refused.status.code() == Some(2) && stderr(&refused).contains("nothing is required"),
+        "{}",
+        stderr(&refused)
+    );
+}

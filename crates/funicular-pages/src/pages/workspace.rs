@@ -55,8 +55,9 @@ pub fn page(found: &Workspace, command_line: String) -> anyhow::Result<String> {
                 found.static_model
             ),
             None => format!(
-                "{} m³ with steps of {} m, with {} cables.",
+                "{} m³{} with steps of {} m, with {} cables.",
                 significant(volume.volume_m3, 5),
+                found.relative_error().map_or_else(String::new, |of| format!(" ± {} %", significant(100.0 * of, 2))),
                 short(volume.step_m, 4),
                 found.static_model
             ),
@@ -81,8 +82,8 @@ fn surface(found: &Workspace) -> PageFigure {
 }
 
 fn volumes(found: &Workspace) -> PageTable {
-    let caption = "Volume with the steps of the grid, with larger steps, and along rays. The change from larger to \
-                   smaller steps measures the error.";
+    let caption = "Volume with the steps of the grid, with larger steps, and along rays. The error is the largest that \
+                   the steps and points between the nodes let expect.";
     PageTable::of("table-volumes", caption, &VolumeRow::columns(), &found.volumes)
 }
 

@@ -96,6 +96,7 @@ pub fn run(robot: Robot, request: &LoadsRequest) -> Result<Loads> {
     let reason = capacity.dead_load().err().map(ToString::to_string);
     let is_asked = reason.is_none() && !capacity.requires_nothing();
     let required = if is_asked { Some(RequiredHeld::of(&robot, &capacity)?) } else { None };
+    let slacker = required.as_ref().is_some_and(|(_, slacker)| *slacker).then_some(SLACKER);
 
     let finite = |value: Option<f64>| value.filter(|value| value.is_finite());
     Ok(Loads {
@@ -111,8 +112,12 @@ pub fn run(robot: Robot, request: &LoadsRequest) -> Result<Loads> {
         capacity_margin_n: finite(capacity.margin()),
         platform_length_m: robot.platform_length(),
         acceleration_max_m_s2: finite(capacity.largest_acceleration()),
-        required,
-        warnings: warnings::of_robot(&robot).iter().map(ToString::to_string).collect(),
+        required: required.map(|(held, _)| held),
+        warnings: warnings::of_robot(&robot)
+            .iter()
+            .map(ToString::to_string)
+            .chain(slacker.map(str::to_owned))
+            .collect(),
     })
 }
 
@@ -129,8 +134,14 @@ fn pose_of(robot: &Robot, request: &LoadsRequest) -> Result<Pose> {
     Ok(rest.equilibrium.pose)
 }
 
+/// Warning about a load factor that counts cables which hang deeper than those of the margin.
+const SLACKER: &str = "with this multiple of the binding load a cable hangs so deep that its tension would rise with more \
+                       rope: the load factor counts such cables, the capacity margin and the acceleration do not; give a \
+                       larger `minimum_tension_n` if the cable has to stay taut";
+
 impl RequiredHeld {
-    fn of(robot: &Robot, capacity: &LoadCapacity) -> Result<Self> {
+    /// Load factor of a capacity, and true if it counts cables that hang deeper than those of the margin.
+    fn of(robot: &Robot, capacity: &LoadCapacity) -> Result<(Self, bool)> {
         let (factor, gradient) = match LoadFactorGradient::of(capacity) {
             Ok(found) => (found.factor, Some(found.gradient)),
             Err(_) => (capacity.load_factor()?, None),
@@ -138,7 +149,8 @@ impl RequiredHeld {
         let finite = |value: f64| value.is_finite().then_some(value);
         let by_pose = gradient.map(|by| [by.position_w, by.rotation_w].map(Into::into));
         let [x, y, z, roll, pitch, yaw] = factor.load.into();
-        Ok(Self {
+        let counts_slacker = capacity.counts_slacker_cables(&factor);
+        let held = Self {
             held: factor.value >= 1.0,
             load_factor: finite(factor.value),
             load_factor_upper_bound: finite(factor.upper_bound),
@@ -149,7 +161,8 @@ impl RequiredHeld {
             force_n: [x, y, z],
             moment_n_m: [roll, pitch, yaw],
             cables: LoadedRow::all(robot, &factor.cables, &factor.limits),
-        })
+        };
+        Ok((held, counts_slacker))
     }
 }
 

@@ -12,7 +12,7 @@ use crate::set_values;
 use crate::table::{Column, Value};
 use crate::wording::{Words, worded};
 use funicular::cable::CableModel;
-use funicular::robot::{PlatformMotion, Robot};
+use funicular::robot::{PlatformMotion, Pose, Robot};
 use funicular::statics::StaticModel;
 use funicular::suggest::nearest;
 use std::fmt;
@@ -34,6 +34,8 @@ struct Definition {
     columns: fn(&Robot, &Parameter) -> Vec<Column>,
     /// Function that adds the values of a point, one per column.
     values: fn(&mut PointEvaluation<'_>, &Parameter, &mut Vec<Value>),
+    /// Value of a quantity that depends on the pose alone, also where no tensions hold the platform.
+    at_pose: Option<fn(&Robot, &Pose) -> f64>,
 }
 
 impl Definition {
@@ -48,6 +50,7 @@ impl Definition {
         frequencies: |_| 0,
         columns: |_, _| Vec::new(),
         values: |_, _, _| {},
+        at_pose: None,
     };
 }
 
@@ -197,6 +200,13 @@ impl Quantity {
     /// True if it does not exist for a robot with so few cables.
     pub(super) fn needs_more_cables(&self, robot: &Robot) -> bool {
         matches!(self.definition.needs, RequiredModel::HeldPose) && robot.constraint().is_under()
+    }
+
+    /// Adds the values of the quantity at a pose that no tensions hold: empty unless the pose alone decides.
+    pub(super) fn values_without_rest(&self, robot: &Robot, pose: &Pose, out: &mut Vec<Value>) {
+        let end = out.len() + self.columns(robot).len();
+        out.extend(self.definition.at_pose.map(|value| Value::real(Some(value(robot, pose)))));
+        out.resize(end, Value::Nothing);
     }
 
     /// Adds the values of the quantity at a point.

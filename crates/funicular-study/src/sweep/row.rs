@@ -26,6 +26,15 @@ pub(super) fn cells(
     match feasible(point, options) {
         Err(status) => {
             head(false, Some(status), out);
+            if with_distance {
+                out.push(Value::Nothing);
+            }
+            if let Ok((robot, state)) = &point.robot
+                && let State::Pose(pose) = &**state
+                && point.holder.is_none()
+            {
+                quantities.iter().for_each(|quantity| quantity.values_without_rest(robot, pose, out));
+            }
             out.resize(begin + width, Value::Nothing);
         }
         Ok((robot, Solution { equilibrium, requested_pose, .. })) => {

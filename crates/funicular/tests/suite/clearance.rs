@@ -194,6 +194,17 @@ fn parallel_sagging_cables_are_as_far_apart_as_they_are_shifted() {
     assert!((distance - aside.norm()).abs() < TOLERANCE, "{distance}");
 }
 
+/// A copied cable lies on the other one: both touch everywhere, which is found without dividing them into short arcs.
+#[test]
+fn two_cables_on_one_line_touch() {
+    let (robot, mut rest) = at_rest(&cogiro(), Pose::new([0.0, 0.0, 1.5], [0.0; 3]), 100.0);
+    rest.cables[1] = CableState { lever_w: rest.cables[1].lever_w, ..rest.cables[0].clone() };
+    let started = std::time::Instant::now();
+    let found = of_pair(&Surroundings::of(&robot).clearances(&rest, None), ClearancePair::Cables(0, 1));
+    let distance = found.distance + 2.0 * robot.cables[0].radius();
+    assert!(distance.abs() < TOLERANCE && started.elapsed().as_secs() < 2, "{distance} {:?}", started.elapsed());
+}
+
 /// Box of the triangles of its surface.
 fn mesh_of_box(half: [f64; 3]) -> Solid {
     let corner = |bits: usize| Vec3::from_fn(|k, _| if bits & (1 << k) == 0 { -half[k] } else { half[k] });

@@ -17,6 +17,9 @@ const LOAD_FACTOR: &str = "load_factor";
 /// Column with the distance beyond the required clearance [m].
 const CLEARANCE: &str = "clearance_margin_m";
 
+/// Rounding of a value over its limit: tensions are found to 1e-10 of their size.
+const ROUNDING: f64 = 1e-10;
+
 /// LimitSide of a limit on which a value is allowed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum LimitSide {
@@ -37,7 +40,10 @@ impl Limit {
     fn margin(&self, value: f64) -> Option<f64> {
         let scale = if self.value == 0.0 { 1.0 } else { self.value.abs() };
         let above = if value.is_infinite() { value.signum() } else { (value - self.value) / scale };
-        Some(if self.side == LimitSide::AtLeast { above } else { -above }).filter(|margin| margin.is_finite())
+        let margin = if self.side == LimitSide::AtLeast { above } else { -above };
+        // A value at its limit to rounding keeps it: over a region where it stays there, rounding would decide.
+        let rounded = if self.value != 0.0 && (-ROUNDING..0.0).contains(&margin) { 0.0 } else { margin };
+        Some(rounded).filter(|margin| margin.is_finite())
     }
 }
 
@@ -106,6 +112,9 @@ impl Conditions {
 
     fn add(&mut self, robot: &Robot, options: &Options, bound: &BoundValue, side: LimitSide) -> Result<()> {
         let (quantity, own, name) = column_of(robot, &bound.quantity)?;
+        if name == LOAD_FACTOR && robot.required.is_empty() {
+            bail!("nothing is required: give ⟪required_force_n⟫ or another required load, or [required] in the file");
+        }
         if quantity.excludes(options.static_model) {
             bail!("it does not exist with {} cables: choose another ⟪static_model⟫", options.static_model.name());
         }
@@ -162,7 +171,11 @@ fn tension_margin(robot: &Robot, pose: &Pose, options: &Options) -> Option<f64> 
 /// for the value, to which it is nearer; only between them the factor itself is computed.
 fn load_margin(limit: &Limit, robot: &Robot, pose: &Pose, options: &Options) -> Option<f64> {
     let model = options.static_model;
-    if let Some([lower, upper]) = statics::load_factor_bounds(robot, pose, model).ok()? {
+    let mut bounds = statics::load_factor_bounds(robot, pose, model).ok()?;
+    if bounds.is_none() && limit.value > 0.0 {
+        bounds = statics::load_factor_bounds_in_wind(robot, pose, model, limit.value).ok()?;
+    }
+    if let Some([lower, upper]) = bounds {
         let [lower, upper] = [lower, upper].map(|bound| limit.margin(bound));
         if lower.is_some_and(|margin| margin >= 0.0) == upper.is_some_and(|margin| margin >= 0.0) {
             return upper;

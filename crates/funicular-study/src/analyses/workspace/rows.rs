@@ -13,7 +13,7 @@ use funicular::level_set::{
 use funicular::math::{Rotation, Vec3, rotation};
 use serde::Serialize;
 
-/// Change of the volume by halving the steps above which the grid counts as too coarse.
+/// Error of the volume, over the volume, above which the grid counts as too coarse.
 const COARSE: f64 = 0.03;
 
 /// Results of `workspace`.
@@ -117,6 +117,9 @@ pub struct VolumeRow {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub rays: Option<usize>,
     pub volume_m3: f64,
+    /// Largest error that the volume is expected to have, by what the steps and points between the nodes leave open.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub volume_error_m3: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub area_m2: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -230,9 +233,12 @@ impl Workspace {
     ) -> Self {
         let strides = set.strides();
         let step = |stride: usize| largest_step(set.grid(), wanted.plane) * stride as f64;
+        let finest = VolumeRow::of_grid(surface, step(strides[0]));
         let coarser = strides[1..].iter().map(|stride| VolumeRow::of_grid(&set.boundary(*stride), step(*stride)));
-        let mut volumes: Vec<VolumeRow> =
-            std::iter::once(VolumeRow::of_grid(surface, step(strides[0]))).chain(coarser).collect();
+        let mut volumes: Vec<VolumeRow> = std::iter::once(finest).chain(coarser).collect();
+        for (row, error) in volumes.iter_mut().zip(set.volume_errors()) {
+            row.volume_error_m3 = Some(error);
+        }
         volumes.extend(rays.as_mut().into_iter().flat_map(|rays| std::mem::take(&mut rays.volumes)));
 
         // The slab of a planar platform ends at its faces, which are no border of the set.
@@ -292,11 +298,10 @@ impl Workspace {
         self.volumes.get(1).filter(|row| row.rays.is_none())
     }
 
-    /// Change of the volume from double steps to the steps of the grid, over the new volume; `None` without double steps.
-    pub fn change_by_halving(&self) -> Option<f64> {
-        let fine = self.volume().volume_m3;
-        let change = 1.0 - self.with_double_steps()?.volume_m3 / fine;
-        Some(if change.is_finite() { change } else { 1.0 })
+    /// Largest expected error of the volume over the volume, or of the area of a planar platform; `None` without a volume.
+    pub fn relative_error(&self) -> Option<f64> {
+        let fine = self.volume();
+        fine.volume_error_m3.map(|error| error / fine.volume_m3).filter(|error| error.is_finite())
     }
 
     /// Sentences about what the grid leaves open.
@@ -305,26 +310,24 @@ impl Workspace {
             let message = "the work was stopped: this is what was found until then";
             message.to_owned()
         });
-        let of_grid = if let Some(coarse) = self.with_double_steps() {
-            vec![self.coarse_volume(), self.other_pieces(coarse)]
-        } else {
-            let message = "nothing is known of the error of the volume: make the number of steps along every axis of \
-                           ⟪grid⟫ a multiple of 4, as with 41 values, and the volume is compared with that of larger \
-                           steps";
-            vec![Some(message.to_owned())]
+        let alone = "parts and holes were not compared with those of larger steps: make the number of steps along every \
+                     axis of ⟪grid⟫ a multiple of 4, as with 41 values";
+        let pieces = match self.with_double_steps() {
+            Some(coarse) => self.other_pieces(coarse),
+            None => Some(alone.to_owned()),
         };
-        stopped.into_iter().chain(of_grid.into_iter().flatten()).chain(self.cut_by_box()).collect()
+        stopped.into_iter().chain(self.coarse_volume()).chain(pieces).chain(self.cut_by_box()).collect()
     }
 
-    /// Sentence about a volume that still changes with the steps.
+    /// Sentence about a volume that the steps leave open.
     fn coarse_volume(&self) -> Option<String> {
-        let change = self.change_by_halving()?;
+        let error = self.relative_error()?;
         let message = format!(
-            "the grid is coarse for this set: halving its steps to {} m changed the volume by {} %; halve them again",
+            "the grid is coarse for this set: with steps of {} m its volume is sure to {} % only; halve the steps",
             significant(self.volume().step_m, 4),
-            significant(100.0 * change, 2)
+            significant(100.0 * error, 2)
         );
-        (change.abs() > COARSE).then_some(message)
+        (error > COARSE).then_some(message)
     }
 
     /// Sentence about parts, holes and handles that are others with double steps.
@@ -377,6 +380,7 @@ impl VolumeRow {
             step_m,
             rays: None,
             volume_m3: mesh.volume(),
+            volume_error_m3: None,
             area_m2: Some(mesh.area()),
             centroid_m: mesh.centroid().map(Into::into),
             parts: Some(parts.len()),
@@ -388,7 +392,18 @@ impl VolumeRow {
     fn of_rays(by: &'static str, rays: usize, step_m: f64, volume_m3: f64, hull: Option<&BoundaryMesh>) -> Self {
         let area_m2 = hull.map(BoundaryMesh::area);
         let centroid_m = hull.and_then(BoundaryMesh::centroid).map(Into::into);
-        Self { by, step_m, rays: Some(rays), volume_m3, area_m2, centroid_m, parts: None, holes: None, handles: None }
+        Self {
+            by,
+            step_m,
+            rays: Some(rays),
+            volume_m3,
+            volume_error_m3: None,
+            area_m2,
+            centroid_m,
+            parts: None,
+            holes: None,
+            handles: None,
+        }
     }
 
     /// Columns of the volumes.
@@ -399,6 +414,8 @@ impl VolumeRow {
                 .short("step", "m", 4),
             column("rays", "1", "number of rays", |row: &Self| row.rays).plain("rays"),
             column("volume_m3", "m³", "volume of the set", |row: &Self| row.volume_m3).significant("volume", "m³", 6),
+            column("volume_error_m3", "m³", "largest expected error of the volume", |row: &Self| row.volume_error_m3)
+                .significant("error", "m³", 2),
             column("area_m2", "m²", "area of its surface", |row: &Self| row.area_m2).significant("area", "m²", 6),
             parts("centroid_{}_m", AXES, "m", "centroid of its volume, {}", |row: &Self| {
                 row.centroid_m.map_or([None; 3], |centroid| centroid.map(Some))

@@ -8,7 +8,7 @@ use crate::sweep::status::Status;
 use crate::table::{Column, ColumnKind, Value};
 use funicular::cable::{CableModel, Sag};
 use funicular::math::{Vec6, rotation};
-use funicular::robot::{Constraint, Robot};
+use funicular::robot::{Constraint, Pose, Robot};
 use funicular::speeds::WinchSpeeds;
 use funicular::statics::{self, TensionRange};
 
@@ -70,22 +70,17 @@ pub(super) static TABLE: &[Definition] = &[
         documentation: "`platform_damping_ratio`: damping ratio of the damped partner of the first mode with at least \
                         `--platform-share` (0.5 if not given) of its kinetic energy in the platform, with the \
                         requested cable model; it takes the time of a complete damped list per point",
-        takes: ParameterKind::Nothing,
-        needs: RequiredModel::Anything,
-        frequencies: |_| 0,
         columns: |_, _| one("platform_damping_ratio", "1", "damping ratio of the first mode of the platform"),
         values: |row, _, out| {
             let found = row.platform_damping().map(|(ratio, _)| ratio);
             row.push(Some(found), out);
         },
+        ..Definition::PLAIN
     },
     Definition {
         name: "decay-time",
         about: "time in which the first mode of the platform decays to 5 % of its amplitude",
         documentation: "`platform_decay_time_s`: time in which the mode of `damping` decays to 5 % of its amplitude",
-        takes: ParameterKind::Nothing,
-        needs: RequiredModel::Anything,
-        frequencies: |_| 0,
         columns: |_, _| {
             let about = "time in which the first mode of the platform decays to 5 % of its amplitude";
             one("platform_decay_time_s", "s", about)
@@ -94,6 +89,7 @@ pub(super) static TABLE: &[Definition] = &[
             let found = row.platform_damping().map(|(_, time)| time);
             row.push(Some(found), out);
         },
+        ..Definition::PLAIN
     },
     Definition {
         name: "first-kind",
@@ -285,10 +281,8 @@ pub(super) static TABLE: &[Definition] = &[
         documentation: "`closure`: 1 if straight cables could balance every load with tensions that are high enough \
                         (wrench closure), otherwise 0; sag does not change it",
         columns: |_, _| one("closure", "1", "1 if straight cables could balance every load, otherwise 0"),
-        values: |row, _, out| {
-            let closed = statics::wrench_closure(row.robot, &row.rest.pose).is_closed();
-            out.push(Value::real(Some(f64::from(u8::from(closed)))));
-        },
+        values: |row, _, out| out.push(Value::real(Some(closure(row.robot, &row.rest.pose)))),
+        at_pose: Some(closure),
         ..Definition::PLAIN
     },
     Definition {
@@ -297,9 +291,8 @@ pub(super) static TABLE: &[Definition] = &[
         documentation: "`tension_factor`: largest ratio of the minimum to the maximum tension with which straight cables \
                         balance each other without a load, from 0 to 1",
         columns: |_, _| one("tension_factor", "1", "largest ratio of minimum to maximum tension without a load"),
-        values: |row, _, out| {
-            out.push(Value::real(Some(statics::wrench_closure(row.robot, &row.rest.pose).tension_factor)));
-        },
+        values: |row, _, out| out.push(Value::real(Some(tension_factor(row.robot, &row.rest.pose)))),
+        at_pose: Some(tension_factor),
         ..Definition::PLAIN
     },
     Definition {
@@ -684,4 +677,14 @@ fn pose_error_columns(robot: &Robot) -> Vec<Column> {
     };
     let about = "distance between the platform origins of two static models at the same lengths";
     pairs.iter().map(|pair| column(format!("{pair}_distance_m"), "m", about)).collect()
+}
+
+/// One if straight cables could balance every load at a pose, otherwise zero.
+fn closure(robot: &Robot, pose: &Pose) -> f64 {
+    f64::from(u8::from(statics::wrench_closure(robot, pose).is_closed()))
+}
+
+/// Largest ratio of minimum to maximum tension at a pose without a load.
+fn tension_factor(robot: &Robot, pose: &Pose) -> f64 {
+    statics::wrench_closure(robot, pose).tension_factor
 }

@@ -123,6 +123,99 @@ fn with_sag_the_binding_load_is_held_just_inside_the_load_factor_and_refused_jus
     assert!(held >= 6, "{held}");
 }
 
+/// Suspended robot with six sagging cables, as many as degrees of freedom, drawn at random.
+fn random_with_six_cables(draw: &mut Draw) -> Robot {
+    let mut text = format!(
+        "name = \"six\"\n[platform]\nmass_kg = {}\ninertia_kg_m2 = [1.0, 1.0, 1.0]\n[materials.rope]\n\
+         axial_stiffness_n = {}\nmass_kg_per_m = {}\nminimum_tension_n = {}\nmaximum_tension_n = {}\n",
+        draw.between(40.0, 90.0),
+        draw.between(2e4, 1e5),
+        draw.between(0.3, 2.5),
+        draw.between(0.5, 12.0),
+        draw.between(500.0, 1500.0),
+    );
+    for k in 0..6 {
+        let (around, out) = (f64::from(k) * 1.05 + draw.between(-0.3, 0.3), draw.between(1.5, 2.5));
+        let on_platform = around + if k % 2 == 0 { 0.9 } else { -0.9 };
+        text += &format!(
+            "[[cables]]\nname = \"{k}\"\nmaterial = \"rope\"\nanchor_m = [{}, {}, {}]\nattachment_m = [{}, {}, {}]\n",
+            out * around.cos(),
+            out * around.sin(),
+            draw.between(1.8, 2.6),
+            0.15 * on_platform.cos(),
+            0.15 * on_platform.sin(),
+            draw.between(-0.05, 0.08),
+        );
+    }
+    Robot::from_toml(&text).unwrap()
+}
+
+/// As many cables as degrees of freedom have the tensions of their equilibrium, however deep the cables hang. The binding
+/// load is within the limits just inside the load factor and not just outside, and what is proved is so.
+#[test]
+fn six_sagging_cables_hold_the_binding_load_just_inside_the_load_factor_and_not_just_outside() {
+    let mut draw = Draw(61);
+    let (mut checked, mut slacker, mut negative) = (0, 0, 0);
+    for _ in 0..120 {
+        let mut robot = random_with_six_cables(&mut draw);
+        let force = draw.between(5.0, 60.0);
+        robot.required.force_w = Vec3::repeat(force);
+        robot.required.shape = if draw.between(0.0, 1.0) < 0.5 { LoadShape::Box } else { LoadShape::Ellipsoid };
+        let position = [draw.between(-0.3, 0.3), draw.between(-0.3, 0.3), draw.between(0.2, 0.6)];
+        let turns = std::array::from_fn(|_| draw.between(-20.0, 20.0));
+        let pose = Pose::new(position, turns);
+        let capacity = LoadCapacity::at(&robot, &pose, StaticModel::Catenary, None).unwrap();
+        let held = |multiple: f64, load: &Vec6| {
+            let loaded = bearing(&robot, load, multiple);
+            let rest = statics::inverse(&loaded, &pose, StaticModel::Catenary);
+            rest.is_ok_and(|rest| {
+                let margin = |(i, cable): (usize, &statics::CableState)| {
+                    statics::TensionRange::of(&loaded, i, &cable.chord_w()).margin(cable).distance()
+                };
+                rest.cables.iter().enumerate().map(margin).fold(f64::INFINITY, f64::min) >= 0.0
+            })
+        };
+
+        // The margin has the sign of the verdict.
+        let margin = capacity.margin();
+        let Ok(factor) = capacity.load_factor() else {
+            assert!(margin.is_none_or(|margin| margin < 0.0), "{margin:?}");
+            negative += 1;
+            continue;
+        };
+        assert!(margin.is_none_or(|margin| (margin >= 0.0) == (factor.value >= 1.0)), "{margin:?} {}", factor.value);
+        if factor.value.is_infinite() || factor.value < 1e-3 {
+            continue;
+        }
+        checked += 1;
+        slacker += usize::from(capacity.counts_slacker_cables(&factor));
+        assert!(held(0.9999 * factor.value, &factor.load), "{}", factor.value);
+        assert!(!held(1.0001 * factor.value, &factor.load), "{}", factor.value);
+        for beyond in [1.0, 1.001, 1.1, 1.5, 2.0] {
+            let proved = beyond * factor.upper_bound * (1.0 + 1e-6);
+            assert!(proved.is_infinite() || !held(proved, &factor.load), "{} {proved}", factor.value);
+        }
+        // No required load beats the one that binds.
+        for _ in 0..10 {
+            let side = Vec3::from_fn(|_, _| draw.between(-1.0, 1.0));
+            let side = if robot.required.shape == LoadShape::Box { side } else { side.normalize() };
+            let load = Vec6::from_iterator((side * force).iter().copied().chain([0.0; 3]));
+            assert!(held(0.99 * factor.value, &load), "{} {side:?}", factor.value);
+        }
+    }
+    assert!(checked >= 20 && slacker >= 3 && negative >= 3, "{checked} {slacker} {negative}");
+}
+
+#[test]
+fn required_loads_that_the_platform_does_not_feel_are_held_without_limit() {
+    let mut robot = Robot::from_toml(funicular_robots::KNTU_PLANAR).unwrap();
+    robot.required.payload = RequiredPayload { max_mass: 5.0, ..RequiredPayload::default() };
+    let center = Pose::new([0.0; 3], [0.0; 3]);
+    let capacity = LoadCapacity::at(&robot, &center, StaticModel::Catenary, None).unwrap();
+    let factor = capacity.load_factor().unwrap();
+    assert!(factor.value.is_infinite() && factor.load == Vec6::zeros() && factor.cables.is_empty());
+}
+
 #[test]
 fn the_load_factor_of_light_ropes_tends_to_that_of_straight_ones() {
     let pose = Pose::new([0.5, -0.4, 1.4], [2.0, -3.0, 5.0]);

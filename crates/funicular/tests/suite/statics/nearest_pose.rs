@@ -5,7 +5,7 @@ use funicular::cable::CableModel;
 use funicular::dynamics::{Dynamics, Linearisation};
 use funicular::math::{Rotation, Vec3};
 use funicular::modes;
-use funicular::robot::{Pose, Robot, TensionLimits};
+use funicular::robot::{Pose, Robot, TensionLimits, Wind};
 use funicular::statics::{self, StaticModel, StaticsError, TensionRange};
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
@@ -182,5 +182,18 @@ proptest! {
             let modes = modes::below(&dynamics, 3.0);
             prop_assert_eq!(modes.modes.len() + modes.unstable_directions, modes.count_below);
         }
+    }
+}
+
+/// Far from any pose at which it can hang, a robot in wind gives the answer that it gives without wind, after as many steps.
+#[test]
+fn a_far_pose_in_wind_is_refused_after_as_many_steps_as_without() {
+    let calm = Robot::from_toml(funicular_robots::GRAB_3_CABLES).unwrap();
+    let mut windy = calm.with_wind(Wind { velocity_w: Vec3::repeat(10.0), ..Wind::default() });
+    windy.cables.iter_mut().for_each(|cable| cable.material.drag_width = Some(0.012));
+    let pose = Pose::new([0.87, 0.64, 1.39], [0.0; 3]);
+    for robot in [calm, windy] {
+        let found = statics::nearest_equilibrium(&robot, &pose, StaticModel::Catenary);
+        assert!(matches!(found, Err(StaticsError::NotNearest { iterations, .. }) if iterations < 40_000), "{found:?}");
     }
 }
