@@ -4,7 +4,7 @@
 use super::{run, run_with, stderr, yuan};
 use std::process::Output;
 
-fn assert_refused(output: &Output, code: i32, expected: &str, what: &str) {
+pub(crate) fn assert_refused(output: &Output, code: i32, expected: &str, what: &str) {
     let message = stderr(output);
     assert_eq!(output.status.code(), Some(code), "{what}: {message}");
     assert_eq!(message.matches("error:").count(), 1, "{what}: one message, not: {message}");

@@ -1,6 +1,7 @@
 //! Completions for shells and pages of the manual.
 
-use super::{assert_refused, run, succeed};
+use super::bad_input::assert_refused;
+use super::{run, succeed};
 use std::io::Write;
 use std::process::{Command, Stdio};
 

@@ -251,7 +251,10 @@ fn steps_of_the_rows_are_exact_and_the_last_is_shorter() {
     let times: Vec<f64> = found["rows"].as_array().unwrap().iter().map(|row| number(&row["t_s"])).collect();
     let last = times.len() - 1;
     assert!(
-        times[..last].iter().enumerate().all(|(k, time)| *time == format!("{:.3}", 0.002 * k as f64).parse().unwrap())
+        times[..last]
+            .iter()
+            .enumerate()
+            .all(|(k, time)| *time == format!("{:.3}", 0.002 * k as f64).parse::<f64>().unwrap())
     );
     assert_eq!(times[last], number(&found["duration_s"]));
     assert!((1e-9..=0.002).contains(&(times[last] - times[last - 1])));

@@ -516,10 +516,10 @@ fn warnings(
     found.extend(told::rule_that_jumps(planned, samples));
     if let Some(QuasiStatic { motion_hz, cable_hz }) = quasi_static.filter(|of| of.motion_hz > DOUBTFUL * of.cable_hz) {
         found.push(format!(
-            "a cable swings at {} Hz, and the motion has parts up to {} Hz: it is faster than cables that hang as at rest \
-             allow; repeat it with `simulate`",
-            significant(*cable_hz, 3),
-            significant(*motion_hz, 3)
+            "the motion has parts up to {} Hz, more than {DOUBTFUL} of the {} Hz at which a cable swings, so that cables do \
+             not hang as at rest: repeat it with `simulate`",
+            significant(*motion_hz, 3),
+            significant(*cable_hz, 3)
         ));
     }
     let by_differences = samples.motions.iter().filter_map(|motion| motion.no_exact_rates.as_ref());
