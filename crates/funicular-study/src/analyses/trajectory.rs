@@ -69,8 +69,8 @@ pub struct TrajectoryResult {
     pub duration_s: f64,
     /// True if every limit of tensions and winches is kept on the whole path, and that of distances at all rows.
     pub within_limits: bool,
-    /// Limit of which the largest part is used; absent if the robot file has none. A minimum tension at which the rule
-    /// holds a cable by its choice does not count.
+    /// Limit of which the largest part is used; absent if the robot file has none. All of a minimum tension is used
+    /// where the rule holds a cable there by its choice.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub most_used: Option<MostUsed>,
     /// Largest used part of every kind of limit: of a maximum tension T/T_max, of a minimum tension T_min/T.

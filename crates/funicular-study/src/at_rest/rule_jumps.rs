@@ -8,7 +8,7 @@ use funicular::robot::{Pose, State};
 use funicular::statics::{self, TensionRule};
 
 /// Rules of tensions whose tensions are continuous from pose to pose.
-pub(crate) const SMOOTH_RULES: &str = "`lowest` or `closest`";
+pub(crate) const SMOOTH_RULES: &str = "`centre`, `lowest` or `closest`";
 
 /// Distance from a pose within which jumps are looked for [m]; for a turn that of the attachments.
 const NEARBY: f64 = 1e-3;

@@ -3,6 +3,9 @@
 use crate::math::{Rotation, Vec3};
 use crate::robot::Pose;
 
+/// Turn [rad] that is the rounding of equal orientations.
+const NO_TURN: f64 = 1e-13;
+
 /// Move along a straight line with one turn about a fixed axis, both in proportion.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StraightMove {
@@ -17,6 +20,7 @@ impl StraightMove {
     /// Move from one pose to another by the shorter turn.
     pub fn between(from: &Pose, to: &Pose) -> Self {
         let turn_w = (to.rot_wp * from.rot_wp.inverse()).scaled_axis();
+        let turn_w = if turn_w.norm() > NO_TURN { turn_w } else { Vec3::zeros() };
         Self { from: *from, translation_w: to.position_w - from.position_w, turn_w }
     }
 

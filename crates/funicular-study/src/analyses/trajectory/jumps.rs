@@ -16,7 +16,7 @@ const HALVINGS: usize = 20;
 
 /// Largest number of changes of limits between two samples, and on the whole path.
 const MAX_CHANGES_BETWEEN: usize = 8;
-const MAX_CHANGES: usize = 100;
+pub(super) const MAX_CHANGES: usize = 100;
 
 /// Jump of a rate [m/s] and of a length [m] that counts: within the period of a servo, 1 ms, the first is 0.01 m/s² and the
 /// second 10 µm/s. Rounding leaves 1e-8 m/s, and 1e-11 m.
@@ -188,16 +188,55 @@ pub(super) fn between(
             let at = (Instant { time, is_row: false, ..from.0 }, in_motion(along, planned, time, Side::After)?);
             if at.1.at_limit == last.1.at_limit { from = at } else { to = at }
         }
-        for of in [&mut from, &mut to] {
-            of.0.is_row = false;
-        }
-
-        let jump = LengthJump::of(&from.1, &to.1, to.0.time, JumpCause::Limits(changes(&from.1, &to.1)), 0);
-        last = to.clone();
+        let limits = changes(&from.1, &to.1);
+        let told = to.clone();
+        let (from, to) = around_kink(along, planned, (&last, next), (from, to))?;
+        let jump = LengthJump::of(&from.1, &to.1, to.0.time, JumpCause::Limits(limits), 0);
+        // A limit that is left counts as reached for a moment after the kink.
+        last = if told.0.time > to.0.time { told } else { to.clone() };
         samples.push((from, Some(jump)));
         samples.push((to, None));
     }
     Ok(samples)
+}
+
+/// Samples on both sides of the time at which the rates jump, near those between which a limit counts as reached or left:
+/// this is told within a millionth of the limit, some microseconds beside it.
+fn around_kink(
+    along: &mut AlongPath,
+    planned: &Planned,
+    (first, end): (&Sample, &Sample),
+    near: (Sample, Sample),
+) -> Result<(Sample, Sample)> {
+    let change = |a: &Sample, b: &Sample| {
+        let pairs = a.1.length_rates.iter().zip(&b.1.length_rates);
+        pairs.map(|(a, b)| (b - a).abs()).fold(0.0, f64::max)
+    };
+    let mut at = |time: f64| -> Result<Sample> {
+        // At the end of a phase the motion before it counts.
+        let side = if time < end.0.time { Side::After } else { end.0.side };
+        let instant = Instant { time, side, is_row: false, ..first.0 };
+        Ok((instant, in_motion(along, planned, time, side)?))
+    };
+
+    // The rates of a smooth motion change in proportion to the time, those at a kink by as much in less of it.
+    let whole = end.0.time - first.0.time;
+    let mut best: Option<(f64, Sample, Sample)> = None;
+    for halvings in (0..=HALVINGS).step_by(2) {
+        let beside = whole * 0.5_f64.powi(i32::try_from(halvings).unwrap_or(i32::MAX));
+        let ends = [(near.0.0.time - beside).max(first.0.time), (near.1.0.time + beside).min(end.0.time)];
+        let (from, to) = (at(ends[0])?, at(ends[1])?);
+        let steepness = change(&from, &to) / (ends[1] - ends[0]);
+        if best.as_ref().is_none_or(|(last, ..)| steepness > *last) {
+            best = Some((steepness, from, to));
+        }
+    }
+    let Some((_, mut from, mut to)) = best else { return Ok(near) };
+    while to.0.time - from.0.time > whole * 0.5_f64.powi(i32::try_from(HALVINGS).unwrap_or(i32::MAX)) {
+        let middle = at(0.5 * (from.0.time + to.0.time))?;
+        if change(&from, &middle) > change(&middle, &to) { to = middle } else { from = middle }
+    }
+    Ok((from, to))
 }
 
 /// Samples on both sides of every jump of a rule between two samples: where the tensions change as much within ever

@@ -154,7 +154,9 @@ struct ColumnError {
 
 impl ColumnError {
     fn of(rows: &TimedRows, columns: &NumberColumns, k: usize) -> Self {
-        let Some(values) = columns.get(POSE[k]) else { return Self { unit: None, deviation: 0.0 } };
+        // A constant is as exact as it is written.
+        let varying = columns.get(POSE[k]).filter(|values| values.iter().any(|value| *value != values[0]));
+        let Some(values) = varying else { return Self { unit: None, deviation: 0.0 } };
         let places = values.iter().map(|value| decimal_places(*value)).max().unwrap_or(0);
         let unit = 10.0_f64.powi(-i32::try_from(places).unwrap_or(i32::MAX));
         let unit = (unit > MIN_UNIT).then_some(unit);

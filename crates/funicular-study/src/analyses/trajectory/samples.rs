@@ -3,7 +3,7 @@
 use super::Planned;
 use super::at_time::{in_motion, lengths};
 use super::instants::{Instant, instants};
-use super::jumps::{self, LengthJump, Sample};
+use super::jumps::{self, LengthJump, MAX_CHANGES, Sample};
 use crate::error::Cancelled;
 use crate::watch::Watch;
 use anyhow::Result;
@@ -78,7 +78,9 @@ impl MotionSamples {
         let lengths: Vec<Vec<f64>> = motions.iter().map(lengths).collect();
         let rates: Vec<Vec<f64>> = motions.iter().map(|motion| motion.length_rates.clone()).collect();
         let is_smooth = |k: usize| {
-            let same_limits = !planned.judged.choice || motions[k].at_limit == motions[k + 1].at_limit;
+            // Every change of limits is a jump, up to their largest number.
+            let are_known = !planned.judged.choice || jumps.len() < MAX_CHANGES;
+            let same_limits = are_known || motions[k].at_limit == motions[k + 1].at_limit;
             let jumps = || jumps.iter().any(|jump| jump.before == k);
             instants[k].phase == instants[k + 1].phase && same_limits && !jumps()
         };

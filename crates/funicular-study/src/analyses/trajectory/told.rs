@@ -89,9 +89,9 @@ pub(super) fn notes(planned: &Planned, samples: &MotionSamples, extremes: &[Extr
             "the rule `{}` lets cables come to their minimum tension and leave it, where all rates jump: {}",
             planned.rule.name(),
             if matches!(planned.rule, TensionRule::Closest(_)) {
-                "a larger ⟪target_tension_n⟫ keeps them above it"
+                "a larger ⟪target_tension_n⟫, or ⟪tension_rule⟫ `centre`, keeps them above it"
             } else {
-                "⟪tension_rule⟫ `closest` with a ⟪target_tension_n⟫ well above the minimum keeps them above it"
+                "⟪tension_rule⟫ `centre`, or `closest` with a ⟪target_tension_n⟫ well above the minimum, keeps them above it"
             }
         ));
     }

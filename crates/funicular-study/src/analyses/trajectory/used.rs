@@ -18,8 +18,6 @@ const MAX_RESERVES: usize = 800;
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum UsedLimit {
     Tension(Limit, usize),
-    /// Minimum tension at which the rule of tensions holds a cable, which could have more.
-    KeptMinimum(usize),
     Winch(LimitOfWinch, usize),
     Clearance,
 }
@@ -28,7 +26,7 @@ impl UsedLimit {
     pub(super) fn name(self) -> &'static str {
         match self {
             Self::Tension(Limit::Maximum, _) => "maximum-tension",
-            Self::Tension(Limit::Minimum, _) | Self::KeptMinimum(_) => "minimum-tension",
+            Self::Tension(Limit::Minimum, _) => "minimum-tension",
             Self::Winch(limit, _) => limit.name(),
             Self::Clearance => "clearance",
         }
@@ -37,7 +35,7 @@ impl UsedLimit {
     /// Cable to which it belongs.
     pub(super) fn cable(self) -> Option<usize> {
         match self {
-            Self::Tension(_, cable) | Self::KeptMinimum(cable) | Self::Winch(_, cable) => Some(cable),
+            Self::Tension(_, cable) | Self::Winch(_, cable) => Some(cable),
             Self::Clearance => None,
         }
     }
@@ -58,10 +56,9 @@ pub(super) fn parts(samples: &MotionSamples, planned: &Planned, k: usize) -> Vec
     found
 }
 
-/// Largest used part; a minimum at which the rule holds a cable by its choice is none.
+/// Largest used part.
 pub(super) fn most(parts: &[(UsedLimit, f64)]) -> Option<(UsedLimit, f64)> {
-    let judged = parts.iter().filter(|(limit, _)| !matches!(limit, UsedLimit::KeptMinimum(_)));
-    judged.copied().max_by(|a, b| a.1.total_cmp(&b.1))
+    parts.iter().copied().max_by(|a, b| a.1.total_cmp(&b.1))
 }
 
 fn of_tensions(planned: &Planned, motion: &InMotion, i: usize) -> [(UsedLimit, f64); 2] {
@@ -74,9 +71,10 @@ fn of_tensions(planned: &Planned, motion: &InMotion, i: usize) -> [(UsedLimit, f
     };
     // Tensions by choice are within their limits, or there are none.
     let kept = |part: f64| if planned.judged.choice && part <= 1.0 + ROUNDING_OF_RULE { part.min(1.0) } else { part };
-    let is_kept = planned.judged.choice && motion.at_limit[i] == Some(Limit::Minimum);
-    let of_minimum = if is_kept { UsedLimit::KeptMinimum(i) } else { UsedLimit::Tension(Limit::Minimum, i) };
-    [(UsedLimit::Tension(Limit::Maximum, i), kept(margin.max / margin.range.maximum)), (of_minimum, kept(minimum))]
+    [
+        (UsedLimit::Tension(Limit::Minimum, i), kept(minimum)),
+        (UsedLimit::Tension(Limit::Maximum, i), kept(margin.max / margin.range.maximum)),
+    ]
 }
 
 fn of_winch(samples: &MotionSamples, robot: &Robot, k: usize, i: usize) -> Vec<(UsedLimit, f64)> {
