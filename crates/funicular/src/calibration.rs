@@ -351,6 +351,9 @@ pub fn moving_axes(robot: &Robot) -> Vec<usize> {
     robot.platform.motion.components().into_iter().filter(|component| *component < 3).collect()
 }
 
+/// Iterations of one start. Sound starts arrive within about 50; the best one goes on to its end.
+const ITERATIONS_OF_START: usize = 80;
+
 /// Distance between attachments, relative to the readings, up to which they are one point.
 const SAME_POINT: f64 = 1e-9;
 

@@ -1,7 +1,7 @@
 //! Cables whose readings are exchanged.
 
+use super::ITERATIONS_OF_START;
 use super::frame::CalibrationFrame;
-use super::search::ITERATIONS_OF_START;
 use super::{Calibration, CalibrationFit, CalibrationUnknown, MeasuredRow};
 use crate::robot::Pose;
 

@@ -56,7 +56,7 @@ impl RoundedRows {
             return None;
         }
         let scales: [f64; COUNT] = std::array::from_fn(|k| if k < 3 { 1.0 } else { length.to_radians() });
-        let errors: [ColumnError; COUNT] = std::array::from_fn(|k| ColumnError::of(rows, columns, k));
+        let errors: [RowRounding; COUNT] = std::array::from_fn(|k| RowRounding::of(rows, columns, k));
         let mut own = vec![0.0; rows.times.len()];
         let mut others: Vec<[f64; COUNT]> = vec![[0.0; COUNT]; rows.times.len()];
         for k in 0..COUNT {
@@ -145,14 +145,14 @@ impl RoundedRows {
 
 /// Error of the values of a column.
 #[derive(Debug, Clone, Copy)]
-struct ColumnError {
+struct RowRounding {
     /// Unit of the last digit; `None` for a column with all digits, and for a noisy one.
     unit: Option<f64>,
     /// Standard deviation of noise that is no rounding; zero without it.
     deviation: f64,
 }
 
-impl ColumnError {
+impl RowRounding {
     fn of(rows: &TimedRows, columns: &NumberColumns, k: usize) -> Self {
         let Some(values) = columns.get(POSE[k]) else { return Self { unit: None, deviation: 0.0 } };
         let places = values.iter().map(|value| decimal_places(*value)).max().unwrap_or(0);
