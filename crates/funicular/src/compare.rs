@@ -375,7 +375,7 @@ fn match_in_order(found: &[Mode], truth: &[Mode], mass: &Mat6) -> Vec<Match> {
         has_changed = false;
         for k in 1..pairs.len() {
             let ((a, b), (c, d)) = (pairs[k - 1], pairs[k]);
-            if score(a, d) + score(c, b) > score(a, b) + score(c, d) + LEAST_GAIN {
+            if score(a, d) + score(c, b) > score(a, b) + score(c, d) + MIN_GAIN {
                 (pairs[k - 1].1, pairs[k].1) = (d, b);
                 has_changed = true;
             }
@@ -389,7 +389,7 @@ fn match_in_order(found: &[Mode], truth: &[Mode], mass: &Mat6) -> Vec<Match> {
 const NEARLY_EQUAL: f64 = 0.1 * TOLERANCE;
 
 /// Gain of a score above which two modes exchange their counterparts: more than rounding.
-const LEAST_GAIN: f64 = 1e-12;
+const MIN_GAIN: f64 = 1e-12;
 
 fn relative_distance(ours: f64, theirs: f64) -> f64 {
     (1.0 - ours / theirs).abs()

@@ -464,8 +464,8 @@ mod tests {
         }
     }
 
-    /// Every command, every key with numbers: the program refuses a number as an option if and only if a request refuses
-    /// it, which Python and the page make of their values.
+    /// Every command, every key with numbers: the program refuses a number as an option if and only if a request
+    /// refuses it, which Python and the page make of their values.
     #[test]
     fn every_numeric_option_has_one_range_for_all_front_ends() {
         let mut compared = 0;

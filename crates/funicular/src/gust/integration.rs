@@ -69,8 +69,8 @@ pub struct Spectra {
     pub densities: Vec<Densities>,
     /// Moments of each output up to the last frequency.
     pub moments: Vec<Moments>,
-    /// Variance of each output nearest to each natural frequency, in their order: up to the geometric mean with the next
-    /// one. Their sum is the variance; empty without natural frequencies.
+    /// Variance of each output nearest to each natural frequency, in their order: up to the geometric mean with the
+    /// next one. Their sum is the variance; empty without natural frequencies.
     pub by_mode: Vec<Vec<f64>>,
 }
 
@@ -299,7 +299,8 @@ fn between(one: &GustResonance, next: &GustResonance) -> f64 {
 }
 
 /// Pieces of the frequencies between two [Hz]: about each peak as far as it is the nearest one and dominates, in
-/// logarithms elsewhere, with ends at `kinks_hz` and between the ranges of all resonances, whose variances are told apart.
+/// logarithms elsewhere, with ends at `kinks_hz` and between the ranges of all resonances, whose variances are told
+/// apart.
 fn pieces([lowest, highest]: [f64; 2], resonances: &[GustResonance], kinks_hz: &[f64]) -> Vec<FrequencyPart> {
     let peaks = parted(resonances);
     let edges = resonances.windows(2).map(|pair| between(&pair[0], &pair[1]));

@@ -54,8 +54,8 @@ pub enum MeshError {
 }
 
 impl ClosedMesh {
-    /// Closed surfaces of triangles, three corners each [m]. Equal corners are one vertex; triangles without area are left
-    /// out.
+    /// Closed surfaces of triangles, three corners each [m]. Equal corners are one vertex; triangles without area are
+    /// left out.
     ///
     /// # Errors
     /// [`MeshError`].

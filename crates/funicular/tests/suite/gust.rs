@@ -411,8 +411,8 @@ fn a_simulation_in_time_has_the_rms_value_of_the_spectrum() {
     assert!((variance / expected - 1.0).abs() < 0.05, "{variance} {expected}");
 }
 
-/// A table of the formula is the formula: the error of straight lines is the curvature between two rows, (ln 1.01)²/12 of
-/// the density, and rows end at the limit of the frequencies.
+/// A table of the formula is the formula: the error of straight lines is the curvature between two rows, (ln 1.01)²/12
+/// of the density, and rows end at the limit of the frequencies.
 #[test]
 fn a_measured_spectrum_of_the_formula_has_its_response() {
     let case = stadium();

@@ -30,8 +30,8 @@ pub(crate) fn library() -> Vec<(String, Robot, Equilibrium)> {
 }
 
 /// Along a line the first platform mode jumps where its motion is split over two modes. Wherever it does, modes below
-/// it are named that move the platform, too. Where a mode of the platform that falls steeply passes another one, nothing
-/// jumps: the frequencies of the two poses before lead to it in a straight line.
+/// it are named that move the platform, too. Where a mode of the platform that falls steeply passes another one,
+/// nothing jumps: the frequencies of the two poses before lead to it in a straight line.
 #[test]
 fn jumps_of_the_first_platform_mode_are_explained_by_the_modes_that_share_its_motion() {
     let mut jumps = 0;

@@ -10,8 +10,8 @@ use crate::dynamics::Dynamics;
 use crate::math::Complex;
 use std::f64::consts::TAU;
 
-/// Distance of a prediction from a zero, over that from the next one, up to which the zero is meant; and the ratio of two
-/// steps of Newton's method up to which a step is short enough: it is this ratio of distances, too.
+/// Distance of a prediction from a zero, over that from the next one, up to which the zero is meant; and the ratio of
+/// two steps of Newton's method up to which a step is short enough: it is this ratio of distances, too.
 const CLEAR: f64 = 0.1;
 
 /// Minimum step of the part of the damping by which a mode is followed. Pairs of modes that come nearer than a
@@ -133,9 +133,9 @@ impl FollowedMode<'_> {
         }
     }
 
-    /// Zero with a part of the damping beside a prediction, with its relative error; `None` if the prediction is not much
-    /// nearer to it than to any other. Beside a zero at the distance e, with another one at the distance g, the step that
-    /// follows Newton's step e is e²/g.
+    /// Zero with a part of the damping beside a prediction, with its relative error; `None` if the prediction is not
+    /// much nearer to it than to any other. Beside a zero at the distance e, with another one at the distance g, the
+    /// step that follows Newton's step e is e²/g.
     fn zero_beside(&self, prediction: Complex, part: f64) -> Option<(Complex, f64)> {
         let near_enough = if part < 1.0 { ON_THE_WAY } else { CONVERGED };
         let (mut omega, mut before) = (prediction, f64::INFINITY);
