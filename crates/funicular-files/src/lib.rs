@@ -253,8 +253,8 @@ trait Rows {
 #[cfg(any(feature = "arrow", feature = "parquet"))]
 const GROUP_ROWS: usize = 1 << 16;
 
-/// Time that a run which was stopped has for the file of its finished rows: clusters kill a job soon after they ask it to
-/// end.
+/// Time that a run which was stopped has for the file of its finished rows: clusters kill a job soon after they ask it
+/// to end.
 pub const WRITE_WITHIN: Duration = Duration::from_millis(800);
 
 /// Ending added to the name of a file of rows for the journal of an unfinished run.

@@ -107,8 +107,8 @@ fn stated_delimiter(bytes: &[u8]) -> (Option<u8>, usize) {
     (Some(stated), (end + ends).min(bytes.len()))
 }
 
-/// Table whose first line names the columns. Columns are separated by commas, semicolons or tabs; numbers have a decimal
-/// point, or a decimal comma where commas do not separate the columns. Lines that begin with # are comments.
+/// Table whose first line names the columns. Columns are separated by commas, semicolons or tabs; numbers have a
+/// decimal point, or a decimal comma where commas do not separate the columns. Lines that begin with # are comments.
 pub struct CsvText<'a> {
     path: &'a str,
     bytes: &'a [u8],

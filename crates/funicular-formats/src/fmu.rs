@@ -20,7 +20,7 @@ pub const IDENTIFIER: &str = "funicular_model";
 /// Steps of the default experiment per period of the highest frequency of the model.
 const STEPS_PER_PERIOD: f64 = 20.0;
 
-/// What a unit says about its model.
+/// Description that a unit gives of its model.
 pub struct UnitModel<'a> {
     /// Name of the robot.
     pub robot: &'a str,
@@ -84,8 +84,8 @@ struct SparseMatrix {
     entries: Vec<(usize, usize, f64)>,
 }
 
-/// Writes description and source of a unit. An output that has the name of an input, such as the motion of a motor, gets
-/// `(output)` behind it, because names in a unit differ.
+/// Writes description and source of a unit. An output that has the name of an input, such as the motion of a motor,
+/// gets `(output)` behind it, because names in a unit differ.
 ///
 /// # Errors
 /// A model without states.

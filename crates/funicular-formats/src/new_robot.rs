@@ -285,7 +285,8 @@ mod tests {
         assert!((fibre.mass_per_length - 0.0496).abs() < 1e-9);
         assert_eq!(fibre.breaking_load, Some(58e3));
 
-        // Below the EA of ropes in service, 56 breaking loads, and below that of the fibres alone, 109 GPa on their area.
+        // Below the EA of ropes in service, 56 breaking loads, and below that of the fibres alone, 109 GPa on their
+        // area.
         assert!((fibre.axial_stiffness - 25.0 * 58e3).abs() < 1.0, "{}", fibre.axial_stiffness);
         assert!(fibre.axial_stiffness < 0.5 * 109e9 * fibre.mass_per_length / 970.0);
         for says in ["MoorPy", "CIS YA100", "cautious", "no measurement of such a rope"] {

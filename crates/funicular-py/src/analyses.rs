@@ -1,7 +1,7 @@
 //! `funicular.Analyses`: the analyses that `Robot` and `Equilibrium` share.
 //!
-//! The methods for users are declared in `_equilibrium_methods.py`, which calls those of this file whose names begin with
-//! `_`; their `given` has the keywords of the command.
+//! The methods for users are declared in `_equilibrium_methods.py`, which calls those of this file whose names begin
+//! with `_`; their `given` has the keywords of the command.
 
 use crate::answered::PyAnswered;
 use crate::answers;

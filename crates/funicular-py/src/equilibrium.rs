@@ -75,7 +75,7 @@ impl PyEquilibrium {
         self.at_rest.held_pose.as_ref().map(PyPose::of)
     }
 
-    /// How cables carry their static load: `ideal`, `spring` or `catenary`.
+    /// Static model of the cables: `ideal`, `spring` or `catenary`.
     #[getter]
     fn static_model(&self) -> &'static str {
         self.at_rest.equilibrium.model.name()
@@ -133,8 +133,8 @@ impl PyEquilibrium {
         Matrix::of_rows(cables.iter().flat_map(|cable| cable.force_on_platform_w.iter().copied()).collect(), 3)
     }
 
-    /// Motions of the platform that no cable opposes by its tension, in words; empty unless the directions of the cables
-    /// are dependent or the equilibrium is indifferent.
+    /// Motions of the platform that no cable opposes by its tension, in words; empty unless the directions of the
+    /// cables are dependent or the equilibrium is indifferent.
     #[getter]
     fn free_motions(&self) -> Vec<String> {
         let free = statics::free_motions(&self.at_rest.robot, &self.at_rest.equilibrium);

@@ -99,8 +99,8 @@ pub(crate) fn matlab_file(
 }
 
 /// Writes a state space of the robot of a file as a Functional Mock-up Unit, and returns the caveats. `limits` are the
-/// highest frequency [Hz] and the error, `signals` names and units of inputs and outputs, `matrices` A, B, C, D with their
-/// numbers of rows and entries by columns.
+/// highest frequency [Hz] and the error, `signals` names and units of inputs and outputs, `matrices` A, B, C, D with
+/// their numbers of rows and entries by columns.
 #[pyfunction]
 pub(crate) fn write_unit(
     py: Python<'_>,

@@ -69,8 +69,8 @@ pub fn suggestion(word: &str, names: &[String]) -> String {
 /// Minimum length of a word that is searched in the keys of paths: two letters stand in too many of them.
 const MIN_WORD: usize = 3;
 
-/// End of a message about a path that no number has: the paths with a key that begins with its last word or contains it,
-/// as `mass` does for `platform.mass_kg`; else as [`suggestion`].
+/// End of a message about a path that no number has: the paths with a key that begins with its last word or contains
+/// it, as `mass` does for `platform.mass_kg`; else as [`suggestion`].
 pub(crate) fn path_suggestion(text: &str, paths: &[String]) -> String {
     let text = text.trim().to_lowercase();
     let mut keys: Vec<&str> = text.split('.').collect();

@@ -1,4 +1,5 @@
-//! What `identify` proposes to measure next: the deviations that it promises are those of a fit with this measurement.
+//! Proposals of `identify` for the next measurement: the deviations that it promises are those of a fit with this
+//! measurement.
 
 use funicular_study::analyses::identify::Identified;
 use funicular_study::{Request, Results, Silent, run};

@@ -1,7 +1,7 @@
 //! Comparisons of the core with numbers that others published or computed: the rows of docs/validation.md.
 //!
-//! The numbers are in crates/funicular-validation/reference, each table with its source. They are compared only here: the
-//! core's own tests use limits, identities and other algorithms. There is one file per section, with a test.
+//! The numbers are in crates/funicular-validation/reference, each table with its source. They are compared only here:
+//! the core's own tests use limits, identities and other algorithms. There is one file per section, with a test.
 
 mod catenary;
 mod centres;

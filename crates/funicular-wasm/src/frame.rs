@@ -209,9 +209,11 @@ impl Session {
         Ok(Answer { numbers, text: text.to_string() })
     }
 
-    /// Ends of the rays of a level that no lower level has, from a pose to the border of the workspace: x, y, z [m], distance
+    /// Ends of the rays of a level that no lower level has, from a pose to the border of the workspace: x, y, z [m],
+    /// distance
     /// [m], and 1 at the border or 0 where the box of the search ends. The text has the conditions in words, whether they are
-    /// kept at the pose and the pose is in the box, otherwise there are no rays, and the triangles between all rays so far.
+    /// kept at the pose and the pose is in the box, otherwise there are no rays, and the triangles between all rays so
+    /// far.
     ///
     /// # Errors
     /// A state that is no pose, or a robot whose workspace cannot be searched.
@@ -402,7 +404,8 @@ fn description(robot: &Robot, text: &str) -> Value {
     })
 }
 
-/// Bodies with the corners of the triangles of their surfaces, in the frame in which they stand [m]; without half spaces.
+/// Bodies with the corners of the triangles of their surfaces, in the frame in which they stand [m]; without half
+/// spaces.
 fn bodies(of: &[Body]) -> Vec<Value> {
     let with_surface = of.iter().map(|body| (body, body.triangles())).filter(|(_, triangles)| !triangles.is_empty());
     let corners = |triangles: Vec<[Vec3; 3]>| -> Vec<f64> {

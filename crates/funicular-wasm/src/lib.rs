@@ -157,8 +157,8 @@ pub extern "C" fn funicular_mode(index: usize, points: usize) -> u32 {
     with_session(|session| session.mode(index, points))
 }
 
-/// Follows the rays of a level from the pose whose seven numbers were written, position [m] and quaternion w, x, y, z, to
-/// where the conditions of `workspace` end. The text has the conditions.
+/// Follows the rays of a level from the pose whose seven numbers were written, position [m] and quaternion w, x, y, z,
+/// to where the conditions of `workspace` end. The text has the conditions.
 #[expect(unsafe_code, reason = "a name for other languages")]
 #[unsafe(no_mangle)]
 pub extern "C" fn funicular_reach(level: usize) -> u32 {
@@ -166,8 +166,8 @@ pub extern "C" fn funicular_reach(level: usize) -> u32 {
     with_session(|session| session.reach(&FrameState::of_numbers(1, &numbers)?, level))
 }
 
-/// Reads the table in CSV that was written, its name in messages in the first line and the table from the second line on.
-/// The text is JSON, as a request of `calibrate` has it in `readings`.
+/// Reads the table in CSV that was written, its name in messages in the first line and the table from the second line
+/// on. The text is JSON, as a request of `calibrate` has it in `readings`.
 #[expect(unsafe_code, reason = "a name for other languages")]
 #[unsafe(no_mangle)]
 pub extern "C" fn funicular_table() -> u32 {

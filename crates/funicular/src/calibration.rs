@@ -3,8 +3,8 @@
 //!
 //! The equations (96a) to (96k) are in section 18d of docs/theory.md. Straight rigid cables: a row of readings has more
 //! cables than its pose has degrees of freedom; what is left of it after its pose is eliminated, its net rows, says
-//! something about the robot. Elastic cables have a true length each in every row, so that tensions or coordinates have to
-//! be measured as well.
+//! something about the robot. Elastic cables have a true length each in every row, so that tensions or coordinates have
+//! to be measured as well.
 
 mod curvature;
 mod elastic;
@@ -231,8 +231,8 @@ impl Calibration {
         row.readings.iter().flatten().count() + self.pose_data_counts(row).iter().sum::<usize>() + tensions
     }
 
-    /// Number of coordinates of a pose that the readings see: degrees of freedom, or only the translations if all cables
-    /// end in one point.
+    /// Number of coordinates of a pose that the readings see: degrees of freedom, or only the translations if all
+    /// cables end in one point.
     pub fn coordinate_count(&self) -> usize {
         match (self.robot.platform.motion, self.is_point) {
             (PlatformMotion::Planar(_), true) => 2,
@@ -261,13 +261,14 @@ impl Calibration {
         moving_axes(&self.robot)
     }
 
-    /// Unit vectors of the translations of the platform, two of them in a plane, world axes. Anchors that are unknown move
-    /// along them only.
+    /// Unit vectors of the translations of the platform, two of them in a plane, world axes. Anchors that are unknown
+    /// move along them only.
     pub fn translations_w(&self) -> Vec<Vec3> {
         self.robot.platform.motion.translations_w()
     }
 
-    /// Values of the unknowns in the robot file: metres, and for a scale or a factor its value or logarithm times a length.
+    /// Values of the unknowns in the robot file: metres, and for a scale or a factor its value or logarithm times a
+    /// length.
     pub fn start(&self) -> Vec<f64> {
         self.as_in_file().values(&self.unknowns, self.scale_length)
     }
@@ -285,7 +286,8 @@ impl Calibration {
         CalibratedRobot { robot: self.robot.clone(), offsets: vec![0.0; self.robot.cables.len()], scale: 1.0, factors }
     }
 
-    /// Number that a value of the vectors of results means, and its derivative: metres as they are; a scale, or a factor.
+    /// Number that a value of the vectors of results means, and its derivative: metres as they are; a scale, or a
+    /// factor.
     pub fn meaning(&self, unknown: usize, value: f64) -> [f64; 2] {
         match self.unknowns[unknown] {
             CalibrationUnknown::Scale => [value / self.scale_length, 1.0 / self.scale_length],
@@ -350,6 +352,9 @@ impl Calibration {
 pub fn moving_axes(robot: &Robot) -> Vec<usize> {
     robot.platform.motion.components().into_iter().filter(|component| *component < 3).collect()
 }
+
+/// Iterations of one start. Sound starts arrive within about 50; the best one goes on to its end.
+const ITERATIONS_OF_START: usize = 80;
 
 /// Distance between attachments, relative to the readings, up to which they are one point.
 const SAME_POINT: f64 = 1e-9;

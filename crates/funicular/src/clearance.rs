@@ -195,8 +195,8 @@ impl<'a> Surroundings<'a> {
         }
     }
 
-    /// Distances of all pairs at an equilibrium, of one kind or of all. A pair whose cable is shorter than the ends that
-    /// are left out has none.
+    /// Distances of all pairs at an equilibrium, of one kind or of all. A pair whose cable is shorter than the ends
+    /// that are left out has none.
     pub fn clearances(&self, rest: &Equilibrium, kind: Option<ClearanceKind>) -> Vec<Clearance> {
         let at = self.at(rest);
         at.pairs_of(kind).filter_map(|pair| at.clearance(pair, f64::INFINITY)).collect()

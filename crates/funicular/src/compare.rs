@@ -375,7 +375,7 @@ fn match_in_order(found: &[Mode], truth: &[Mode], mass: &Mat6) -> Vec<Match> {
         has_changed = false;
         for k in 1..pairs.len() {
             let ((a, b), (c, d)) = (pairs[k - 1], pairs[k]);
-            if score(a, d) + score(c, b) > score(a, b) + score(c, d) + LEAST_GAIN {
+            if score(a, d) + score(c, b) > score(a, b) + score(c, d) + MIN_GAIN {
                 (pairs[k - 1].1, pairs[k].1) = (d, b);
                 has_changed = true;
             }
@@ -389,7 +389,7 @@ fn match_in_order(found: &[Mode], truth: &[Mode], mass: &Mat6) -> Vec<Match> {
 const NEARLY_EQUAL: f64 = 0.1 * TOLERANCE;
 
 /// Gain of a score above which two modes exchange their counterparts: more than rounding.
-const LEAST_GAIN: f64 = 1e-12;
+const MIN_GAIN: f64 = 1e-12;
 
 fn relative_distance(ours: f64, theirs: f64) -> f64 {
     (1.0 - ours / theirs).abs()
@@ -400,7 +400,7 @@ fn relative_distance(ours: f64, theirs: f64) -> f64 {
 fn pairs_in_order(found: &[f64], truth: &[f64]) -> Vec<(usize, usize)> {
     /// Last step of the best way to pair the beginnings of both lists.
     #[derive(Clone, Copy)]
-    enum Step {
+    enum PairingStep {
         Pair,
         OnlyFound,
         OnlyTruth,
@@ -408,17 +408,17 @@ fn pairs_in_order(found: &[f64], truth: &[f64]) -> Vec<(usize, usize)> {
     const ALONE: f64 = 0.5 * SAME_FREQUENCY;
 
     let width = truth.len() + 1;
-    let mut steps = vec![Step::OnlyTruth; (found.len() + 1) * width];
+    let mut steps = vec![PairingStep::OnlyTruth; (found.len() + 1) * width];
     let mut costs: Vec<f64> = (0..width).map(|j| ALONE * j as f64).collect();
     for (i, ours) in found.iter().enumerate() {
         let row = (i + 1) * width;
         let mut next = vec![ALONE * (i + 1) as f64];
-        steps[row] = Step::OnlyFound;
+        steps[row] = PairingStep::OnlyFound;
         for (j, theirs) in truth.iter().enumerate() {
             let ways = [
-                (costs[j] + relative_distance(*ours, *theirs), Step::Pair),
-                (costs[j + 1] + ALONE, Step::OnlyFound),
-                (next[j] + ALONE, Step::OnlyTruth),
+                (costs[j] + relative_distance(*ours, *theirs), PairingStep::Pair),
+                (costs[j + 1] + ALONE, PairingStep::OnlyFound),
+                (next[j] + ALONE, PairingStep::OnlyTruth),
             ];
             let (cost, step) = ways.into_iter().fold(ways[0], |best, way| if way.0 < best.0 { way } else { best });
             next.push(cost);
@@ -431,12 +431,12 @@ fn pairs_in_order(found: &[f64], truth: &[f64]) -> Vec<(usize, usize)> {
     let mut pairs = Vec::new();
     while i > 0 && j > 0 {
         match steps[i * width + j] {
-            Step::Pair => {
+            PairingStep::Pair => {
                 (i, j) = (i - 1, j - 1);
                 pairs.push((i, j));
             }
-            Step::OnlyFound => i -= 1,
-            Step::OnlyTruth => j -= 1,
+            PairingStep::OnlyFound => i -= 1,
+            PairingStep::OnlyTruth => j -= 1,
         }
     }
     pairs.reverse();

@@ -14,7 +14,7 @@ mod solved;
 
 pub use extremes::{MIN_CROSSINGS, PeakFactor, slack_probability};
 pub use integration::{Moments, Spectra};
-pub use modes::{Resonance, aerodynamic_damping_ratio};
+pub use modes::{GustResonance, aerodynamic_damping_ratio};
 
 use crate::cable::catenary_dynamic::{CatenaryDynamicEnd, DriveSignal};
 use crate::cable_motion::{CableMotionError, CableStations};
@@ -120,7 +120,7 @@ enum GustOutput {
 /// # Example
 /// ```
 /// use funicular::dynamics::{Dynamics, Linearisation};
-/// use funicular::gust::{self, Gusts, Resonance};
+/// use funicular::gust::{self, GustResonance, Gusts};
 /// use funicular::math::Vec3;
 /// use funicular::response::{Quantity, Signal};
 /// use funicular::robot::Robot;
@@ -138,7 +138,7 @@ enum GustOutput {
 /// let gusts = Gusts::new(&robot, &rest, &dynamics, &[(up, Quantity::Displacement)], 2.0)?;
 /// let found = modes::below(&dynamics, 2.0).modes;
 /// let in_air = gust::aerodynamic_damping_ratio(&robot, &rest, &dynamics, &found)?;
-/// let spectra = gusts.spectra(2.0, &Resonance::of_modes(&found, &in_air))?;
+/// let spectra = gusts.spectra(2.0, &GustResonance::of_modes(&found, &in_air))?;
 /// assert!((spectra.moments[0].rms() - 0.0676).abs() < 2e-4); // m
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```

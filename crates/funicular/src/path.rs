@@ -131,7 +131,7 @@ pub enum PathError {
     TimesFall {
         /// Number of the row, from 1.
         row: usize,
-        /// Its time [s].
+        /// Time of the station [s].
         time: f64,
         /// Time of the row before [s].
         before: f64,
@@ -167,9 +167,9 @@ pub enum PathError {
 }
 
 impl PlatformPath {
-    /// Straight moves through poses, each by its shorter turn and from rest to rest. Every move is as fast as the limits
-    /// allow. `blend` from 0 to 1 lets every move begin before the one before it has come to rest, so that the path
-    /// rounds the corner: by all of the time of the slowing down, or this part of it.
+    /// Straight moves through poses, each by its shorter turn and from rest to rest. Every move is as fast as the
+    /// limits allow. `blend` from 0 to 1 lets every move begin before the one before it has come to rest, so that the
+    /// path rounds the corner: by all of the time of the slowing down, or this part of it.
     ///
     /// # Errors
     /// [`PathError::NoLimit`], [`PathError::NoMove`].
@@ -204,7 +204,7 @@ impl PlatformPath {
         Ok(Self { shape: PathShape::Table(PathTable::new(times, poses)?), slowness: 1.0 })
     }
 
-    /// The same path with all times multiplied by a positive factor.
+    /// Path with all times multiplied by a positive factor.
     #[must_use]
     pub fn slowed(&self, factor: f64) -> Self {
         Self { shape: self.shape.clone(), slowness: self.slowness * factor }
@@ -220,8 +220,8 @@ impl PlatformPath {
         own * self.slowness
     }
 
-    /// Times at which a derivative up to that of the jerk jumps, ascending. The rates of lengths jump where the jerk does,
-    /// because tensions and sag follow the acceleration. None within a table.
+    /// Times at which a derivative up to that of the jerk jumps, ascending. The rates of lengths jump where the jerk
+    /// does, because tensions and sag follow the acceleration. None within a table.
     pub fn corners(&self) -> Vec<PathCorner> {
         let own = match &self.shape {
             PathShape::Moves(moves) => moves.corners(),

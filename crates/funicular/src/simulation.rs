@@ -1,9 +1,10 @@
-//! Large motion of a robot in time: platform and sagging ropes, winches that pay out, payloads that are released, cables
-//! that fail or go slack.
+//! Large motion of a robot in time: platform and sagging ropes, winches that pay out, payloads that are released,
+//! cables that fail or go slack.
 //!
-//! Each rope is a string without bending stiffness that stretches, weighs and has mass, as elements of a degree that the
-//! caller chooses; the platform is a rigid body, a point mass, or a body in a plane. The start is the equilibrium of this
-//! mesh. Steps are as long as a tolerance of positions allows. The equations are in docs/theory.md, section 18e.
+//! Each rope is a string without bending stiffness that stretches, weighs and has mass, as elements of a degree that
+//! the caller chooses; the platform is a rigid body, a point mass, or a body in a plane. The start is the equilibrium
+//! of this mesh. Steps are as long as a tolerance of positions allows. The equations are in docs/theory.md, section
+//! 18e.
 
 mod air;
 mod arrow;

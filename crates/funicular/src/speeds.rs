@@ -14,7 +14,7 @@ const SEARCHED: f64 = 1e9;
 /// Speed of a cable that has begun to move [m/s], far below any other: the friction of the gear then has a direction.
 const BARELY: f64 = 1e-100;
 
-/// What the winches of a robot do while its platform moves.
+/// Work of the winches of a robot while its platform moves.
 ///
 /// # Example
 /// ```
@@ -41,8 +41,8 @@ pub struct WinchSpeeds {
     motion: PlatformMotion,
     /// Winches in the order of the cables.
     winches: Vec<WinchAtRest>,
-    /// False if the rule of the tensions has no derivatives at the equilibrium: the tensions then change least along the
-    /// cables in place of following it.
+    /// False if the rule of the tensions has no derivatives at the equilibrium: the tensions then change least along
+    /// the cables in place of following it.
     pub follows_rule: bool,
 }
 
@@ -79,7 +79,7 @@ pub struct LargestMotion {
     pub cable: Option<(usize, LimitOfWinch)>,
 }
 
-/// What one winch does at the worst speeds of a box of twists.
+/// Work of one winch at the worst speeds of a box of twists.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct WorstUse {
     /// Largest speed of the cable at the drum [m/s].
@@ -95,7 +95,7 @@ pub struct WorstUse {
 /// Powers of all winches together.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct SumOfPowers {
-    /// Of the motors that drive [W].
+    /// Power of the motors that drive [W].
     pub driving: f64,
     /// Taken by the motors that brake [W].
     pub braking: f64,

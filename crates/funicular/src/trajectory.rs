@@ -1,5 +1,5 @@
-//! A robot in motion along a path: tensions with the inertia of the platform and of the ropes, unstrained lengths, their
-//! rates and accelerations.
+//! A robot in motion along a path: tensions with the inertia of the platform and of the ropes, unstrained lengths,
+//! their rates and accelerations.
 //!
 //! The cables are quasi-static: at every time each has the shape of a cable at rest. The inertia of the platform is a
 //! load on it (docs/theory.md, equation (40z5)), that of a taut rope a load along it, (40z8).
@@ -19,8 +19,8 @@ use std::f64::consts::PI;
 /// its square times the third derivative of the lengths; the lengths have an error of 1e-12 m, over this time 1e-8 m/s.
 const DIFFERENCE: f64 = 1e-4;
 
-/// Difference of the rates on both sides of a time, over the smaller of them, from which on the tensions jump on one side,
-/// and least rate that is compared [m/s]: a jump of 1 N in 10 m of rope with 1 MN is 0.1 m/s over this time.
+/// Difference of the rates on both sides of a time, over the smaller of them, from which on the tensions jump on one
+/// side, and least rate that is compared [m/s]: a jump of 1 N in 10 m of rope with 1 MN is 0.1 m/s over this time.
 const JUMP: f64 = 3.0;
 const MIN_JUMP: f64 = 0.01;
 
@@ -56,7 +56,7 @@ const AT_LIMIT: f64 = 1e-6;
 pub struct AlongPath<'a> {
     /// Robot without its motion.
     at_rest: &'a Robot,
-    /// The same with the loads of the motion.
+    /// Robot with the loads of the motion.
     loaded: Robot,
     model: StaticModel,
     rule: TensionRule,
@@ -161,7 +161,8 @@ impl<'a> AlongPath<'a> {
         found
     }
 
-    /// Rates of the lengths as differences over a short time; those of the smoother side if the tensions jump on the other.
+    /// Rates of the lengths as differences over a short time; those of the smoother side if the tensions jump on the
+    /// other.
     fn differences(&mut self, point: &PathPoint) -> Result<Vec<f64>, StaticsError> {
         let [before, here, after] = [-DIFFERENCE, 0.0, DIFFERENCE].map(|time| self.equilibrium(&shifted(point, time)));
         self.load(point);
@@ -234,8 +235,8 @@ fn shifted(point: &PathPoint, time: f64) -> PathPoint {
 }
 
 impl InMotion {
-    /// First frequency of a cable as a taut string with fixed ends [Hz], the lowest of all cables; `None` without a rope
-    /// that has mass. Cables follow the platform as at rest far below it.
+    /// First frequency of a cable as a taut string with fixed ends [Hz], the lowest of all cables; `None` without a
+    /// rope that has mass. Cables follow the platform as at rest far below it.
     pub fn lowest_string_frequency(&self, robot: &Robot) -> Option<f64> {
         let frequencies = self.equilibrium.cables.iter().zip(&robot.cables).filter_map(|(state, cable)| {
             let mass = cable.material.mass_per_length;

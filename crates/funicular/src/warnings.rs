@@ -361,7 +361,8 @@ fn too_deep(cables: &[DeepSag], model: CableModel) -> String {
     )
 }
 
-/// Warning about cable `i` beyond the breaking load of its rope or beyond a limit of the file; only the most serious one.
+/// Warning about cable `i` beyond the breaking load of its rope or beyond a limit of the file; only the most serious
+/// one.
 pub fn of_tension(robot: &Robot, equilibrium: &Equilibrium, i: usize) -> Option<Warning> {
     let state = &equilibrium.cables[i];
     let margin = TensionRange::of(robot, i, &state.chord_w()).margin(state);

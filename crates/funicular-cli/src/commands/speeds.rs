@@ -30,7 +30,7 @@ impl Printed for Speeds {
     }
 }
 
-/// What the winches have to do for the required velocities.
+/// Work of the winches for the required velocities.
 fn required_text(required: &RequiredSpeeds) -> String {
     format!(
         "  required velocities ({}) m/s, ({}) rad/s: {}\n  speed factor        {}\n  powers              motors that drive \

@@ -344,7 +344,8 @@ fn payloads_have_the_vibration_of_the_robot_that_carries_them() {
     };
     assert!((number(&payloads[0]["amplitude_m"]) / sum(&found) - 1.0).abs() < 1e-6, "{payloads:?}");
 
-    // The centre of mass of this platform does not change, and its inertia only by the rounding of a mass without extent.
+    // The centre of mass of this platform does not change, and its inertia only by the rounding of a mass without
+    // extent.
     let folder = tempfile::tempdir().unwrap();
     let path = lengths_of_the_move(folder.path());
     let mass = number(
@@ -374,8 +375,8 @@ fn a_page_shows_the_decay_and_the_lengths() {
     }
 }
 
-/// Symmetric robots have motions that share a frequency: every robot of the library with damping and every new one has an
-/// answer.
+/// Symmetric robots have motions that share a frequency: every robot of the library with damping and every new one has
+/// an answer.
 #[test]
 fn every_robot_with_damping_has_a_decay() {
     let release = ["settle", "-", "--release-n", "0,0,-1"];

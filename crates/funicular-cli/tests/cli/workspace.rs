@@ -228,8 +228,8 @@ fn a_planar_platform_has_an_area() {
     assert!(svg.contains("<svg") && svg.contains("anchor"), "{svg}");
 }
 
-/// A limit that is met exactly over a region is kept there: the set is that without the limit, and its stated error bounds
-/// the difference from a finer grid. A section at a face of the grid has the area of one just inside.
+/// A limit that is met exactly over a region is kept there: the set is that without the limit, and its stated error
+/// bounds the difference from a finer grid. A section at a face of the grid has the area of one just inside.
 #[test]
 fn a_limit_that_is_met_exactly_over_a_region_loses_nothing() {
     let hall = super::project("docs/quick-start/hall.toml");

@@ -1,5 +1,5 @@
-//! The robot for programs whose cables are springs: its equilibrium on straight cables without mass, the spring of every
-//! cable, the dead forces on the platform, and what such a program loses.
+//! The robot for programs whose cables are springs: its equilibrium on straight cables without mass, the spring of
+//! every cable, the dead forces on the platform, and what such a program loses.
 
 use anyhow::{Result, bail};
 use funicular::cable::CableModel;
@@ -13,12 +13,12 @@ use funicular_study::at_rest::AtRest;
 /// Part of the weight of the platform above which the weight of the cables is reported as lost.
 const HEAVY_CABLES: f64 = 1e-6;
 
-/// Robot at rest on springs: straight cables without mass (the static model `spring`), or chains that hang as its cables
-/// do.
+/// Robot at rest on springs: straight cables without mass (the static model `spring`), or chains that hang as its
+/// cables do.
 pub(super) struct SpringRobot<'a> {
     pub(super) robot: &'a Robot,
     pub(super) equilibrium: Equilibrium,
-    /// What the file does not have, one sentence each.
+    /// Parts of the robot that the file does not have, one sentence each.
     pub(super) lost: Vec<String>,
 }
 
@@ -54,8 +54,8 @@ pub(super) fn at_rest(given: &AtRest) -> Result<AtRest> {
 }
 
 impl<'a> SpringRobot<'a> {
-    /// The robot at rest on straight cables. `given` is the equilibrium that it was made of, `lost` what the file has lost
-    /// already.
+    /// The robot at rest on straight cables. `given` is the equilibrium that it was made of, `lost` what the file has
+    /// lost already.
     pub(super) fn of(at_rest: &'a AtRest, given: &Equilibrium, lost: &[String]) -> Self {
         let mut found = Self { robot: &at_rest.robot, equilibrium: at_rest.equilibrium.clone(), lost: lost.to_vec() };
         found.tell_sag(given);

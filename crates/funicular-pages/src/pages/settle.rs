@@ -1,4 +1,5 @@
-//! Page about a decay: motion of the point over time with its bound, the modes that carry it, and the commanded lengths.
+//! Page about a decay: motion of the point over time with its bound, the modes that carry it, and the commanded
+//! lengths.
 
 use super::Shell;
 use super::figure::{PageFigure, axis, cable_line_style, colour, line, plain};

@@ -1,7 +1,7 @@
 //! `calibrate`: anchors, attachments, offsets and scale from readings of lengths at poses that nobody knows.
 //!
-//! docs/theory.md, section 18d, has the equations. `identify` takes measured results of states that are known; here every
-//! row brings its own unknown pose.
+//! docs/theory.md, section 18d, has the equations. `identify` takes measured results of states that are known; here
+//! every row brings its own unknown pose.
 
 mod caveats;
 mod choice;
@@ -134,8 +134,8 @@ found!(Calibrated, "calibrate");
 /// Calibrates a robot.
 ///
 /// # Errors
-/// A request that contradicts itself or the robot; a table with a fault; fewer readings than unknowns; readings that fit at
-/// no start; work that was stopped.
+/// A request that contradicts itself or the robot; a table with a fault; fewer readings than unknowns; readings that
+/// fit at no start; work that was stopped.
 pub fn run(request: &CalibrateRequest, watch: &mut dyn Watch) -> Result<Calibrated> {
     request::check("length_std_m", request.length_std_m, crate::values::positive)?;
     request::check("position_std_m", request.position_std_m, crate::values::positive)?;

@@ -249,7 +249,8 @@ pub(crate) fn check_hold(robot: &Robot, hold: Hold) -> Result<()> {
 /// Gradients about an equilibrium while the lengths, the pose or the tension rule are held.
 ///
 /// # Errors
-/// Too few cables to hold a pose, `Hold::Rule` where no rule has chosen the tensions, or an equilibrium without derivatives.
+/// Too few cables to hold a pose, `Hold::Rule` where no rule has chosen the tensions, or an equilibrium without
+/// derivatives.
 pub(crate) fn held(at_rest: &AtRest, hold: Hold) -> Result<Gradients<'_>> {
     let AtRest { robot, equilibrium, rule, held_pose, .. } = at_rest;
     check_hold(robot, hold)?;
@@ -272,7 +273,8 @@ pub(crate) fn held(at_rest: &AtRest, hold: Hold) -> Result<Gradients<'_>> {
     gradients.map_err(no_solution)
 }
 
-/// Part of a sentence that says what is held while a number of the robot file changes, and by which rule the rest follows.
+/// Part of a sentence that says what is held while a number of the robot file changes, and by which rule the rest
+/// follows.
 pub fn meaning(at_rest: &AtRest, hold: Hold) -> &'static str {
     let redundant = at_rest.robot.constraint().is_redundant();
     match (hold, &at_rest.rule) {

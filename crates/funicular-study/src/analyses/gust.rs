@@ -14,7 +14,7 @@ use crate::request::{self, GustRequest, TurbulenceOptions, check_vector};
 use crate::signals::Output;
 use crate::table::Column;
 use anyhow::{Context, Result, bail};
-use funicular::gust::{self, Gusts, PeakFactor, Resonance, Spectra};
+use funicular::gust::{self, GustResonance, Gusts, PeakFactor, Spectra};
 use funicular::math::Vec3;
 use funicular::modes;
 use funicular::response::{Quantity, Signal};
@@ -150,7 +150,7 @@ pub fn about(at_rest: &AtRest, request: &GustRequest) -> Result<Gusty> {
     let gusts = Gusts::new(robot, equilibrium, &dynamics, &signals, limit)?;
     let natural: Vec<f64> = found.modes.iter().map(|mode| mode.frequency_hz).collect();
     let in_air = gust::aerodynamic_damping_ratio(robot, equilibrium, &dynamics, &found.modes)?;
-    let resonances = Resonance::of_modes(&found.modes, &in_air);
+    let resonances = GustResonance::of_modes(&found.modes, &in_air);
     let spectra = gusts.spectra(limit, &resonances).map_err(|error| no_solution(&error))?;
 
     Ok(Gusty {

@@ -63,8 +63,8 @@ pub struct RequiredHeld {
     /// Multiple up to which all loads inside the set are held, not only its vertices.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub load_factor_lower_bound: Option<f64>,
-    /// Derivatives of the load factor by a motion of the platform along the axes of the world, and by a turn about them;
-    /// absent where it has none.
+    /// Derivatives of the load factor by a motion of the platform along the axes of the world, and by a turn about
+    /// them; absent where it has none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub load_factor_by_position_per_m: Option<[f64; 3]>,
     #[serde(skip_serializing_if = "Option::is_none")]

@@ -104,8 +104,8 @@ pub struct Commanded {
     /// known.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub omitted_m: Option<f64>,
-    /// Bound of the change of the tension of a cable, averaged along it, by the modes above the limit; absent if none is
-    /// known.
+    /// Bound of the change of the tension of a cable, averaged along it, by the modes above the limit; absent if none
+    /// is known.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub omitted_tension_n: Option<f64>,
     /// Motion while the command runs, at negative times.
@@ -259,7 +259,7 @@ impl<'a> Swing<'a> {
         let mut found = of_limit(limit)?;
         while !is_given
             && omitted::counts(at_rest, request, command, &found, &arm_w)
-            && found.dynamics.modes_below(omitted::NEXT_LIMIT * limit * TAU) <= omitted::MOST_MODES
+            && found.dynamics.modes_below(omitted::NEXT_LIMIT * limit * TAU) <= omitted::MAX_CHOSEN_MODES
         {
             limit = rounded_up(omitted::NEXT_LIMIT * limit);
             found = of_limit(limit)?;

@@ -63,7 +63,7 @@ pub struct Simulated {
     /// Time at which the parts of the robot are nearest; absent if its file says nothing about distances.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub nearest: Option<NearestRow>,
-    /// What the books of the energy are off by, at most [J].
+    /// Largest error of the energy balance [J].
     pub energy_defect_j: f64,
     /// True if slack ropes with mass make the history depend on the mesh, so that its peaks are statistics.
     pub is_statistical: bool,
@@ -242,7 +242,7 @@ struct History {
     counts: StepCounts,
 }
 
-/// What both runs have in common.
+/// Parts that both runs have in common.
 struct Course<'a> {
     at_rest: &'a AtRest,
     events: &'a ScenarioEvents,

@@ -23,7 +23,7 @@ pub struct Speeds {
     #[serde(flatten)]
     pub origin: Origin,
     pub pose: PoseRow,
-    /// What the winches have to do for the required velocities; absent if none is required.
+    /// Work of the winches for the required velocities; absent if none is required.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub required: Option<RequiredSpeeds>,
     /// Largest speed of the platform origin in every direction without turning [m/s].
@@ -78,7 +78,8 @@ pub struct DirectionRow {
 #[derive(Serialize)]
 pub struct CableSpeeds {
     pub name: String,
-    /// Speed of the cable at the drum per speed of the platform along the axes of the world, positive while it pays out.
+    /// Speed of the cable at the drum per speed of the platform along the axes of the world, positive while it pays
+    /// out.
     pub rate_per_velocity: [f64; 3],
     /// Speed of the cable at the drum per angular velocity about these axes.
     pub rate_per_angular_velocity_m_per_rad: [f64; 3],
@@ -89,7 +90,7 @@ pub struct CableSpeeds {
     /// Largest speed of the cable at the drum while it winds in; absent without a limit.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub speed_max_in_m_s: Option<f64>,
-    /// The same while it pays out.
+    /// Largest value while the winch pays out.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub speed_max_out_m_s: Option<f64>,
     /// Limit that is reached first.
@@ -98,7 +99,7 @@ pub struct CableSpeeds {
     /// Largest speed of the platform in every direction without turning, as far as this winch allows.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub platform_speed_max_m_s: Option<f64>,
-    /// What the winch does for the required velocities; absent if none is required.
+    /// Work of the winch for the required velocities; absent if none is required.
     #[serde(flatten)]
     pub required: Option<WinchInUse>,
 }
@@ -129,8 +130,8 @@ fn is_no_number(part: &Option<f64>) -> bool {
 /// Computes the speeds that the winches allow at an equilibrium.
 ///
 /// # Errors
-/// A robot with fewer cables than degrees of freedom, one without such an equilibrium, or an equilibrium without rates of
-/// its lengths.
+/// A robot with fewer cables than degrees of freedom, one without such an equilibrium, or an equilibrium without rates
+/// of its lengths.
 pub fn run(robot: Robot, request: &SpeedsRequest) -> Result<Speeds> {
     let robot = at_rest::with_required_velocities(robot, &request.required)?;
     if robot.constraint().is_under() {

@@ -1,5 +1,5 @@
-//! Jumps of a rule of tensions from pose to pose: `middle` and `stiffest` have several best tensions at some poses, and go
-//! over from one to the other there (docs/theory.md, section 10).
+//! Jumps of a rule of tensions from pose to pose: `middle` and `stiffest` have several best tensions at some poses, and
+//! go over from one to the other there (docs/theory.md, section 10).
 
 use super::AtRest;
 use crate::text::significant;
@@ -42,8 +42,8 @@ impl AtRest {
         self.held_pose.is_none() && matches!(self.rule, Some(TensionRule::Middle | TensionRule::Stiffest))
     }
 
-    /// Warning for rates and derivatives at the pose at rest: the nearest jump of the rule along a coordinate, or that there
-    /// is none near.
+    /// Warning for rates and derivatives at the pose at rest: the nearest jump of the rule along a coordinate, or that
+    /// there is none near.
     pub(crate) fn rule_near_jump(&self) -> Option<String> {
         if !self.has_rule_that_jumps() {
             return None;
@@ -78,8 +78,8 @@ impl AtRest {
         ))
     }
 
-    /// Warning for lengths that follow from poses on a way by a rule that jumps there; `pose` gives the pose at a part of
-    /// the way.
+    /// Warning for lengths that follow from poses on a way by a rule that jumps there; `pose` gives the pose at a part
+    /// of the way.
     pub(crate) fn rule_jumps_on_way(&self, pose: &mut dyn FnMut(f64) -> Pose, what: &str) -> Option<String> {
         if !self.has_rule_that_jumps() {
             return None;

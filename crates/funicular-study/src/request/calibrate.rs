@@ -9,27 +9,28 @@ use serde::{Deserialize, Serialize};
 declared! {
     /// Anchors, attachments, offsets and scale from readings of cable lengths at poses that are not known.
     ///
-    /// Every row of ⟪readings⟫ belongs to one pose, which is found with the robot's numbers. Cables are straight and rigid
-    /// unless ⟪static_model⟫ says otherwise; elastic ones need measured tensions or coordinates. The result says how well
-    /// the readings fit and, apart from that, what they determine. docs/calibration.md explains tables, frames and the
-    /// result.
+    /// Every row of ⟪readings⟫ belongs to one pose, which is found with the robot's numbers. Cables are straight and
+    /// rigid unless ⟪static_model⟫ says otherwise; elastic ones need measured tensions or coordinates. The result says
+    /// how well the readings fit and, apart from that, what they determine. docs/calibration.md explains tables, frames
+    /// and the result.
     pub struct CalibrateRequest {
         /// Robot file, whose values are the start.
         robot: RobotText = RobotText::default() => (Data(shape::robot)).required();
-        /// Readings, one row per pose: columns length_NAME_m [m] or length_NAME_mm [mm] of every cable, empty where a cable was
-        /// slack or not read; x_m, y_m, z_m and, where the platform turns, roll_deg, pitch_deg, yaw_deg are poses at which
-        /// the search begins; tension_NAME_n are tensions at the anchors [N], which elastic cables need.
+        /// Readings, one row per pose: columns length_NAME_m [m] or length_NAME_mm [mm] of every cable, empty where a
+        /// cable was slack or not read; x_m, y_m, z_m and, where the platform turns, roll_deg, pitch_deg, yaw_deg are
+        /// poses at which the search begins; tension_NAME_n are tensions at the anchors [N], which elastic cables need.
         readings: GappedColumns = GappedColumns::new() => (GappedColumns).required();
         /// Rows of the readings that are left out, by their numbers from 1, separated by commas.
         leave_out: Vec<f64> = Vec::new() => (Commas(ProgramForm::Positive)).form("ROWS");
-        /// Numbers to find, separated by commas: anchors, attachments, offsets (length of each cable at the reading zero),
-        /// scale (metres of length per metre of all readings), pulley-radii; of elastic cables also axial-stiffness, mass and
-        /// support-stiffness, as factors of those of the file.
+        /// Numbers to find, separated by commas: anchors, attachments, offsets (length of each cable at the reading
+        /// zero), scale (metres of length per metre of all readings), pulley-radii; of elastic cables also
+        /// axial-stiffness, mass and support-stiffness, as factors of those of the file.
         unknowns: Vec<String> = vec!["anchors".to_owned()] => (Texts).form("NAMES");
         /// Cables whose anchors are known, by their names, separated by commas.
         hold_anchors: Vec<String> = Vec::new() => (Texts).form("CABLES");
-        /// Frame of the result: cables separated by commas, of which the first keeps its anchor, the second the direction
-        /// from the first, and the third the plane of the three; or inner, in which all anchors together move least.
+        /// Frame of the result: cables separated by commas, of which the first keeps its anchor, the second the
+        /// direction from the first, and the third the plane of the three; or inner, in which all anchors together move
+        /// least.
         frame: Vec<String> = Vec::new() => (Texts).form("CABLES|inner");
         /// Standard deviation of a reading [m].
         length_std_m: Option<f64> = None => (Number(Positive)).otherwise("that of the residuals");
@@ -39,26 +40,26 @@ declared! {
         rotation_std_deg: Option<f64> = None => (Number(Positive)).otherwise("they only start the search");
         /// Standard deviation of the measured tensions [N].
         tension_std_n: f64 = 1.0 => (Number(Positive));
-        /// Values known beforehand with their standard deviations: kinds as in ⟪unknowns⟫, or paths of values; without a value
-        /// that of the file, as in offsets=0±0.02 or cables.*.anchor_m=±0.05 (repeatable). Anchors with a prior have a place
-        /// in the world, which holds the frame.
+        /// Values known beforehand with their standard deviations: kinds as in ⟪unknowns⟫, or paths of values; without
+        /// a value that of the file, as in offsets=0±0.02 or cables.*.anchor_m=±0.05 (repeatable). Anchors with a prior
+        /// have a place in the world, which holds the frame.
         prior: Vec<PriorValue> = Vec::new() => (List(ProgramForm::Prior)).form("NAME=[VALUE]±DEVIATION")
             .under("Prior knowledge");
-        /// Range within which the tensions at the anchors lie that were not measured [N]: a prior of its middle, with the
-        /// deviation of equal chances, for elastic cables.
+        /// Range within which the tensions at the anchors lie that were not measured [N]: a prior of its middle, with
+        /// the deviation of equal chances, for elastic cables.
         tension_range_n: Option<[f64; 2]> = None => (Written(ProgramForm::Band)).form("FROM:TO").under("Prior knowledge");
         /// Static model of the cables: ideal ones are straight and rigid.
         #[serde(with = "crate::names")]
         static_model: StaticModel = StaticModel::Ideal => (name::<StaticModel>()).form("MODEL");
         /// Maximum number of starts of the search.
         starts: usize = 10 => (Count(1..=1000));
-        /// Values with a profile, separated by commas: kinds as in ⟪unknowns⟫, or paths of values. Each is held at steps and
-        /// everything else is fitted again, until χ² has risen to the limit of 95 %.
+        /// Values with a profile, separated by commas: kinds as in ⟪unknowns⟫, or paths of values. Each is held at
+        /// steps and everything else is fitted again, until χ² has risen to the limit of 95 %.
         profile: Vec<String> = Vec::new() => (Texts).form("NAMES");
         /// Number of poses to propose that reduce the deviations most, one after the other.
         propose: usize = 0 => (Count(0..=100)).under("Proposal");
-        /// Axis of the candidates of a proposal: x, y, z [m], roll, pitch, yaw [degrees], with N values from A to B, or with
-        /// listed values (repeatable); an axis that is not given stays at the middle pose of the rows.
+        /// Axis of the candidates of a proposal: x, y, z [m], roll, pitch, yaw [degrees], with N values from A to B, or
+        /// with listed values (repeatable); an axis that is not given stays at the middle pose of the rows.
         grid: Vec<Axis> = Vec::new() => (List(ProgramForm::GridAxis)).form("AXIS=A:B:N|V,V,…").under("Proposal");
         /// Candidates of a proposal instead of a grid: position [m] and roll, pitch, yaw [degrees].
         poses: Option<Vec<[f64; 6]>> = None => (Poses).under("Proposal");
@@ -69,8 +70,8 @@ declared! {
         propose_by: RowCriterion = RowCriterion::default() => (name::<RowCriterion>()).form("CRITERION").under("Proposal");
         /// Largest deviation that is wanted [m]: the least number of proposed poses that reaches it.
         wanted_std_m: Option<f64> = None => (Number(Positive)).under("Proposal");
-        /// Tensions at the candidates of a proposal. Candidates without tensions within the limits are left out; elastic
-        /// cables without a rule try the lowest and the middle tensions.
+        /// Tensions at the candidates of a proposal. Candidates without tensions within the limits are left out;
+        /// elastic cables without a rule try the lowest and the middle tensions.
         #[serde(flatten)]
         tensions: Tensions = Tensions::default() => group;
     }
@@ -91,6 +92,6 @@ pub struct PriorValue {
     /// Value; default that of the robot file.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub prior: Option<f64>,
-    /// Its standard deviation.
+    /// Standard deviation of this value.
     pub prior_std: f64,
 }

@@ -34,7 +34,7 @@ impl Fault {
     }
 }
 
-type Checked = Result<(), Fault>;
+type KeyCheck = Result<(), Fault>;
 
 /// Checks the keys of a request of a command, whichever of them are given. `null` counts as not given.
 ///
@@ -91,7 +91,7 @@ pub(crate) fn read<T: DeserializeOwned>(value: Value) -> Result<T> {
     serde_json::from_value(value).map_err(|error| anyhow!("{}", library_words::of_reader(&error.to_string())))
 }
 
-fn of_key(key: &Key, value: &Value) -> Checked {
+fn of_key(key: &Key, value: &Value) -> KeyCheck {
     match &key.kind {
         Kind::Data(_) => of_data(key.name, value),
         kind => of_kind(kind, value),
@@ -99,7 +99,7 @@ fn of_key(key: &Key, value: &Value) -> Checked {
 }
 
 /// Checks data by the key under which they stand.
-fn of_data(name: &str, value: &Value) -> Checked {
+fn of_data(name: &str, value: &Value) -> KeyCheck {
     let text = |name| entry(name, Kind::Text, true);
     let file = || vec![text("path"), text("text"), entry("guessed_encoding", Kind::Text, false)];
     match name {
@@ -127,7 +127,7 @@ fn of_data(name: &str, value: &Value) -> Checked {
     }
 }
 
-fn of_kind(kind: &Kind, value: &Value) -> Checked {
+fn of_kind(kind: &Kind, value: &Value) -> KeyCheck {
     match kind {
         Kind::Switch if value.is_boolean() => Ok(()),
         Kind::Switch => Err(Fault::wanted(value, "true or false")),
@@ -168,7 +168,7 @@ fn of_kind(kind: &Kind, value: &Value) -> Checked {
     }
 }
 
-fn of_form(form: ProgramForm, value: &Value) -> Checked {
+fn of_form(form: ProgramForm, value: &Value) -> KeyCheck {
     let finite = |name, required| entry(name, Kind::Number(Range::Finite), required);
     let positive = |name, required| entry(name, Kind::Number(Range::Positive), required);
     let text_of = |name| entry(name, Kind::Text, true);
@@ -201,7 +201,7 @@ fn of_form(form: ProgramForm, value: &Value) -> Checked {
 }
 
 /// First value, last value and their number.
-fn masses(value: &Value) -> Checked {
+fn masses(value: &Value) -> KeyCheck {
     let wanted = "a list of the first mass, the last one and their number, as in [10, 90, 81]";
     let Some([first, last, count]) = value.as_array().map(Vec::as_slice) else {
         return Err(Fault::wanted(value, wanted));
@@ -211,7 +211,7 @@ fn masses(value: &Value) -> Checked {
     of_kind(&Kind::Count(2..=u64::MAX), count)
 }
 
-fn axis(value: &Value) -> Checked {
+fn axis(value: &Value) -> KeyCheck {
     let wanted = "a mapping with `axis` and either `from`, `to` and `count`, or `values`";
     let listed = value.get("values").is_some_and(|values| !values.is_null());
     let number = |name| entry(name, Kind::Number(Range::Finite), true);
@@ -224,7 +224,7 @@ fn axis(value: &Value) -> Checked {
     object(value, wanted, |given| keys_of_object(&keys, &[], given))
 }
 
-fn experiments(value: &Value) -> Checked {
+fn experiments(value: &Value) -> KeyCheck {
     list(value, "a list of experiments, each a mapping", |one| {
         object(one, "a mapping", |given| {
             let keys = Experiment::keys();
@@ -241,7 +241,7 @@ fn experiments(value: &Value) -> Checked {
     .map_err(|fault| fault.within(", experiment"))
 }
 
-fn scenario(value: &Value) -> Checked {
+fn scenario(value: &Value) -> KeyCheck {
     let kinds = simulate::event_kinds();
     let Value::Object(lists) = value else {
         return Err(Fault::wanted(value, "a mapping from kinds of events to lists of events"));
@@ -304,7 +304,7 @@ fn with_names(begin: &str, keys: &[Key]) -> String {
 }
 
 /// Checks the keys of an object; `others` are keys of any kind.
-fn keys_of_object(keys: &[Key], others: &[&str], given: &Object) -> Checked {
+fn keys_of_object(keys: &[Key], others: &[&str], given: &Object) -> KeyCheck {
     let known = |name: &str| others.contains(&name) || keys.iter().any(|key| key.name == name);
     if let Some(unknown) = given.keys().find(|name| !known(name)) {
         let names: Vec<String> =
@@ -321,7 +321,7 @@ fn keys_of_object(keys: &[Key], others: &[&str], given: &Object) -> Checked {
     Ok(())
 }
 
-fn object(value: &Value, wanted: &str, keys: impl FnOnce(&Object) -> Checked) -> Checked {
+fn object(value: &Value, wanted: &str, keys: impl FnOnce(&Object) -> KeyCheck) -> KeyCheck {
     match value {
         Value::Object(given) => keys(given),
         other => Err(Fault::wanted(other, wanted)),
@@ -329,31 +329,31 @@ fn object(value: &Value, wanted: &str, keys: impl FnOnce(&Object) -> Checked) ->
 }
 
 /// List of objects with the same keys.
-fn objects(value: &Value, keys: &[Key]) -> Checked {
+fn objects(value: &Value, keys: &[Key]) -> KeyCheck {
     list(value, "a list of mappings", |item| {
         object(item, &with_names("a mapping with", keys), |given| keys_of_object(keys, &[], given))
     })
 }
 
-fn list(value: &Value, wanted: &str, item: impl Fn(&Value) -> Checked) -> Checked {
+fn list(value: &Value, wanted: &str, item: impl Fn(&Value) -> KeyCheck) -> KeyCheck {
     match value {
         Value::Array(items) => each(items, item),
         other => Err(Fault::wanted(other, wanted)),
     }
 }
 
-fn each(items: &[Value], item: impl Fn(&Value) -> Checked) -> Checked {
+fn each(items: &[Value], item: impl Fn(&Value) -> KeyCheck) -> KeyCheck {
     for (i, value) in items.iter().enumerate() {
         item(value).map_err(|fault| fault.within(&format!(", number {}", i + 1)))?;
     }
     Ok(())
 }
 
-fn text(value: &Value) -> Checked {
+fn text(value: &Value) -> KeyCheck {
     if value.is_string() { Ok(()) } else { Err(Fault::wanted(value, "a text")) }
 }
 
-fn number(range: Range, value: &Value) -> Checked {
+fn number(range: Range, value: &Value) -> KeyCheck {
     let Some(number) = value.as_f64().filter(|_| value.is_number()) else {
         let wanted = if value.is_string() { "a number, without quotes" } else { "a number" };
         return Err(Fault::wanted(value, wanted));
@@ -362,7 +362,7 @@ fn number(range: Range, value: &Value) -> Checked {
 }
 
 /// Numbers in a range, as many as are given or this many.
-fn numbers(range: Range, count: Option<usize>, value: &Value) -> Checked {
+fn numbers(range: Range, count: Option<usize>, value: &Value) -> KeyCheck {
     let wanted = count.map_or("a list of numbers".to_owned(), |count| format!("a list of {count} numbers"));
     match value {
         Value::Array(items) if count.is_none_or(|count| items.len() == count) => {
@@ -373,7 +373,7 @@ fn numbers(range: Range, count: Option<usize>, value: &Value) -> Checked {
     }
 }
 
-fn pose(value: &Value) -> Checked {
+fn pose(value: &Value) -> KeyCheck {
     match value {
         Value::Array(items) if matches!(items.len(), 3 | 6) => numbers(Range::Finite, None, value),
         Value::Object(given) => {
@@ -388,7 +388,7 @@ fn pose(value: &Value) -> Checked {
 }
 
 /// Columns by their names.
-fn columns(value: &Value, cell: impl Fn(&Value) -> Checked) -> Checked {
+fn columns(value: &Value, cell: impl Fn(&Value) -> KeyCheck) -> KeyCheck {
     let Value::Object(columns) = value else {
         return Err(Fault::wanted(value, "a table: a mapping from names of columns to lists of numbers"));
     };
@@ -403,7 +403,7 @@ fn columns(value: &Value, cell: impl Fn(&Value) -> Checked) -> Checked {
 }
 
 /// Numbers by the names of cables.
-fn by_cable(range: Range, value: &Value) -> Checked {
+fn by_cable(range: Range, value: &Value) -> KeyCheck {
     let Value::Object(numbers) = value else {
         return Err(Fault::wanted(value, "a mapping from names of cables to numbers"));
     };
@@ -464,8 +464,8 @@ mod tests {
         }
     }
 
-    /// Every command, every key with numbers: the program refuses a number as an option if and only if a request refuses
-    /// it, which Python and the page make of their values.
+    /// Every command, every key with numbers: the program refuses a number as an option if and only if a request
+    /// refuses it, which Python and the page make of their values.
     #[test]
     fn every_numeric_option_has_one_range_for_all_front_ends() {
         let mut compared = 0;

@@ -23,34 +23,35 @@ const DEFAULT_DAMPING_NOISE: f64 = 0.1;
 declared! {
     /// Values of the robot file that fit measurements best, with their deviations.
     ///
-    /// Measurements are frequency responses, natural frequencies with damping ratios, poses, tensions and lengths, in one or
-    /// several states. The result says how sure each value is, and which combinations the measurements do not determine.
-    /// docs/identification.md explains files, priors and the result.
+    /// Measurements are frequency responses, natural frequencies with damping ratios, poses, tensions and lengths, in
+    /// one or several states. The result says how sure each value is, and which combinations the measurements do not
+    /// determine. docs/identification.md explains files, priors and the result.
     pub struct IdentifyRequest {
         /// Robot file.
         robot: RobotText = RobotText::default() => (Data(shape::robot)).required();
-        /// Value of the robot file to identify, with optional bounds, as in platform.mass_kg=10:30; * stands for any key, as in
-        /// 'materials.*.axial_stiffness_n', and a path to a table or vector for all numbers of it that the file gives
-        /// (repeatable).
+        /// Value of the robot file to identify, with optional bounds, as in platform.mass_kg=10:30; * stands for any
+        /// key, as in 'materials.*.axial_stiffness_n', and a path to a table or vector for all numbers of it that the
+        /// file gives (repeatable).
         fit: Vec<FitValue> = Vec::new() => (List(ProgramForm::Fit)).form("PATH[=MIN:MAX]").required();
         /// Measurements of the robot, each in a state of its own.
         experiments: Vec<Experiment> = Vec::new() => (Data(shape::experiments)).required();
-        /// Maximum number of starts of the search. The first start has the values of the file, the others are spread by the
-        /// priors; the search ends at the first start that fits.
+        /// Maximum number of starts of the search. The first start has the values of the file, the others are spread by
+        /// the priors; the search ends at the first start that fits.
         starts: usize = DEFAULT_STARTS => (Count(0..=u64::MAX));
-        /// Fitted values with a profile, by their paths, separated by commas: each value is held at steps and all others are
-        /// fitted again, until χ² has risen by 3.84; * stands for any key, and a path to a table or vector for all numbers
-        /// in it.
+        /// Fitted values with a profile, by their paths, separated by commas: each value is held at steps and all
+        /// others are fitted again, until χ² has risen by 3.84; * stands for any key, and a path to a table or vector
+        /// for all numbers in it.
         profile: Vec<String> = Vec::new() => (Texts).form("PATHS");
         /// Number of measurements to propose that reduce the deviations most, one after the other.
         propose: usize = 0 => (Count(0..=100)).under("Proposal");
-        /// Axis of the poses of a proposal: x, y, z [m], roll, pitch, yaw [degrees], with N values from A to B, or with listed
-        /// values (repeatable); an axis that is not given stays at the pose of the first experiment.
+        /// Axis of the poses of a proposal: x, y, z [m], roll, pitch, yaw [degrees], with N values from A to B, or with
+        /// listed values (repeatable); an axis that is not given stays at the pose of the first experiment.
         grid: Vec<Axis> = Vec::new() => (List(ProgramForm::GridAxis)).form("AXIS=A:B:N|V,V,…").under("Proposal");
         /// Poses of a proposal instead of a grid: position [m] and roll, pitch, yaw [degrees].
         poses: Option<Vec<[f64; 6]>> = None => (Poses).under("Proposal");
-        /// What can be measured at each of these poses, separated by commas: frequencies (the lowest ones), tensions,
-        /// lengths, pose (at the lengths of the file's robot there). Other loads are those of the first experiment.
+        /// Quantities that can be measured at each of these poses, separated by commas: frequencies (the lowest ones),
+        /// tensions, lengths, pose (at the lengths of the file's robot there). Other loads are those of the first
+        /// experiment.
         propose_measuring: Vec<String> = vec!["frequencies".to_owned()] => (Texts).form("KINDS").under("Proposal");
         /// Number of the lowest natural frequencies that are measured at each pose of a proposal.
         propose_modes: usize = 6 => (Count(1..=100)).under("Proposal");
@@ -59,18 +60,19 @@ declared! {
             (Commas(ProgramForm::NotNegative)).form("M1,M2,…").under("Proposal").otherwise("that of the first experiment");
         /// Values whose deviations the proposal reduces, by their paths, as in ⟪profile⟫.
         propose_for: Vec<String> = Vec::new() => (Texts).form("PATHS").under("Proposal").otherwise("all fitted values");
-        /// Criterion of the proposal. Variances are relative to the values, or in usual errors of values that may be zero.
+        /// Criterion of the proposal. Variances are relative to the values, or in usual errors of values that may be
+        /// zero.
         #[serde(with = "crate::names")]
         propose_by: RowCriterion = RowCriterion::default() => (name::<RowCriterion>()).form("CRITERION").under("Proposal");
-        /// Largest relative deviation of a positive value that is wanted [%]: the least number of proposed measurements that
-        /// reaches it.
+        /// Largest relative deviation of a positive value that is wanted [%]: the least number of proposed measurements
+        /// that reaches it.
         wanted_percent: Option<f64> = None => (Number(Positive)).under("Proposal");
         /// First frequency of the responses that counts [Hz].
         from_hz: Option<f64> = None => (Number(NotNegative)).under("Measurements").otherwise("all");
         /// Last frequency of the responses that counts [Hz].
         to_hz: Option<f64> = None => (Number(Positive)).under("Measurements").otherwise("all");
-        /// Standard deviation of responses without deviations, relative to their magnitude; 0.3 % of the median magnitude is
-        /// added.
+        /// Standard deviation of responses without deviations, relative to their magnitude; 0.3 % of the median
+        /// magnitude is added.
         response_noise: f64 = DEFAULT_RESPONSE_NOISE => (Number(Positive)).under("Measurements");
         /// Relative standard deviation of natural frequencies without deviations.
         frequency_noise: f64 = DEFAULT_FREQUENCY_NOISE => (Number(Positive)).under("Measurements");

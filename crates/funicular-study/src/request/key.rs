@@ -121,7 +121,7 @@ pub enum Kind {
     Poses,
     /// Columns of numbers by their names; the program reads them from a CSV file.
     Columns,
-    /// The same with gaps: null, in the file an empty cell.
+    /// Columns of numbers with gaps: null, in the file an empty cell.
     GappedColumns,
     /// Numbers by the names of cables.
     ByCable(Range),

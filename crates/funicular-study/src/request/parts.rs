@@ -127,7 +127,7 @@ impl From<&funicular::robot::Pose> for Pose {
 /// Numbers of a table by the names of its columns.
 pub type NumberColumns = std::collections::BTreeMap<String, Vec<f64>>;
 
-/// The same with gaps.
+/// Columns of numbers with gaps.
 pub type GappedColumns = std::collections::BTreeMap<String, Vec<Option<f64>>>;
 
 declared! {
@@ -138,8 +138,8 @@ declared! {
             (PerCable(Positive)).form("L1,L2,…").under("State").excludes(&["pose", "hold_lengths_of_pose"]);
         /// Pose x,y,z[,roll,pitch,yaw] [m, degrees], R = Rz(yaw) Ry(pitch) Rx(roll); the lengths follow from it.
         pose: Option<Pose> = None => (Pose).under("State");
-        /// Hold the unstrained lengths with which the robot of the file rests at the pose (of the file or of ⟪pose⟫); all
-        /// changes (⟪set⟫, ⟪mass_kg⟫, loads, wind, ⟪vary⟫) then act at these lengths and move the platform.
+        /// Hold the unstrained lengths with which the robot of the file rests at the pose (of the file or of ⟪pose⟫);
+        /// all changes (⟪set⟫, ⟪mass_kg⟫, loads, wind, ⟪vary⟫) then act at these lengths and move the platform.
         hold_lengths_of_pose: bool = false => (Switch).under("State");
         /// Mass of the platform [kg]; inertia and centre of mass do not change.
         mass_kg: Option<f64> = None => (Number(Positive)).under("State");
@@ -153,7 +153,8 @@ declared! {
 }
 
 declared! {
-    /// Loads on platform and cables besides their weight, fixed in world axes; they replace the loads of the robot file.
+    /// Loads on platform and cables besides their weight, fixed in world axes; they replace the loads of the robot
+    /// file.
     #[derive(Copy)]
     pub struct Load {
         /// Force on the platform, world axes [N].
@@ -163,8 +164,8 @@ declared! {
         /// Point where the force acts, platform frame [m].
         load_point_m: Option<[f64; 3]> = None =>
             (Vector).under("Load").otherwise("from the robot file, or the origin");
-        /// Velocity of the steady wind, world axes [m/s]; it acts on ropes with a `drag_coefficient` and platforms with a
-        /// `drag_area_m2`.
+        /// Velocity of the steady wind, world axes [m/s]; it acts on ropes with a `drag_coefficient` and platforms with
+        /// a `drag_area_m2`.
         wind_m_s: Option<[f64; 3]> = None => (Vector).under("Load");
         /// Load per metre of every cable besides its weight, world axes [N/m].
         cable_load_n_per_m: Option<[f64; 3]> = None => (Vector).under("Load");

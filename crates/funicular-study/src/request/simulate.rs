@@ -7,8 +7,8 @@ use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
 declared! {
-    /// Large motion in time of platform and sagging ropes: released payloads, winches that change lengths or hold tensions,
-    /// stops, pushes, gusts, cables that fail or go slack.
+    /// Large motion in time of platform and sagging ropes: released payloads, winches that change lengths or hold
+    /// tensions, stops, pushes, gusts, cables that fail or go slack.
     ///
     /// The robot begins at rest. The result states its own error: the run is repeated with a finer mesh and a smaller
     /// tolerance unless ⟪once⟫ is given. docs/simulation.md explains the scenario and the result.
@@ -21,8 +21,8 @@ declared! {
         duration_s: f64 = SIMULATED_S => (Number(Positive));
         /// Time between the rows of the result [s].
         sample_time_s: Option<f64> = None => (Number(Positive)).otherwise("a thousandth of the duration");
-        /// Point of the platform whose motion is a part of the result, by a name and its place in the platform frame [m], as
-        /// in hook=0,0,-0.5 (repeatable).
+        /// Point of the platform whose motion is a part of the result, by a name and its place in the platform frame
+        /// [m], as in hook=0,0,-0.5 (repeatable).
         point: Vec<PointValue> = Vec::new() => (List(ProgramForm::Point)).form("NAME=X,Y,Z");
         /// Error of a position that one step may have [m].
         tolerance_m: f64 = SimulationSettings::TOLERANCE => (Number(Positive)).under("Accuracy");
@@ -40,7 +40,8 @@ declared! {
             .otherwise("`axial_damping_time_s` of each rope");
         /// Hold the platform where it is, so that only the ropes move.
         hold_platform: bool = false => (Switch);
-        /// Draw the gusts of the wind's turbulence from this number; another number gives other gusts of the same strength.
+        /// Draw the gusts of the wind's turbulence from this number; another number gives other gusts of the same
+        /// strength.
         gust_seed: Option<u32> = None => (Count(0..=u64::from(u32::MAX))).otherwise("the mean wind alone");
         /// State and loads.
         #[serde(flatten)]
@@ -104,7 +105,7 @@ declared! {
         at_s: f64 = 0.0 => (Number(Finite)).required();
         /// Mass of the payload [kg], a part of the platform's mass.
         mass_kg: f64 = 0.0 => (Number(Finite)).required();
-        /// Its place, platform frame [m]; the centre of mass if not given.
+        /// Place of the mass, platform frame [m]; the centre of mass if not given.
         #[serde(skip_serializing_if = "Option::is_none")]
         point_m: Option<[f64; 3]> = None => (Vector);
     }
@@ -117,10 +118,10 @@ declared! {
         at_s: f64 = 0.0 => (Number(Finite)).required();
         /// Mass of the payload [kg].
         mass_kg: f64 = 0.0 => (Number(Finite)).required();
-        /// Its place, platform frame [m]; the centre of mass if not given.
+        /// Place of the mass, platform frame [m]; the centre of mass if not given.
         #[serde(skip_serializing_if = "Option::is_none")]
         point_m: Option<[f64; 3]> = None => (Vector);
-        /// Its velocity before, world axes [m/s]; it moves with the platform if not given.
+        /// Velocity of the mass before, world axes [m/s]; that of the platform if not given.
         #[serde(skip_serializing_if = "Option::is_none")]
         velocity_m_s: Option<[f64; 3]> = None => (Vector);
     }

@@ -13,22 +13,22 @@ declared! {
     pub struct TrajectoryRequest {
         /// Robot file.
         robot: RobotText = RobotText::default() => (Data(shape::robot)).required();
-        /// Path: columns t_s [s], x_m, y_m, z_m [m] and, where the platform turns, roll_deg, pitch_deg, yaw_deg; a spline
-        /// of the fifth degree passes the rows.
+        /// Path: columns t_s [s], x_m, y_m, z_m [m] and, where the platform turns, roll_deg, pitch_deg, yaw_deg; a
+        /// spline of the fifth degree passes the rows.
         path: Option<NumberColumns> = None => (Columns).under("Path");
-        /// Smooth the rows of ⟪path⟫ by less than this distance [m]: half a unit of their last digit takes their rounding
-        /// out. Angles change by less than what moves the attachments as far.
+        /// Smooth the rows of ⟪path⟫ by less than this distance [m]: half a unit of their last digit takes their
+        /// rounding out. Angles change by less than what moves the attachments as far.
         row_tolerance_m: Option<f64> = None => (Number(Positive)).under("Path")
             .otherwise("the path passes its rows");
-        /// Pose x,y,z[,roll,pitch,yaw] [m, degrees] to which the platform moves from the pose of the state, from rest to
-        /// rest.
+        /// Pose x,y,z[,roll,pitch,yaw] [m, degrees] to which the platform moves from the pose of the state, from rest
+        /// to rest.
         move_to: Option<Pose> = None => (Pose).under("Path");
         /// Poses on the way to ⟪move_to⟫: position [m] and roll, pitch, yaw [degrees].
         via: Option<Vec<[f64; 6]>> = None => (Poses).under("Path").needs("move_to");
         /// Pick and place: lift the platform by this height [m], carry it to ⟪move_to⟫, and lower it there.
         lift_m: Option<f64> = None => (Number(Positive)).under("Path").needs("move_to");
-        /// Part of the time of slowing down by which the next move begins earlier, so that the path rounds the corner: 0
-        /// stops at every pose of the way, 1 rounds most.
+        /// Part of the time of slowing down by which the next move begins earlier, so that the path rounds the corner:
+        /// 0 stops at every pose of the way, 1 rounds most.
         blend: f64 = 0.0 => (Number(NotNegative)).under("Path");
         /// Centre of a circle on which the platform moves from the pose of the state, from rest to rest [m].
         circle_center_m: Option<[f64; 3]> = None => (Vector).under("Path").excludes(&["move_to"]);
@@ -74,8 +74,8 @@ declared! {
         angular_acceleration_rad_s2: Option<f64> = None => (Number(Positive)).under("Course").otherwise("none");
         /// Largest rate of the angular acceleration [rad/s³].
         angular_jerk_rad_s3: Option<f64> = None => (Number(Positive)).under("Course").otherwise("none");
-        /// Duration of the whole path [s]: all its times are multiplied by one factor. With the course `quintic` or `septic`
-        /// it needs no limits: moves in a row then get times by their length, 1 rad like 1 m.
+        /// Duration of the whole path [s]: all its times are multiplied by one factor. With the course `quintic` or
+        /// `septic` it needs no limits: moves in a row then get times by their length, 1 rad like 1 m.
         duration_s: Option<f64> = None => (Number(Positive)).under("Course")
             .otherwise("that of the limits or of the table");
         /// Find the shortest duration that keeps all limits of tensions and winches, by one factor of all times.

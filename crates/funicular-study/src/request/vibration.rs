@@ -72,14 +72,14 @@ declared! {
         /// Add frequencies until every peak has its height (to 0.1 %) and straight lines over the logarithm of the
         /// magnitude are accurate to 1 %.
         adaptive: bool = false => (Switch);
-        /// Input: force fx, fy, fz, moment mx, my, mz, or f:ux,uy,uz, m:ux,uy,uz along a direction, world axes; a force on
-        /// a cable, as in cable:3@0.5:fz; the commanded length of a cable, length:3, a force of its motor or on its drum,
-        /// motor:3, drum:3; a motion of the base, base-x to base-rz, or of an anchor, anchor:3:x (repeatable).
+        /// Input: force fx, fy, fz, moment mx, my, mz, or f:ux,uy,uz, m:ux,uy,uz along a direction, world axes; a force
+        /// on a cable, as in cable:3@0.5:fz; the commanded length of a cable, length:3, a force of its motor or on its
+        /// drum, motor:3, drum:3; a motion of the base, base-x to base-rz, or of an anchor, anchor:3:x (repeatable).
         input: OneOrSeveral = OneOrSeveral::One(DEFAULT_INPUT.to_owned()) => (OneOrMore(ProgramForm::Input)).form("INPUT");
-        /// Output: displacement x, y, z, rotation rx, ry, rz, velocity vx … vrz, acceleration ax … arz, or x:ux,uy,uz, v:…,
-        /// a:… along a direction, world axes; the motion of a point on a cable (name, fraction of its length from the
-        /// platform), as in cable:3@0.5:az; the motion of a drum or motor, drum:3, motor:3, or the tension at the platform
-        /// or at the drum, tension:3, drum-tension:3 (repeatable).
+        /// Output: displacement x, y, z, rotation rx, ry, rz, velocity vx … vrz, acceleration ax … arz, or x:ux,uy,uz,
+        /// v:…, a:… along a direction, world axes; the motion of a point on a cable (name, fraction of its length from
+        /// the platform), as in cable:3@0.5:az; the motion of a drum or motor, drum:3, motor:3, or the tension at the
+        /// platform or at the drum, tension:3, drum-tension:3 (repeatable).
         output: OneOrSeveral = OneOrSeveral::One(DEFAULT_OUTPUT.to_owned()) => (OneOrMore(ProgramForm::Output)).form("OUTPUT");
         /// Points of the platform.
         #[serde(flatten)]
@@ -107,8 +107,8 @@ declared! {
 }
 
 declared! {
-    /// How a point of the platform swings after a release, a stop, a move or a trajectory, when it has settled, and input
-    /// shapers against it.
+    /// Swing of a point of the platform after a release, a stop, a move or a trajectory, when it has settled, and
+    /// input shapers against it.
     ///
     /// The state is that at the end: the rest after the release, the pose at which the command ends. The motion is
     /// linear about it.
@@ -131,9 +131,10 @@ declared! {
         /// pitch_deg, yaw_deg or unstrained_length_NAME_m of every cable [m]; between the rows the lengths change in
         /// straight lines. Without a pose and lengths the state is that of the last row.
         trajectory: Option<NumberColumns> = None => (Columns);
-        /// Times of the command [s], each at most the one before. A move has T1 from the start of the acceleration to the
-        /// start of the deceleration, T2 for each of the two, and T3 for each change of the acceleration; a stop has T1 for
-        /// the deceleration, and T2 and T3 for its changes. The command takes their sum; without them a stop is sudden.
+        /// Times of the command [s], each at most the one before. A move has T1 from the start of the acceleration to
+        /// the start of the deceleration, T2 for each of the two, and T3 for each change of the acceleration; a stop
+        /// has T1 for the deceleration, and T2 and T3 for its changes. The command takes their sum; without them a stop
+        /// is sudden.
         profile_s: Option<Vec<f64>> = None => (Commas(ProgramForm::NotNegative)).form("T1[,T2[,T3]]").otherwise("none");
         /// Input shaper of the command: zv, zvd, or ei:V, which leaves the fraction V of a vibration, as in
         /// ei:0.05.
@@ -141,8 +142,8 @@ declared! {
         /// Natural frequencies of the modes whose vibration the shaper cancels [Hz].
         shape_modes_hz: Option<Vec<f64>> = None => (Commas(ProgramForm::Positive)).form("F1,F2,…")
             .otherwise("the modes with the largest amplitudes, at most three, until their sum is within the tolerance");
-        /// Payloads [kg] with which the vibration after the same lengths is listed as well. Their centre of mass is that
-        /// of the `[required]` payload of the file, or that of the platform.
+        /// Payloads [kg] with which the vibration after the same lengths is listed as well. Their centre of mass is
+        /// that of the `[required]` payload of the file, or that of the platform.
         robust_payload_kg: Option<Vec<f64>> = None => (Commas(ProgramForm::NotNegative)).form("M1,M2,…").otherwise("none");
         /// Time between the samples of the commanded lengths, which are then listed [s].
         sample_time_s: Option<f64> = None => (Number(Positive)).otherwise("no samples");
@@ -299,8 +300,8 @@ declared! {
 declared! {
     /// State space A, B, C, D for control design, or the second-order model M, C, K.
     ///
-    /// The state space has the modes that the inputs and outputs see: as few states as the tolerance allows, or the best ones
-    /// for a given number of states. docs/control.md explains the error and the use in Python and MATLAB.
+    /// The state space has the modes that the inputs and outputs see: as few states as the tolerance allows, or the
+    /// best ones for a given number of states. docs/control.md explains the error and the use in Python and MATLAB.
     pub struct ReduceRequest {
         /// Robot file.
         robot: RobotText = RobotText::default() => (Data(shape::robot)).required();
@@ -318,8 +319,8 @@ declared! {
         /// Form of the model.
         #[serde(with = "crate::names")]
         form: ModelForm = ModelForm::default() => (name::<ModelForm>()).form("FORM");
-        /// Maximum error of each response, relative to its peak below the limit; the state space has as few states as it
-        /// allows [default: 0.01]. With the second-order form: maximum relative error due to omitted modes
+        /// Maximum error of each response, relative to its peak below the limit; the state space has as few states as
+        /// it allows [default: 0.01]. With the second-order form: maximum relative error due to omitted modes
         /// [default: 0.001].
         tolerance: Option<f64> = None => (Number(NotNegative)).form("FRACTION");
         /// Maximum number of states, instead of a tolerance.

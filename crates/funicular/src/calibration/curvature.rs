@@ -1,5 +1,5 @@
-//! Fits with a combination of the unknowns or one of them held. A walk along the weakest combination tests the covariance:
-//! noise can hide lost rank from every linearisation, but not from this walk.
+//! Fits with a combination of the unknowns or one of them held. A walk along the weakest combination tests the
+//! covariance: noise can hide lost rank from every linearisation, but not from this walk.
 
 use super::frame::CalibrationFrame;
 use super::{Calibration, CalibrationFit, CalibrationPrecision, null_space};
@@ -73,8 +73,8 @@ impl Calibration {
         (scaled.transpose() * eigen.eigenvectors.column(weakest), eigen.eigenvalues[weakest])
     }
 
-    /// Fits everything else again with one unknown held at `value`, for a profile of χ²; from a fit with another value of
-    /// it. A value that the frame holds stays.
+    /// Fits everything else again with one unknown held at `value`, for a profile of χ²; from a fit with another value
+    /// of it. A value that the frame holds stays.
     pub fn fit_held(
         &self,
         from: &CalibrationFit,

@@ -1,7 +1,7 @@
 //! Cables whose readings are exchanged.
 
+use super::ITERATIONS_OF_START;
 use super::frame::CalibrationFrame;
-use super::search::ITERATIONS_OF_START;
 use super::{Calibration, CalibrationFit, CalibrationUnknown, MeasuredRow};
 use crate::robot::Pose;
 
@@ -28,8 +28,8 @@ fn exchanged(row: &MeasuredRow, [a, b]: [usize; 2]) -> MeasuredRow {
     row
 }
 
-/// Exchange of two cables in all rows that fits better than the rows as they are: by a factor of 10 in χ², or for points,
-/// whose readings only rename anchors, by a figure that is nearer to the file by a factor of 4.
+/// Exchange of two cables in all rows that fits better than the rows as they are: by a factor of 10 in χ², or for
+/// points, whose readings only rename anchors, by a figure that is nearer to the file by a factor of 4.
 pub fn cable_exchange(of: &Calibration, fit: &CalibrationFit, frame: &CalibrationFrame) -> Option<CableExchange> {
     let count = of.robot.cables.len();
     if of.is_elastic() {
@@ -71,8 +71,8 @@ pub fn cable_exchange(of: &Calibration, fit: &CalibrationFit, frame: &Calibratio
     best.filter(|best| best.chi2 < BETTER_FIT * fit.chi2)
 }
 
-/// Cable whose readings fall while it pays out, with χ² after a change of their sign: it falls by a factor of 10. The search
-/// needs unknown offsets, because a length is positive.
+/// Cable whose readings fall while it pays out, with χ² after a change of their sign: it falls by a factor of 10. The
+/// search needs unknown offsets, because a length is positive.
 pub fn encoder_of_other_sign(of: &Calibration, fit: &CalibrationFit, frame: &CalibrationFrame) -> Option<(usize, f64)> {
     if of.is_elastic() {
         return None;
@@ -139,14 +139,15 @@ const OF_ROW_NOISE: f64 = 10.0;
 /// Exchanges in a row that are fitted completely, after all were compared with the values held.
 const FITTED: usize = 3;
 
-/// χ² after an exchange, relative to that before, below which the exchange is reported. True exchanges gave 1e-4 and less.
+/// χ² after an exchange, relative to that before, below which the exchange is reported. True exchanges gave 1e-4 and
+/// less.
 const BETTER_FIT: f64 = 0.1;
 
 /// Squared difference from the file after an exchange of names, relative to that before, below which it is reported.
 const NEARER_FIGURE: f64 = 0.25;
 
-/// Root of the mean squared difference from the file, relative to the spread of the anchors, from which on an exchange of
-/// names is looked for: smaller ones are errors of the file.
+/// Root of the mean squared difference from the file, relative to the spread of the anchors, from which on an exchange
+/// of names is looked for: smaller ones are errors of the file.
 const FAR_FROM_FILE: f64 = 0.05;
 
 fn renamed_anchors(of: &Calibration, fit: &CalibrationFit) -> Option<CableExchange> {

@@ -1,5 +1,5 @@
-//! Levenberg–Marquardt search over all unknowns of the robot and all poses at once, with the poses eliminated row by row:
-//! the cost of a step is linear in the number of rows.
+//! Levenberg–Marquardt search over all unknowns of the robot and all poses at once, with the poses eliminated row by
+//! row: the cost of a step is linear in the number of rows.
 
 use super::Calibration;
 use super::elastic::RowState;
@@ -21,7 +21,7 @@ const MAX_DAMPING: f64 = 1e16;
 /// Predicted decrease of χ² that ends the search: its root is the distance from the minimum in deviations, 1e-6.
 const MIN_DECREASE: f64 = 1e-12;
 
-/// The same relative to χ², which is rounding of the sum of squares.
+/// Smallest decrease relative to χ², which is rounding of the sum of squares.
 const MIN_RELATIVE_DECREASE: f64 = 1e-14;
 
 /// Maximum number of iterations of a fit. Eight cables with offsets and 32 rows, started at the middle, take about 40;
@@ -69,12 +69,12 @@ impl Calibration {
         self.fit_within(MAX_ITERATIONS, values, self.states(values, poses), free)
     }
 
-    /// The same from the poses and lengths of another fit.
+    /// Fit from the poses and lengths of another fit.
     pub(super) fn fit_on(&self, from: &CalibrationFit, values: &[f64], free: &DMat) -> CalibrationFit {
         self.fit_within(MAX_ITERATIONS, values, states_of(from), free)
     }
 
-    /// The same from states of the rows, with at most so many iterations.
+    /// Fit from states of the rows, with at most so many iterations.
     pub(super) fn fit_within(
         &self,
         max_iterations: usize,

@@ -2,8 +2,7 @@
 //! line of a planar robot, its anchor may as well stand on the other side of it.
 
 use super::frame::CalibrationFrame;
-use super::search::ITERATIONS_OF_START;
-use super::{Calibration, CalibrationFit, CalibrationUnknown, MeasuredRow};
+use super::{Calibration, CalibrationFit, CalibrationUnknown, ITERATIONS_OF_START, MeasuredRow};
 use crate::math::{DMat, DVec, Vec3};
 use crate::platform::StraightCable;
 use crate::robot::Pose;

@@ -1,4 +1,5 @@
-//! How well rows determine the unknowns: net rows, covariance, rank, distances between anchors, and rows left out.
+//! Precision with which rows determine the unknowns: net rows, covariance, rank, distances between anchors, and rows
+//! left out.
 
 use super::elimination::EliminatedRow;
 use super::frame::CalibrationFrame;
@@ -33,7 +34,7 @@ pub struct CalibrationPrecision {
     pub open_rows: Vec<usize>,
 }
 
-/// What a row leaves for the unknowns.
+/// Equations that a row leaves for the unknowns.
 #[derive(Debug, Clone)]
 struct NetRow {
     by_free: DMat,
@@ -61,7 +62,7 @@ pub struct AnchorDistance {
     pub cables: [usize; 2],
     /// Distance [m].
     pub distance: f64,
-    /// Its standard deviation [m].
+    /// Standard deviation of the distance [m].
     pub deviation: f64,
 }
 

@@ -1,4 +1,4 @@
-//! What is known of the unknowns beforehand: further residuals `(θ − θ₀)/σ₀` beside those of the rows.
+//! Values of the unknowns that are known beforehand: further residuals `(θ − θ₀)/σ₀` beside those of the rows.
 
 use super::Calibration;
 use crate::math::{DMat, DVec};
@@ -12,9 +12,9 @@ pub(super) struct Prior {
 }
 
 impl Calibration {
-    /// The same calibration with values that are known beforehand: index of the unknown, value and standard deviation, in
-    /// the units of [`Calibration::meaning`]. A scale or a factor is positive. An anchor with a prior has a place in the
-    /// world, so that priors fix the frame where they are.
+    /// Calibration with values that are known beforehand: index of the unknown, value and standard deviation, in
+    /// the units of [`Calibration::meaning`]. A scale or a factor is positive. An anchor with a prior has a place in
+    /// the world, so that priors fix the frame where they are.
     #[must_use]
     pub fn with_priors(mut self, priors: &[(usize, f64, f64)]) -> Self {
         let prior = |&(unknown, known, deviation): &(usize, f64, f64)| {

@@ -4,7 +4,9 @@
 use super::frame::CalibrationFrame;
 use super::mirror::OtherMinimum;
 use super::spread::spread;
-use super::{Calibration, CalibrationFit, CalibrationUnknown, MeasuredRow, anchors_from_lengths, null_space};
+use super::{
+    Calibration, CalibrationFit, CalibrationUnknown, ITERATIONS_OF_START, MeasuredRow, anchors_from_lengths, null_space,
+};
 use crate::math::{DMat, DVec, Vec3};
 use crate::robot::{Pose, Robot};
 use crate::statics::StaticModel;
@@ -20,9 +22,6 @@ const OF_NOISE: f64 = 3.0;
 /// the starts.
 const STARTS_OF_MISFIT: usize = 5;
 const FAR_FROM_NOISE: f64 = 100.0;
-
-/// Iterations of one start. Sound starts arrive within about 50; the best one goes on to its end.
-pub(super) const ITERATIONS_OF_START: usize = 80;
 
 /// Rise of χ² up to which another minimum is kept, in the variance of the residuals.
 const FITS_AS_WELL: f64 = 20.0;

@@ -1,9 +1,9 @@
 //! Rows that do not agree with the others, told from fits without them: a wrong row drags a fit along, so that its
 //! linearisation blames others.
 
+use super::ITERATIONS_OF_START;
 use super::exchange::{CableExchange, row_exchange};
 use super::frame::CalibrationFrame;
-use super::search::ITERATIONS_OF_START;
 use super::{Calibration, CalibrationFit, CalibrationUnknown, MeasuredRow};
 use crate::robot::Pose;
 

@@ -7,13 +7,14 @@ use crate::math::Vec3;
 /// Part of a free span.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Arc {
-    /// Its ends on the span [m].
+    /// Ends of the arc on the span [m].
     pub(super) s: [f64; 2],
-    /// Its ends in the world [m].
+    /// Ends of the arc in the world [m].
     pub(super) points_w: [Vec3; 2],
     /// Bound of the distance of its points from its chord [m].
     pub(super) sagitta: f64,
-    /// Unit vector across the chord to the side on which the curve lies; `None` if it is straight or may be on any side.
+    /// Unit vector across the chord to the side on which the curve lies; `None` if it is straight or may be on any
+    /// side.
     outward_w: Option<Vec3>,
     /// Point that is farthest from the chord [m], where it is divided.
     pub(super) middle: f64,
@@ -125,8 +126,8 @@ impl ArcBounds {
         self.second[0] * self.second[0] + self.second[1] * self.second[1]
     }
 
-    /// Cosine of the least angle between the lines of two arcs: the angle between their chords, less what the curves turn
-    /// from them.
+    /// Cosine of the least angle between the lines of two arcs: the angle between their chords, less what the curves
+    /// turn from them.
     pub(super) fn greatest_cosine(own: &Self, others: &Self, chords_w: [&Vec3; 2]) -> f64 {
         let size = (chords_w[0].norm_squared() * chords_w[1].norm_squared()).sqrt();
         // Differences of angles by their cosines and sines.

@@ -6,7 +6,7 @@ use std::cmp::Ordering;
 pub(super) struct Bounded<T> {
     /// Lower bound of what is searched.
     pub(super) lower: f64,
-    /// What has this bound.
+    /// Thing that has this bound.
     pub(super) of: T,
 }
 

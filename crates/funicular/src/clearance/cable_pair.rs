@@ -27,19 +27,19 @@ pub(super) struct NearCables {
 /// Maximum number of Newton steps, a guard: two to four are usual.
 const MAX_STEPS: usize = 30;
 
-/// Maximum last step of Newton's method along a place, over the length of the cable: its error squares from step to step
-/// and becomes rounding.
+/// Maximum last step of Newton's method along a place, over the length of the cable: its error squares from step to
+/// step and becomes rounding.
 const MAX_LAST_STEP: f64 = 1e-8;
 
 /// Maximum last step of a method without curvature, whose error shrinks by a factor only.
 const MAX_LAST_STEP_WITHOUT_CURVATURE: f64 = 1e-14;
 
-/// Maximum error of the points after a last step that both cables go freely [m]. Steps of a millimetre along taut cables
-/// leave 1e-14, steps of a decimetre 1e-8.
+/// Maximum error of the points after a last step that both cables go freely [m]. Steps of a millimetre along taut
+/// cables leave 1e-14, steps of a decimetre 1e-8.
 const MAX_POINT_ERROR: f64 = 1e-13;
 
-/// Nearest points of two cables, without ends that are mounted together; `None` if nothing is compared, or if the distance
-/// is surely above `enough`.
+/// Nearest points of two cables, without ends that are mounted together; `None` if nothing is compared, or if the
+/// distance is surely above `enough`.
 pub(super) fn nearest(one: &FreeSpan, other: &FreeSpan, enough: f64) -> Option<NearCables> {
     let apart = [0, 1].map(|end| (one.ends_w[end] - other.ends_w[end]).norm());
     let first = PairOfArcs::bounded(*one.part(apart)?, *other.part(apart)?);
@@ -83,7 +83,8 @@ struct PairOfArcs {
 
 impl PairOfArcs {
     /// Arcs with a lower bound of the distance of their points [m]: along the line between the nearest points of the
-    /// chords, no points of the chords are nearer than these, and the arcs reach beyond them by a part of their sagittas.
+    /// chords, no points of the chords are nearer than these, and the arcs reach beyond them by a part of their
+    /// sagittas.
     fn bounded(own: Arc, other: Arc) -> Bounded<Self> {
         let NearSegments { distance, fractions, apart_w } = segments::nearest(&own.points_w, &other.points_w);
         let reach = if distance > 0.0 {
@@ -188,15 +189,15 @@ fn step(own: &PointOnSpan, others: &PointOnSpan, places: [f64; 2], ranges: [[f64
     NewtonStep { by: [ds, dt], is_newtons: is_definite, is_free }
 }
 
-/// Error of the points after a step along both arcs [m]: the step times the square of the angle by which they bend along it
-/// at most. `None` where an arc has no bounds.
+/// Error of the points after a step along both arcs [m]: the step times the square of the angle by which they bend
+/// along it at most. `None` where an arc has no bounds.
 fn point_error([own, others]: &[Arc; 2], moves: [f64; 2]) -> Option<f64> {
     let error = |arc: &Arc, by: f64| Some(arc.bounds.as_ref()?.bend_squared() * by.abs().powi(3));
     Some(error(own, moves[0])? + error(others, moves[1])?)
 }
 
-/// True if half the squared distance is surely convex over a pair of arcs: its second derivatives are bounded by those of
-/// the arcs.
+/// True if half the squared distance is surely convex over a pair of arcs: its second derivatives are bounded by those
+/// of the arcs.
 fn is_convex([own, others]: &[Arc; 2]) -> bool {
     let (Some(a), Some(b)) = (&own.bounds, &others.bounds) else { return false };
     let farthest = own.points_w.iter().flat_map(|p| others.points_w.iter().map(move |q| (p - q).norm_squared()));

@@ -161,7 +161,7 @@ fn touching(shape: &SharedShape, from: &Vec3, to: &Vec3) -> (f64, f64, Vec3) {
 }
 
 /// Part of a segment in a mesh, by its places from 0 to 1.
-struct Part {
+struct SegmentPart {
     places: [f64; 2],
 }
 
@@ -185,7 +185,7 @@ fn in_mesh(mesh: &TriMesh, from: &Vec3, to: &Vec3) -> (f64, f64, Vec3) {
         let height = if projected.is_inside { -depth } else { depth };
         let along = 0.5 * (places[1] - places[0]) * length;
         let lower = (height - along).max(-away(at(places[0])).max(away(at(places[1]))));
-        Bounded { lower, of: Part { places } }
+        Bounded { lower, of: SegmentPart { places } }
     };
 
     let mut queue = BinaryHeap::from([bounded([0.0, 1.0], &mut best)]);

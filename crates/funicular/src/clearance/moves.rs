@@ -7,8 +7,8 @@ use crate::robot::{Body, Pose, Robot};
 use crate::statics::Equilibrium;
 use std::rc::Rc;
 
-/// Bound of the least distance on the way [m]: nowhere on the way a pair is nearer by more than this, for straight cables
-/// surely, and with sag as far as it changes evenly between two stations.
+/// Bound of the least distance on the way [m]: nowhere on the way a pair is nearer by more than this, for straight
+/// cables surely, and with sag as far as it changes evenly between two stations.
 pub const WAY_TOLERANCE: f64 = 2e-3;
 
 /// Least part of a move between two stations, a guard.
@@ -17,8 +17,8 @@ pub(super) const MIN_STEP: f64 = 1.0 / 16384.0;
 /// Triple product over the lengths that it is made of at which two lines lie in one plane: rounding.
 const COPLANAR: f64 = 1e-13;
 
-/// Number of parts of a move at whose ends lines are tested for a common plane: a product that is not zero everywhere has
-/// few zeros.
+/// Number of parts of a move at whose ends lines are tested for a common plane: a product that is not zero everywhere
+/// has few zeros.
 const COPLANAR_TRIALS: usize = 8;
 
 /// Distance of two zeros that are one, at the common end of two intervals.
@@ -172,8 +172,8 @@ impl StraightPair<'_> {
     }
 }
 
-/// Zero of a function between two places at which its signs differ, by halving; `first` is its value at the first place.
-/// Ends where the function has no value.
+/// Zero of a function between two places at which its signs differ, by halving; `first` is its value at the first
+/// place. Ends where the function has no value.
 fn bisected([mut low, mut high]: [f64; 2], first: f64, mut value: impl FnMut(f64) -> Option<f64>) -> f64 {
     for _ in 0..HALVINGS {
         let middle = 0.5 * (low + high);
@@ -199,8 +199,8 @@ pub(super) struct Station {
 }
 
 impl Surroundings<'_> {
-    /// Every pair on a move, with its least margin, where it is, and where cables cross. `rest_at` gives the equilibrium at a
-    /// pose.
+    /// Every pair on a move, with its least margin, where it is, and where cables cross. `rest_at` gives the
+    /// equilibrium at a pose.
     ///
     /// # Errors
     /// Fraction of the move and error of the first pose without an equilibrium.

@@ -219,8 +219,8 @@ fn by_library(shape: &SharedShape, from: &Vec3, to: &Vec3) -> (f64, f64, Vec3) {
     if inside.0 < 0.0 { inside } else { outside }
 }
 
-/// Place of the nearest point of a segment to a cylinder along y. The distance is convex along the segment, so its slope
-/// changes its sign once.
+/// Place of the nearest point of a segment to a cylinder along y. The distance is convex along the segment, so its
+/// slope changes its sign once.
 fn nearest_to_cylinder(from: &Vec3, to: &Vec3, radius: f64, half_length: f64) -> f64 {
     let along = to - from;
     depth::lowest_place(|fraction| from_cylinder(&(from + along * fraction), radius, half_length).dot(&along))

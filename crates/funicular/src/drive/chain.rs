@@ -48,7 +48,7 @@ pub struct DriveChain {
 pub(crate) struct ChainStretch {
     /// The motion as a sum of parts of the motions of the chain.
     pub(crate) parts: Vec<Place>,
-    /// Its stiffness [N/m].
+    /// Stiffness of the spring [N/m].
     pub(crate) stiffness: f64,
     /// The motion per displacement of the ends of the drum side: of that at the drum and of that at the wheel.
     pub(crate) by_ends: [f64; 2],

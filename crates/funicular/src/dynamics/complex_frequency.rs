@@ -20,7 +20,7 @@ use crate::cable::catenary_dynamic::{
 };
 use crate::math::{CDMat, CMat6, CVec6, Complex, complex_symmetric, order};
 
-/// What is computed of a bordered dynamic stiffness.
+/// Results wanted of a bordered dynamic stiffness.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum BorderedFor {
     /// Motions: all are unknowns, and the derivative belongs to them.
@@ -73,11 +73,11 @@ impl Dynamics {
     }
 
     /// Motions at zeros that lie so near to each other that one ω [rad/s] stands for all: at least `count`, independent
-    /// of each other, with their places relative to ω [rad/s]. Places within `same` [rad/s] of each other are one place,
-    /// zero. `None` if two motions are one, so that their sum does not decay by exponentials alone.
+    /// of each other, with their places relative to ω [rad/s]. Places within `same` [rad/s] of each other are one
+    /// place, zero. `None` if two motions are one, so that their sum does not decay by exponentials alone.
     ///
-    /// The derivative of D between motions that span the space is a symmetric matrix G. In vectors that are orthogonal by
-    /// it, the residue of the receptance is the sum of those of the motions, whichever vectors these are.
+    /// The derivative of D between motions that span the space is a symmetric matrix G. In vectors that are orthogonal
+    /// by it, the residue of the receptance is the sum of those of the motions, whichever vectors these are.
     ///
     /// # References
     /// docs/theory.md, equation (46f1).
@@ -147,8 +147,8 @@ impl Dynamics {
         value.lu().determinant().arg() + pole_phase
     }
 
-    /// Bordered dynamic stiffness at a complex ω [rad/s] with the fraction `losses` of the damping. The clamped modes of
-    /// the cables below `poles_below` [rad/s] complete the determinant.
+    /// Bordered dynamic stiffness at a complex ω [rad/s] with the fraction `losses` of the damping. The clamped modes
+    /// of the cables below `poles_below` [rad/s] complete the determinant.
     fn bordered(&self, omega: Complex, losses: f64, poles_below: f64, purpose: BorderedFor) -> Bordered {
         let mut parts = BorderedParts::of_platform(self, omega, losses, purpose);
         (0..self.terms.len()).for_each(|t| parts.add_cable(t, poles_below));

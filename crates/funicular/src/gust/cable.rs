@@ -21,12 +21,12 @@ const OUT_OF_PLANE: f64 = 1e-9;
 /// Cable in gusts. Its coordinates are those of the platform, the amplitudes of its clamped modes, and those of the
 /// supports.
 pub(super) struct GustyCable {
-    /// Its own matrices, with the aerodynamic damping.
+    /// Matrices of the cable alone, with the aerodynamic damping.
     pub(super) matrices: Matrices,
     /// Generalised forces per velocity of the air [N s/m]: per cell a column for the component along the wind, one for
     /// the lateral and one for that up.
     pub(super) loads: DMat,
-    /// Its cells; none if the wind does not act on it.
+    /// Cells of the cable; none if the wind does not act on it.
     pub(super) cells: Vec<GustPlace>,
     /// Motion of the platform by which the end moves along the cable, over its coordinates.
     pub(super) pull: Option<DVec>,

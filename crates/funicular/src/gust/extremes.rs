@@ -11,9 +11,9 @@ const EULER: f64 = 0.577_215_664_901_532_9;
 /// Largest excursion to one side in a time, over the r.m.s. value.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PeakFactor {
-    /// Its expected value.
+    /// Expected value of the peak.
     pub mean: f64,
-    /// Its standard deviation.
+    /// Standard deviation of the peak.
     pub deviation: f64,
 }
 

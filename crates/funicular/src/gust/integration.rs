@@ -1,7 +1,8 @@
 //! Spectra over frequency, with frequencies where they are needed, and their moments.
 
-use super::modes::Resonance;
+use super::modes::GustResonance;
 use super::{Densities, GustError, Gusts};
+use crate::math::order;
 use std::f64::consts::LN_10;
 
 /// Part of each moment by which one interval of the integration may be wrong. Some hundred intervals have errors far
@@ -68,8 +69,8 @@ pub struct Spectra {
     pub densities: Vec<Densities>,
     /// Moments of each output up to the last frequency.
     pub moments: Vec<Moments>,
-    /// Variance of each output nearest to each natural frequency, in their order: up to the geometric mean with the next
-    /// one. Their sum is the variance; empty without natural frequencies.
+    /// Variance of each output nearest to each natural frequency, in their order: up to the geometric mean with the
+    /// next one. Their sum is the variance; empty without natural frequencies.
     pub by_mode: Vec<Vec<f64>>,
 }
 
@@ -113,15 +114,15 @@ impl Variable {
     }
 }
 
-/// Piece of the frequencies.
+/// Part of the frequencies.
 #[derive(Debug, Clone, Copy, PartialEq)]
-struct Piece {
+struct FrequencyPart {
     variable: Variable,
     from_hz: f64,
     to_hz: f64,
 }
 
-impl Piece {
+impl FrequencyPart {
     /// Values of the variable in equal steps, ends included.
     fn steps(&self) -> Vec<f64> {
         let step = if self.variable == Variable::Logarithm { LN_10 / PER_DECADE } else { MAX_STEP_ABOUT_PEAK };
@@ -172,7 +173,7 @@ impl Gusts {
     ///
     /// # References
     /// docs/theory.md, equation (49o1).
-    pub fn spectra(&self, up_to_hz: f64, resonances: &[Resonance]) -> Result<Spectra, GustError> {
+    pub fn spectra(&self, up_to_hz: f64, resonances: &[GustResonance]) -> Result<Spectra, GustError> {
         let up_to_hz = self.field.measured_hz().last().map_or(up_to_hz, |last| last.min(up_to_hz));
         let lowest = self.field.lowest_hz().min(0.1 * up_to_hz);
         let mut samples = Vec::new();
@@ -232,7 +233,7 @@ impl Gusts {
     /// Adds the intervals of a piece and their samples. Its first sample is the last one if both are at one frequency.
     fn add_intervals(
         &self,
-        piece: &Piece,
+        piece: &FrequencyPart,
         intervals: &mut Vec<SpectrumInterval>,
         samples: &mut Vec<Sample>,
     ) -> Result<(), GustError> {
@@ -281,7 +282,7 @@ struct VarianceByMode {
 }
 
 impl VarianceByMode {
-    fn new(resonances: &[Resonance], outputs: usize) -> Self {
+    fn new(resonances: &[GustResonance], outputs: usize) -> Self {
         let edges_hz = resonances.windows(2).map(|pair| between(&pair[0], &pair[1])).collect();
         Self { edges_hz, sums: vec![vec![0.0; resonances.len()]; outputs] }
     }
@@ -293,21 +294,25 @@ impl VarianceByMode {
 }
 
 /// Frequency at which the range of a resonance ends and that of the next one begins [Hz].
-fn between(one: &Resonance, next: &Resonance) -> f64 {
+fn between(one: &GustResonance, next: &GustResonance) -> f64 {
     (one.frequency_hz * next.frequency_hz).sqrt()
 }
 
 /// Pieces of the frequencies between two [Hz]: about each peak as far as it is the nearest one and dominates, in
-/// logarithms elsewhere, with ends at `kinks_hz`.
-fn pieces([lowest, highest]: [f64; 2], resonances: &[Resonance], kinks_hz: &[f64]) -> Vec<Piece> {
+/// logarithms elsewhere, with ends at `kinks_hz` and between the ranges of all resonances, whose variances are told
+/// apart.
+fn pieces([lowest, highest]: [f64; 2], resonances: &[GustResonance], kinks_hz: &[f64]) -> Vec<FrequencyPart> {
     let peaks = parted(resonances);
+    let edges = resonances.windows(2).map(|pair| between(&pair[0], &pair[1]));
+    let mut ends: Vec<f64> = kinks_hz.iter().copied().chain(edges).collect();
+    order::sort_ascending(&mut ends, |end| *end);
     let mut found = Vec::new();
     let mut add = |variable: Variable, from: f64, to: f64| {
         let (from, to) = (from.max(lowest), to.min(highest));
-        let kinks = kinks_hz.iter().copied().filter(|kink| *kink > from && *kink < to);
+        let inner = ends.iter().copied().filter(|end| *end > from && *end < to);
         let mut from_hz = from;
-        for to_hz in kinks.chain([to]).filter(|_| to > from) {
-            found.push(Piece { variable, from_hz, to_hz });
+        for to_hz in inner.chain([to]).filter(|_| to > from) {
+            found.push(FrequencyPart { variable, from_hz, to_hz });
             from_hz = to_hz;
         }
     };
@@ -331,8 +336,8 @@ fn pieces([lowest, highest]: [f64; 2], resonances: &[Resonance], kinks_hz: &[f64
 }
 
 /// Resonances of which neighbours within a part of their widths are one, with the smallest of their widths.
-fn parted(resonances: &[Resonance]) -> Vec<Resonance> {
-    let mut peaks: Vec<Resonance> = Vec::with_capacity(resonances.len());
+fn parted(resonances: &[GustResonance]) -> Vec<GustResonance> {
+    let mut peaks: Vec<GustResonance> = Vec::with_capacity(resonances.len());
     for of in resonances {
         match peaks.last_mut() {
             Some(last)

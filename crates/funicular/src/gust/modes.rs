@@ -12,14 +12,14 @@ use std::f64::consts::TAU;
 
 /// Peak that a mode makes in the spectra of the response to gusts.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Resonance {
+pub struct GustResonance {
     /// Natural frequency of the mode [Hz].
     pub frequency_hz: f64,
     /// Damping ratio of the mode with that by the mean wind; the half width of the peak over its frequency.
     pub damping_ratio: f64,
 }
 
-impl Resonance {
+impl GustResonance {
     /// Resonances of all modes, whose damping by the mean wind is given in their order.
     pub fn of_modes(modes: &[Mode], aerodynamic: &[f64]) -> Vec<Self> {
         let of = |(mode, by_wind): (&Mode, &f64)| Self {

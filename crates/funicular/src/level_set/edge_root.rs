@@ -158,7 +158,8 @@ impl EdgeRoot {
         ratio > 1.0 / MAX_SLOPE_RATIO && ratio < MAX_SLOPE_RATIO
     }
 
-    /// Fraction of the zero: by interpolation as long as the function seems to be smooth, then the middle of the bracket.
+    /// Fraction of the zero: by interpolation as long as the function seems to be smooth, then the middle of the
+    /// bracket.
     fn zero(&self) -> f64 {
         if self.next == NextSample::Middle || self.outer.1.is_none() || self.halved.1 > PATIENCE {
             return self.middle();

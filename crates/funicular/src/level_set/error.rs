@@ -17,8 +17,8 @@ const MAX_SAMPLED: usize = 2048;
 /// Cells that the boundary does not cross are sampled beside each fourth of those that it crosses.
 const BESIDE: usize = 4;
 
-/// Number of standard deviations, and of further samples, by which the number of samples on the wrong side is increased:
-/// a number of rare events that was expected to be larger is then found in fewer than one of forty searches.
+/// Number of standard deviations, and of further samples, by which the number of samples on the wrong side is
+/// increased: a number of rare events that was expected to be larger is then found in fewer than one of forty searches.
 const DEVIATIONS: f64 = 2.0;
 const FURTHER: f64 = 3.0;
 
@@ -58,7 +58,8 @@ impl SampledCells {
 impl LevelSet {
     /// Bound of the error of the volume [m³] for each of [`Self::strides`]. It is no proof: it is the greatest of the
     /// change from double steps, summed up without signs, and of the volume that samples between the nodes find on the
-    /// wrong side of the boundary; with unknown vertices or without both, all that the cells of the boundary leave open.
+    /// wrong side of the boundary; with unknown vertices or without both, all that the cells of the boundary leave
+    /// open.
     ///
     /// # References
     /// docs/theory.md, equation (40x1).

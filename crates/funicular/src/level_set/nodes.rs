@@ -7,11 +7,11 @@ use super::{Evaluate, is_inside};
 /// ball does so by a quarter of a step over its radius, so that steps up to the radius are covered.
 const BULGE: f64 = 0.25;
 
-/// What is known of a node.
+/// Knowledge of a node.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Knowledge {
     Nothing,
-    /// It lies in a cell of larger steps whose corners agree, and is taken to agree with them.
+    /// Node of a cell of larger steps whose corners agree; it is taken to agree with them.
     Assumed {
         inside: bool,
     },
@@ -33,8 +33,8 @@ pub(super) struct GridNodes {
 }
 
 impl GridNodes {
-    /// Nodes of a grid, evaluated with its largest stride and then only near the boundary of the set; `None` if the work
-    /// was stopped before the largest stride was ready. Otherwise [`Self::stride`] says how far it came.
+    /// Nodes of a grid, evaluated with its largest stride and then only near the boundary of the set; `None` if the
+    /// work was stopped before the largest stride was ready. Otherwise [`Self::stride`] says how far it came.
     pub(super) fn find(grid: &PointGrid, evaluate: &mut Evaluate<'_>) -> Option<Self> {
         let stride = grid.largest_stride();
         let count = grid.nodes();
@@ -113,8 +113,8 @@ impl GridNodes {
         Some(())
     }
 
-    /// True for a cell whose corners do not agree, or whose values come so near to zero that a curved boundary may bulge
-    /// into it between them.
+    /// True for a cell whose corners do not agree, or whose values come so near to zero that a curved boundary may
+    /// bulge into it between them.
     fn may_be_crossed(&self, grid: &PointGrid, cell: [usize; 3], stride: usize) -> bool {
         let corners = Self::corners(grid, cell, stride);
         let first = self.is_inside(corners[0]);

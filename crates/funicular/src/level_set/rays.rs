@@ -144,9 +144,9 @@ pub struct FirstBorder {
     pub is_border: bool,
 }
 
-/// First border of the set along each ray from its centre, without what lies behind: all rays go outwards by the same steps,
-/// and each stops at its first point outside. Empty if the centre is not inside the set; `None` if the work was stopped, or
-/// if the centre is not in the box.
+/// First border of the set along each ray from its centre, without what lies behind: all rays go outwards by the same
+/// steps, and each stops at its first point outside. Empty if the centre is not inside the set; `None` if the work was
+/// stopped, or if the centre is not in the box.
 ///
 /// # References
 /// docs/theory.md, section 10b.

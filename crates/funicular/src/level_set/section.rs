@@ -14,8 +14,8 @@ pub struct SetSection {
 }
 
 impl BoundaryMesh {
-    /// Section with the plane in which coordinate `axis` (0, 1 or 2) has a value [m]. Faces of the set in this plane belong
-    /// to it, whichever side of the plane they bound.
+    /// Section with the plane in which coordinate `axis` (0, 1 or 2) has a value [m]. Faces of the set in this plane
+    /// belong to it, whichever side of the plane they bound.
     pub fn section(&self, axis: usize, at: f64) -> SetSection {
         let mut segments = self.segments(axis, at);
         let mut polygons = Vec::new();
@@ -36,8 +36,8 @@ impl BoundaryMesh {
     /// Segments in which the plane cuts the triangles: from the edge that goes down through the plane, with the point
     /// there, to the edge that goes up. Neighbours share an edge, which goes down in one and up in the other.
     fn segments(&self, axis: usize, at: f64) -> BTreeMap<[usize; 2], ([usize; 2], Vec3)> {
-        // The set lies above a face in the plane that looks down, so the section passes just above its vertices; elsewhere
-        // just below those in the plane.
+        // The set lies above a face in the plane that looks down, so the section passes just above its vertices;
+        // elsewhere just below those in the plane.
         let height = |vertex: usize| self.vertices()[vertex][axis];
         let mut passes_above: BTreeSet<usize> = BTreeSet::new();
         for triangle in self.triangles().iter().filter(|triangle| triangle.iter().all(|i| height(*i) == at)) {
@@ -70,8 +70,8 @@ impl BoundaryMesh {
     }
 }
 
-/// Area of a polygon in a plane at right angles to axis 0, 1 or 2 [m²], positive counterclockwise: for the polygons of a
-/// section, positive around the set and negative around holes.
+/// Area of a polygon in a plane at right angles to axis 0, 1 or 2 [m²], positive counterclockwise: for the polygons of
+/// a section, positive around the set and negative around holes.
 pub fn signed_area(polygon: &[Vec3], axis: usize) -> f64 {
     let first = polygon.first().copied().unwrap_or_default();
     let pairs = polygon.iter().zip(polygon.iter().skip(1));

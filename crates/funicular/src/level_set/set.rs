@@ -15,10 +15,10 @@ use std::collections::HashMap;
 pub enum SearchEnd {
     /// Everything was found.
     Complete,
-    /// It was stopped before the vertices were at the zeros of the function: they lie between nodes as if it were
-    /// linear there.
+    /// Search that was stopped before the vertices were at the zeros of the function: they lie between nodes as if it
+    /// were linear there.
     Unpolished,
-    /// It was stopped at larger steps than those of the grid.
+    /// Search that was stopped at larger steps than those of the grid.
     Coarse,
 }
 
@@ -62,8 +62,8 @@ pub struct LevelSet {
 }
 
 impl LevelSet {
-    /// Finds the set on a grid, with the vertices of its boundary to a tolerance along the edges [m]. `None` if the work
-    /// was stopped before the largest steps were done.
+    /// Finds the set on a grid, with the vertices of its boundary to a tolerance along the edges [m]. `None` if the
+    /// work was stopped before the largest steps were done.
     pub fn find(grid: PointGrid, tolerance: f64, evaluate: &mut Evaluate<'_>) -> Option<Self> {
         let nodes = GridNodes::find(&grid, evaluate)?;
         let stride = nodes.stride;
@@ -94,7 +94,7 @@ impl LevelSet {
         &self.grid
     }
 
-    /// How far the search came.
+    /// End that the search reached.
     pub fn end(&self) -> SearchEnd {
         self.end
     }

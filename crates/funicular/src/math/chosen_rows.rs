@@ -2,7 +2,7 @@
 
 use super::DMat;
 
-/// What the chosen rows make small.
+/// Quantity that the chosen rows make small.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum RowCriterion {
     /// Weighted sum of the variances.
@@ -22,19 +22,19 @@ pub struct ChosenRows {
 }
 
 /// Chooses candidates one after the other, each so that the criterion falls most (96k). `covariance` S is that without
-/// them; each candidate has rows W over the same unknowns, in their deviations, or `None` if it cannot be measured; `weight`
-/// is the symmetric matrix of the weighted sum of variances, trace of `weight · S`. A candidate can be chosen several times.
+/// them; each candidate has rows W over the same unknowns, in their deviations, or `None` if it cannot be measured;
+/// `weight` is the symmetric matrix of the weighted sum of variances, trace of `weight · S`. A candidate can be chosen
+/// several times.
 ///
 /// # Example
 /// ```
 /// use funicular::math::{DMat, chosen_rows::{RowCriterion, choose_rows}};
 ///
 /// // Two unknowns with variances 4 and 1; the first candidate measures the sum, the second one the first of them.
-/// let covariance = DMat::from_diagonal_element(2, 2, 1.0) + DMat::from_fn(2, 2, |i, j| if i + j == 0 { 3.0 } else { 0.0 });
-/// let rows = [Some(DMat::from_row_slice(1, 2, &[1.0, 1.0])), Some(DMat::from_row_slice(1, 2, &[1.0, 0.0]))];
+/// let covariance = DMat::from_diagonal_element(2, 2, 1.0) + DMat::from_fn(2, 2, |i, j| if i + j == 0 { 3.0 } else {
+/// 0.0 }); let rows = [Some(DMat::from_row_slice(1, 2, &[1.0, 1.0])), Some(DMat::from_row_slice(1, 2, &[1.0, 0.0]))];
 /// let chosen = choose_rows(&covariance, &DMat::identity(2, 2), &rows, 1, RowCriterion::Variances);
-/// assert_eq!(chosen[0].candidate, 1);
-/// assert!((chosen[0].covariance[(0, 0)] - 0.8).abs() < 1e-14); // 1 / (1/4 + 1)
+/// assert_eq!(chosen[0].candidate, 1); assert!((chosen[0].covariance[(0, 0)] - 0.8).abs() < 1e-14); // 1 / (1/4 + 1)
 /// ```
 ///
 /// # References
@@ -95,7 +95,8 @@ fn with_rows(covariance: &DMat, rows: &DMat) -> Option<DMat> {
 mod tests {
     use super::*;
 
-    /// The information matrix `S⁻¹ + Σ WᵀW` inverted, another way to the same covariance; and its criteria tell the best.
+    /// The information matrix `S⁻¹ + Σ WᵀW` inverted, another way to the same covariance; and its criteria tell the
+    /// best.
     #[test]
     fn chosen_rows_are_the_best_of_all_by_the_information_matrix() {
         let entry = |k: usize| ((k * 7919 + 13) % 101) as f64 / 50.0 - 1.0;

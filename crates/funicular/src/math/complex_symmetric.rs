@@ -5,14 +5,15 @@
 
 use super::{CDMat, Complex};
 
-/// Square of a vector without conjugates, over the sum of the sizes of its terms, below which it counts as orthogonal to itself. Motions
-/// with light damping have about one; half of the digits are left at 1e-8.
+/// Square of a vector without conjugates, over the sum of the sizes of its terms, below which it counts as orthogonal
+/// to itself. Motions with light damping have about one; half of the digits are left at 1e-8.
 const MIN_SQUARE: f64 = 1e-8;
 
 /// Maximum number of sweeps of rotations; five are usual.
 const MAX_SWEEPS: usize = 40;
 
-/// Vectors `V`, by columns, with `VᵀGV = 1` for a complex symmetric matrix `G`; `None` if a vector is orthogonal to itself.
+/// Vectors `V`, by columns, with `VᵀGV = 1` for a complex symmetric matrix `G`; `None` if a vector is orthogonal to
+/// itself.
 pub(crate) fn orthogonalised(matrix: &CDMat) -> Option<CDMat> {
     let n = matrix.nrows();
     let mut vectors = CDMat::identity(n, n);
@@ -59,8 +60,8 @@ fn size_of_terms(matrix: &CDMat, vectors: &CDMat, k: usize) -> f64 {
     (0..matrix.nrows()).map(|i| (0..matrix.nrows()).map(|j| of(i, j)).sum::<f64>()).sum()
 }
 
-/// Diagonal of `VᵀAV` for a complex symmetric matrix `A`, and `V` with `VᵀV = 1`, until entries beside the diagonal are at
-/// most `tolerance`; values within it are zero. `None` if two eigenvectors are one.
+/// Diagonal of `VᵀAV` for a complex symmetric matrix `A`, and `V` with `VᵀV = 1`, until entries beside the diagonal are
+/// at most `tolerance`; values within it are zero. `None` if two eigenvectors are one.
 pub(crate) fn diagonalised(mut matrix: CDMat, tolerance: f64) -> Option<(Vec<Complex>, CDMat)> {
     let n = matrix.nrows();
     let mut vectors = CDMat::identity(n, n);
@@ -88,7 +89,8 @@ pub(crate) fn diagonalised(mut matrix: CDMat, tolerance: f64) -> Option<(Vec<Com
     None
 }
 
-/// Cosine and sine of the complex rotation that makes the matrix `[a b; b d]` diagonal; `None` if it has one eigenvector.
+/// Cosine and sine of the complex rotation that makes the matrix `[a b; b d]` diagonal; `None` if it has one
+/// eigenvector.
 fn rotation(a: Complex, b: Complex, d: Complex) -> Option<(Complex, Complex)> {
     // The tangent t solves t² + 2ht − 1 = 0 with h = (d − a)/2b; the smaller root turns least.
     let half = (d - a) / (2.0 * b);

@@ -1,4 +1,4 @@
-//! What commanded lengths leave behind: free motions after a move, a stop, or any table of lengths.
+//! Free motions that commanded lengths leave behind: after a move, a stop, or any table of lengths.
 //!
 //! The response to lengths is its static value and a sum over the poles, each driven by the rates of the lengths:
 //! `(R_k/λ_k) ∫ ℓ̇ e^{λ_k(t−τ)} dτ` (docs/theory.md, equation (46i)). R_k has the row of the length command at the
@@ -79,7 +79,7 @@ impl LengthCommand {
         }
     }
 
-    /// The same up to each of several times [s], ascending.
+    /// Integrals up to each of several times [s], ascending.
     fn until(&self, lambda: Complex, weights: &[Complex], times: &[f64]) -> Vec<Complex> {
         match self {
             Self::Move { by, profile } => {

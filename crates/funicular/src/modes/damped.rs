@@ -14,7 +14,7 @@ mod pairing;
 use super::{Mode, Modes};
 use crate::dynamics::Dynamics;
 use crate::math::{Complex, order};
-use pairing::{Followed, Pairs};
+use pairing::{FollowedMode, Pairs};
 use std::f64::consts::TAU;
 
 /// Damped natural frequency.
@@ -196,7 +196,7 @@ pub fn damped_modes(dynamics: &Dynamics, undamped: &Modes) -> DampedModes {
     let all: Vec<DampedMode> = modes.iter().copied().chain(others.unwrap_or_default()).collect();
 
     // Each mode has the zero to which its damping leads it.
-    let followed = Followed { dynamics, poles_below: POLES_BEYOND * limit };
+    let followed = FollowedMode { dynamics, poles_below: POLES_BEYOND * limit };
     let is_known = |k: usize| search.of_cables_alone(&sought[k]).is_some() || is_still(&modes[k]);
     let Pairs { modes, mut unclear, mut others } = followed.paired(&sought, &all, is_known);
     let listed = undamped.modes.len();
@@ -360,7 +360,7 @@ impl ZeroSearch<'_> {
             grows || zero.omega.re < minimum(zero) || zero.omega.re > right
         };
         // A mode that its damping leads beyond the right edge is not lost, and needs no search.
-        let followed = Followed { dynamics: self.dynamics, poles_below: self.poles_below };
+        let followed = FollowedMode { dynamics: self.dynamics, poles_below: self.poles_below };
         let leaves = |zero: &DampedZero| match zero.members[..] {
             [member] if zero.error <= WANTED_ERROR && zero.omega.re > right => {
                 followed.follow(&modes[member]).is_some_and(|of| of.omega.re > right)

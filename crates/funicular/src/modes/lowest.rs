@@ -55,7 +55,7 @@ pub enum PlatformModeError {
 /// Goal of a search for the lowest modes below a limit.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Wanted {
-    /// This number of natural frequencies.
+    /// Number of natural frequencies.
     Count(usize),
     /// A mode with at least this fraction of its kinetic energy in the platform.
     PlatformShare(f64),

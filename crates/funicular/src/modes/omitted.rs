@@ -1,10 +1,10 @@
 //! Bounds of what the modes above a limit add to the motion and to the tensions that commanded lengths excite
 //! (docs/theory.md, equations (46i1) to (46i3)).
 //!
-//! Relative to the place where its lengths hold it at rest, the robot is driven by the inertia of that place. A mode takes
-//! part with `p_k`, the mass product of its shape with the displacements of slow lengths. The squares of all `p_k` add up
-//! to the mass of these displacements, as the compliances of all modes add up to the static one, so that what the known
-//! modes leave of both bounds the others.
+//! Relative to the place where its lengths hold it at rest, the robot is driven by the inertia of that place. A mode
+//! takes part with `p_k`, the mass product of its shape with the displacements of slow lengths. The squares of all
+//! `p_k` add up to the mass of these displacements, as the compliances of all modes add up to the static one, so that
+//! what the known modes leave of both bounds the others.
 
 use super::command::LengthCommand;
 use super::decay::point_rows;
@@ -36,17 +36,17 @@ pub struct OmittedMotion {
     pub mean_tensions: Vec<f64>,
 }
 
-/// Frequency at which the mass of slow displacements is found, over the first natural frequency: its error is four times
-/// the fourth power, and rounding takes 1e-16 over the square.
+/// Frequency at which the mass of slow displacements is found, over the first natural frequency: its error is four
+/// times the fourth power, and rounding takes 1e-16 over the square.
 const SLOW: f64 = 1e-2;
 
 /// Part of the mass below which a mass that is left is rounding.
 const ROUNDING: f64 = 1e-8;
 
 impl OmittedModes {
-    /// Modes above the limit of a list, for a point at `arm_w` from the platform origin, world axes [m], and cables whose
-    /// stretch has a stiffness [N/m]. The dynamics have no losses. `None` for a robot whose lengths have no such bound:
-    /// with motors that turn, flexible supports, or a cable without a commanded length.
+    /// Modes above the limit of a list, for a point at `arm_w` from the platform origin, world axes [m], and cables
+    /// whose stretch has a stiffness [N/m]. The dynamics have no losses. `None` for a robot whose lengths have no such
+    /// bound: with motors that turn, flexible supports, or a cable without a commanded length.
     pub fn of(lossless: &Dynamics, modes: &Modes, arm_w: &Vec3, stretch: Vec<f64>) -> Option<Self> {
         let above = TAU * modes.below_hz;
         let first = modes.modes.first().map_or(above, |mode| TAU * mode.frequency_hz);

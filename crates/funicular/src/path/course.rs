@@ -37,8 +37,8 @@ impl Default for MotionLimits {
 /// Form of a course from rest to rest.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum CourseForm {
-    /// Fifteen phases in which the jerk is constant, rises or falls in a straight line: it nowhere jumps. The rates of the
-    /// lengths of cables are then continuous.
+    /// Fifteen phases in which the jerk is constant, rises or falls in a straight line: it nowhere jumps. The rates of
+    /// the lengths of cables are then continuous.
     #[default]
     ContinuousJerk,
     /// Seven phases of constant jerk, the fastest course within the limits.

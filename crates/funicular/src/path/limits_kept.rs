@@ -16,11 +16,11 @@ const ROUNDING: f64 = 1e-9;
 /// Used parts of the limits of the translation and of the turn, the larger one of each derivative; 1 is all.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct UsedParts {
-    /// Of the speeds.
+    /// Part of the speeds.
     pub speed: f64,
-    /// Of the accelerations.
+    /// Part of the accelerations.
     pub acceleration: f64,
-    /// Of the jerks.
+    /// Part of the jerks.
     pub jerk: f64,
 }
 

@@ -10,8 +10,8 @@ use crate::robot::Pose;
 /// Number of times at which the distance to a pose is looked at while two moves overlap.
 const LOOKS: usize = 200;
 
-/// Largest number of times that the limits of two moves which overlap are lowered. What is left then slows the whole path
-/// down, so that more rounds would make it faster at most.
+/// Largest number of times that the limits of two moves which overlap are lowered. What is left then slows the whole
+/// path down, so that more rounds would make it faster at most.
 const ROUNDS: usize = 4;
 
 /// Moves from pose to pose.

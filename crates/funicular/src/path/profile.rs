@@ -24,8 +24,8 @@ const MAX_BOXES: usize = 4;
 /// Number of derivatives of a motion, the value among them.
 const ORDERS: usize = 4;
 
-/// Part of the duration of a course below which two of its corners are one: phases that end together differ by rounding,
-/// 1e-16 of the duration, and no phase that changes a motion is this short.
+/// Part of the duration of a course below which two of its corners are one: phases that end together differ by
+/// rounding, 1e-16 of the duration, and no phase that changes a motion is this short.
 pub(super) const SAME_CORNER: f64 = 1e-9;
 
 /// Magnitude of x up to which a series gives `(eˣ − 1)/x` and its successors: the closed form has lost two digits
@@ -73,8 +73,9 @@ impl Profile {
         Self::new(&[1.0 / rate, rate / acceleration, acceleration / jerk])
     }
 
-    /// Course of [`Self::limited`] whose changes of the acceleration take twice as long, so that the jerk rises and falls
-    /// in straight lines within the same limit. Fifteen phases; without a limit of the jerk the acceleration jumps.
+    /// Course of [`Self::limited`] whose changes of the acceleration take twice as long, so that the jerk rises and
+    /// falls in straight lines within the same limit. Fifteen phases; without a limit of the jerk the acceleration
+    /// jumps.
     pub fn continuous_jerk(rate: f64, acceleration: f64, jerk: f64) -> Self {
         let mut found = Self::limited(rate, acceleration, jerk);
         // A further box averages all derivatives, so that every limit stays kept.
@@ -140,10 +141,11 @@ impl Profile {
         self.impulses.iter().map(|impulse| impulse.amplitude * of_one(time - impulse.time)).sum()
     }
 
-    /// Part that is done and its three derivatives just before or just after a time [s]; both sides differ at corners alone.
+    /// Part that is done and its three derivatives just before or just after a time [s]; both sides differ at corners
+    /// alone.
     ///
-    /// The phases are integrated one after the other. The sum of powers over all corners, as in [`Self::derivative`], would
-    /// lose digits in a long phase of constant rate between short changes of the acceleration.
+    /// The phases are integrated one after the other. The sum of powers over all corners, as in [`Self::derivative`],
+    /// would lose digits in a long phase of constant rate between short changes of the acceleration.
     pub fn beside(&self, time: f64, side: Side) -> [f64; ORDERS] {
         let mut found = [0.0; ORDERS];
         for impulse in &self.impulses {
@@ -186,8 +188,8 @@ impl Profile {
         std::array::from_fn(|order| if order <= count { state[order] } else { 0.0 })
     }
 
-    /// Jump of the derivative of the order of the number of boxes, over the product of the boxes, and time of every corner
-    /// of the chain.
+    /// Jump of the derivative of the order of the number of boxes, over the product of the boxes, and time of every
+    /// corner of the chain.
     fn merged_corners(&self) -> Vec<(f64, f64)> {
         merged(self.corners().collect(), self.tolerance())
     }

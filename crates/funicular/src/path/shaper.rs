@@ -61,7 +61,7 @@ impl Shaper {
         Some(Self { impulses: parts.into_iter().enumerate().map(at).collect() })
     }
 
-    /// This shaper and another one, one after the other: their zeros together, their lengths added.
+    /// Shaper made of two, one after the other: their zeros together, their lengths added.
     #[must_use]
     pub fn convolved(&self, other: &Self) -> Self {
         let mut impulses: Vec<Impulse> = (self.impulses.iter())

@@ -4,8 +4,8 @@
 /// Number of neighbours of a row in its third difference.
 const REACH: usize = 3;
 
-/// Weights of the smoothness: the first, the factor between two, and the largest. The first leaves the barrier in charge;
-/// with the last the sum of squares of the third differences is larger than its minimum by 2n/10¹⁰ half units².
+/// Weights of the smoothness: the first, the factor between two, and the largest. The first leaves the barrier in
+/// charge; with the last the sum of squares of the third differences is larger than its minimum by 2n/10¹⁰ half units².
 const FIRST_WEIGHT: f64 = 1e-2;
 const WEIGHT_FACTOR: f64 = 10.0;
 const MAX_WEIGHT: f64 = 1e10;

@@ -70,8 +70,8 @@ impl Solid {
 }
 
 impl Body {
-    /// Distance of a point inside the body from its surface [m]; zero outside. The point is in the frame in which the body
-    /// stands.
+    /// Distance of a point inside the body from its surface [m]; zero outside. The point is in the frame in which the
+    /// body stands.
     pub(super) fn depth_inside(&self, point: &Vec3) -> f64 {
         let (shapes, turn) = self.solid.shapes();
         let local = vector(&(turn.inverse() * (self.pose.rot_wp.inverse() * (point - self.pose.position_w))));
@@ -84,8 +84,8 @@ impl Body {
 }
 
 impl Body {
-    /// Triangles of the surface, three corners each, in the frame in which the body stands [m]; a cylinder as a prism, and
-    /// none for a half space.
+    /// Triangles of the surface, three corners each, in the frame in which the body stands [m]; a cylinder as a prism,
+    /// and none for a half space.
     pub fn triangles(&self) -> Vec<[Vec3; 3]> {
         let turn = self.solid.shapes().1;
         let (vertices, faces) = match &self.solid {
@@ -119,8 +119,8 @@ pub struct RequiredClearance {
     pub platform: f64,
     /// Between an obstacle and a cable or the platform.
     pub obstacles: f64,
-    /// Length of cable at an end that is not compared with what this end is mounted on: the platform, an obstacle nearer
-    /// than this to the anchor, a cable whose same end is nearer than this; `None` for the share
+    /// Length of cable at an end that is not compared with what this end is mounted on: the platform, an obstacle
+    /// nearer than this to the anchor, a cable whose same end is nearer than this; `None` for the share
     /// [`RequiredClearance::FROM_END`] of the platform's length.
     pub from_end: Option<f64>,
 }

@@ -3,7 +3,7 @@
 use super::Robot;
 use std::cmp::Ordering;
 
-/// How the cables of a robot constrain its platform, by their number alone. Cables whose directions are dependent, as
+/// Constraint of a platform by its cables, by their number alone. Cables whose directions are dependent, as
 /// those that all end at one point of the platform, constrain less than their number says.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Constraint {

@@ -54,8 +54,8 @@ pub enum MeshError {
 }
 
 impl ClosedMesh {
-    /// Closed surfaces of triangles, three corners each [m]. Equal corners are one vertex; triangles without area are left
-    /// out.
+    /// Closed surfaces of triangles, three corners each [m]. Equal corners are one vertex; triangles without area are
+    /// left out.
     ///
     /// # Errors
     /// [`MeshError`].
@@ -64,11 +64,11 @@ impl ClosedMesh {
         if mesh.faces.is_empty() {
             return Err(MeshError::Empty);
         }
-        let solids = Surface::solids(mesh.surfaces()?, &mut mesh)?;
+        let solids = MeshSurface::solids(mesh.surfaces()?, &mut mesh)?;
 
         // Solids whose boxes do not meet share a tree; those that may overlap have trees of their own.
         let mut parts: Vec<(Vec<Aabb>, Vec<usize>)> = Vec::new();
-        for Surface { faces, reach, .. } in solids {
+        for MeshSurface { faces, reach, .. } in solids {
             match parts.iter_mut().find(|(others, _)| others.iter().all(|other| !other.intersects(&reach))) {
                 Some((others, all)) => {
                     others.push(reach);
@@ -127,7 +127,7 @@ struct EdgeUse {
 
 /// Triangles that share edges and turn the same way: a closed surface, or a piece of one up to edges of more than two
 /// triangles.
-struct Surface {
+struct MeshSurface {
     faces: Vec<usize>,
     /// Volume inside, negative if the triangles turn inward as most of their area does in the file [m³].
     volume: f64,
@@ -156,7 +156,7 @@ impl Faces {
     }
 
     /// Closed surfaces, whose triangles are turned so that neighbours agree, as most of their area in the file.
-    fn surfaces(&mut self) -> Result<Vec<Surface>, MeshError> {
+    fn surfaces(&mut self) -> Result<Vec<MeshSurface>, MeshError> {
         let mut uses: BTreeMap<[u32; 2], Vec<EdgeUse>> = BTreeMap::new();
         for (face, [a, b, c]) in self.faces.iter().enumerate() {
             for [from, to] in [[a, b], [b, c], [c, a]] {
@@ -263,7 +263,7 @@ impl Faces {
     }
 
     /// Closed surface of triangles that turn the same way.
-    fn surface(&self, faces: Vec<usize>) -> Surface {
+    fn surface(&self, faces: Vec<usize>) -> MeshSurface {
         let corners = |face: usize| self.faces[face].map(|i| self.vertices[i as usize]);
         let origin = corners(faces[0])[0];
         let cone = |face: &usize| {
@@ -275,7 +275,7 @@ impl Faces {
             corners(*face).into_iter().for_each(|corner| reach.take_point(corner));
             reach
         });
-        Surface { faces, volume, reach }
+        MeshSurface { faces, volume, reach }
     }
 
     /// Tree of some triangles, with the vertices that they use.
@@ -342,7 +342,7 @@ fn without_walls(faces: Vec<[u32; 3]>) -> Vec<[u32; 3]> {
     faces.into_iter().zip(remains).filter_map(|(face, remains)| remains.then_some(face)).collect()
 }
 
-impl Surface {
+impl MeshSurface {
     /// Solids inside of surfaces: each with the cavities in it, turned outward and the cavities inward.
     fn solids(surfaces: Vec<Self>, mesh: &mut Faces) -> Result<Vec<Self>, MeshError> {
         // Surfaces around each one, the largest first.

@@ -350,7 +350,8 @@ fn on_supports(cables: Vec<(Cable, Option<String>)>, named: read::Named<Support>
     (cables.into_iter().map(with_support).collect(), supports)
 }
 
-/// Radius above which a wheel is refused if the platform may be far from the anchors [m]. No wheel of a rope is so large.
+/// Radius above which a wheel is refused if the platform may be far from the anchors [m]. No wheel of a rope is so
+/// large.
 const LARGEST_WHEEL: f64 = 100.0;
 
 /// Size of a robot [m]: the largest distance between two anchors, from an anchor to the platform, or along a cable.

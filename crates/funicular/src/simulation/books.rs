@@ -44,7 +44,7 @@ impl EnergyBooks {
         kinetic + winches.abs() + loads.abs() + payloads.abs() + dissipated
     }
 
-    /// What the books are off by [J]: energy that only the errors of mesh and steps explain.
+    /// Error of the energy balance [J]: energy that only the errors of mesh and steps explain.
     pub fn defect(&self) -> f64 {
         self.total() - self.at_start - self.winches - self.loads - self.payloads + self.dissipated
     }

@@ -126,9 +126,9 @@ impl Stepper {
         }
     }
 
-    /// Brings the motion to rest where all forces balance and every rope leaves its wheel along its tangent, from a place
-    /// near it; `false` if there is no such place. `narrow` has the load per length of each rope that hangs in a bend too
-    /// narrow for its mesh.
+    /// Brings the motion to rest where all forces balance and every rope leaves its wheel along its tangent, from a
+    /// place near it; `false` if there is no such place. `narrow` has the load per length of each rope that hangs in a
+    /// bend too narrow for its mesh.
     pub(super) fn settle(&mut self, narrow: &[Option<Vec3>]) -> bool {
         const ROUNDS: usize = 20;
         for _ in 0..ROUNDS {
@@ -142,8 +142,8 @@ impl Stepper {
         true
     }
 
-    /// Brings the motion to rest with the wrap angles held. Ropes in narrow bends are at rest between their ends at every
-    /// step, because Newton's method finds no hold on them, until their ends hardly move.
+    /// Brings the motion to rest with the wrap angles held. Ropes in narrow bends are at rest between their ends at
+    /// every step, because Newton's method finds no hold on them, until their ends hardly move.
     fn settle_on_wheels(&mut self, narrow: &[Option<Vec3>]) -> bool {
         const STEPS: usize = 50;
         /// Change below which Newton's method takes all nodes along [m]: far below their distance, far above rounding.

@@ -24,9 +24,9 @@ pub enum SimulationEvent {
         time: f64,
         /// Mass of the payload [kg].
         mass: f64,
-        /// Its place, platform frame [m]; `None` for the centre of mass.
+        /// Place of the mass, platform frame [m]; `None` for the centre of mass.
         point_p: Option<Vec3>,
-        /// Its velocity before, world axes [m/s]; `None` if it moves with the platform.
+        /// Velocity of the mass before, world axes [m/s]; `None` if it moves with the platform.
         velocity_w: Option<Vec3>,
     },
     /// Winches change the unstrained lengths, each by a polynomial of the fifth degree from rest to rest.

@@ -10,8 +10,8 @@ use crate::math::Vec3;
 use crate::robot::{Anchor, Control, DrumSide, PulleyContact, Servo, Winch};
 use crate::statics::CableState;
 
-/// Number of pieces of a drum side with mass between two stations. The first axial wave of a bar with six lumped masses is
-/// 1 % too slow and the second 4.5 %, by `sin x = x (1 − x²/6 …)` at x = nπ/12.
+/// Number of pieces of a drum side with mass between two stations. The first axial wave of a bar with six lumped masses
+/// is 1 % too slow and the second 4.5 %, by `sin x = x (1 − x²/6 …)` at x = nπ/12.
 const ROD_PIECES: usize = 6;
 /// Geometric length of a piece below which it counts as this long [m]: a piece of no length has no stiffness, and its
 /// stretch of a thousandth would be 1e-7 m.
@@ -23,14 +23,15 @@ const INTEGRAL_RADIANS: f64 = 1000.0;
 /// Piece between two stations, or between the last one and what holds it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum FeedLink {
-    /// Rope of a geometric length [m]; the first has the arc, too. A winch that yields pays out `compliance` per tension
+    /// Rope of a geometric length [m]; the first has the arc, too. A winch that yields pays out `compliance` per
+    /// tension
     /// [m/N].
     Rope { straight: f64, compliance: f64 },
     /// Shaft of this stiffness at the rope [N/m].
     Shaft(f64),
 }
 
-/// What holds the last station.
+/// Part that holds the last station.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum WinchHold {
     /// The commanded unstrained length, or the motor that follows it.
@@ -229,8 +230,8 @@ impl Feed {
         }
     }
 
-    /// Locks the last station while the start is sought, if what holds it does so at any tension. `beyond` is its length in
-    /// statics over the commanded one [m].
+    /// Locks the last station while the start is sought, if what holds it does so at any tension. `beyond` is its
+    /// length in statics over the commanded one [m].
     pub(super) fn lock(&mut self, beyond: f64) {
         self.ahead = beyond;
         self.is_locked = self.is_locked || self.has_integral() || self.motor.is_none_or(|motor| motor.servo.is_none());
@@ -277,8 +278,8 @@ impl Feed {
         self.motor.is_some_and(|motor| motor.integral_gain > 0.0)
     }
 
-    /// Delay of the servo that holds the last station [s], and its gains in the coordinates of the stations; `None` without
-    /// a delay. While the winch holds a tension the gains are zero.
+    /// Delay of the servo that holds the last station [s], and its gains in the coordinates of the stations; `None`
+    /// without a delay. While the winch holds a tension the gains are zero.
     pub(super) fn delayed_servo(&self) -> Option<(f64, [f64; 2])> {
         let servo = self.motor?.servo.filter(|servo| servo.delay > 0.0)?;
         let scale = if self.hold == WinchHold::Length { self.stretch * self.stretch } else { 0.0 };
@@ -304,7 +305,8 @@ impl Feed {
         WoundLength { value: value + self.behind, rate, acceleration }
     }
 
-    /// From now on the winch holds a tension. `lengths` are the unstrained lengths to the winch and to the last station.
+    /// From now on the winch holds a tension. `lengths` are the unstrained lengths to the winch and to the last
+    /// station.
     pub(super) fn hold_tension(&mut self, hold: WinchHold, [given, last]: [f64; 2]) {
         if self.hold == WinchHold::Length && self.is_open() {
             self.behind = given - last;
@@ -313,8 +315,8 @@ impl Feed {
         self.is_locked = false;
     }
 
-    /// State of piece `j` with this content. The first piece has an arc, and its straight part may be longer than at the
-    /// start.
+    /// State of piece `j` with this content. The first piece has an arc, and its straight part may be longer than at
+    /// the start.
     fn piece(&self, j: usize, content: f64, (arc, longer): (Option<&ArcParts>, f64)) -> PieceState {
         match self.links[j] {
             FeedLink::Rope { straight, compliance } => {
@@ -331,10 +333,9 @@ impl Feed {
         }
     }
 
-    /// Forces for the lengths `y` of the stations and their rates, behind them the integral of the servo's error and its
-    /// delayed error.
-    /// `given` is the commanded length; `first` is the arc of the first piece, and by how much its straight part is longer
-    /// than at the start [m].
+    /// Forces for the lengths `y` of the stations and their rates, behind them the integral of the servo's error and
+    /// its delayed error. `given` is the commanded length; `first` is the arc of the first piece, and by how much its
+    /// straight part is longer than at the start [m].
     ///
     /// # References
     /// docs/theory.md, equations (97l) and (97m).

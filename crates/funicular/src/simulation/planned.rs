@@ -1,5 +1,5 @@
-//! What a scenario says before anything is simulated: lengths that winches are commanded to have, and the platform after
-//! a release.
+//! Plan of a scenario before anything is simulated: lengths that winches are commanded to have, and the platform
+//! after a release.
 
 use super::body::MovingBody;
 use super::event::{EventFault, Faulty, SimulationEvent, windings};

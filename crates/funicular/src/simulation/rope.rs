@@ -45,11 +45,11 @@ pub(super) struct RopeMesh {
 /// Factors of mass, damping and stiffness in a Newton matrix.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Newton {
-    /// Of the mass: 1/(hγ) in a step, 0 at rest.
+    /// Factor of the mass: 1/(hγ) in a step, 0 at rest.
     pub(super) mass: f64,
-    /// Of the damping: 1 in a step.
+    /// Factor of the damping: 1 in a step.
     pub(super) damping: f64,
-    /// Of the stiffness: hγ in a step, 1 at rest.
+    /// Factor of the stiffness: hγ in a step, 1 at rest.
     pub(super) stiffness: f64,
 }
 
@@ -58,7 +58,7 @@ pub(super) struct Newton {
 pub(super) struct Border {
     /// Between the free length and each node, three numbers each.
     pub(super) by_length: Vec<f64>,
-    /// Of the free length itself.
+    /// Derivative by the free length itself.
     pub(super) of_length: f64,
     /// Between the far end and the nodes of the last element, itself included.
     pub(super) by_end: Vec<Mat3>,
@@ -189,8 +189,8 @@ impl RopeMesh {
         Stretch { tangent, ratio, rate, tension }
     }
 
-    /// Damping time at a ratio of lengths [s]. It fades where the rope folds: a point that has folded onto itself has no
-    /// tangent, and a tension there would jump from one direction to the opposite one.
+    /// Damping time at a ratio of lengths [s]. It fades where the rope folds: a point that has folded onto itself has
+    /// no tangent, and a tension there would jump from one direction to the opposite one.
     ///
     /// # References
     /// docs/theory.md, equation (97e1).
@@ -199,9 +199,9 @@ impl RopeMesh {
         self.damping_time * (ratio / FOLDED).min(1.0)
     }
 
-    /// Adds to `out` what the nodes need for the motion besides the inner forces, which a [`RopePack`] has added: inertia
-    /// less weight, wind and damping. With both, `out` has at the ends the forces that platform and anchor exert on the
-    /// rope.
+    /// Adds to `out` what the nodes need for the motion besides the inner forces, which a [`RopePack`] has added:
+    /// inertia less weight, wind and damping. With both, `out` has at the ends the forces that platform and anchor
+    /// exert on the rope.
     ///
     /// # References
     /// docs/theory.md, equation (97d).
@@ -314,8 +314,8 @@ impl RopeMesh {
         }
     }
 
-    /// Force that the free length needs but for what lies behind the exit point, conjugate to it [N]. Heights count from
-    /// `entry_w`.
+    /// Force that the free length needs but for what lies behind the exit point, conjugate to it [N]. Heights count
+    /// from `entry_w`.
     ///
     /// # References
     /// docs/theory.md, equation (97l).
@@ -418,8 +418,8 @@ impl RopeMesh {
         border.by_end[degree] += Mat3::identity() * (at_end * length.value / count * self.basis.weights[degree]);
     }
 
-    /// Numbers of the nodes after the free length has changed from `before` to `after`, the rope staying where it is; the
-    /// numbers are those of a function of σ.
+    /// Numbers of the nodes after the free length has changed from `before` to `after`, the rope staying where it is;
+    /// the numbers are those of a function of σ.
     pub(super) fn resampled(&self, before: f64, after: f64, values: &[f64]) -> Vec<f64> {
         let count = self.elements as f64;
         let mut out = Vec::with_capacity(values.len());
@@ -449,8 +449,8 @@ impl RopeMesh {
         self.mass * of.mass + (self.viscous + drag) * of.damping
     }
 
-    /// Adds the Newton matrix of the rope: the derivative of the needed forces by the velocities of a stage, without the
-    /// terms of the winch and the turn of the damping.
+    /// Adds the Newton matrix of the rope: the derivative of the needed forces by the velocities of a stage, without
+    /// the terms of the winch and the turn of the damping.
     ///
     /// # References
     /// docs/theory.md, equation (97h).
@@ -496,8 +496,8 @@ impl RopeMesh {
         }
     }
 
-    /// Tension at the anchor [N] from the force that the anchor exerts on the last node: with the momentum of the rope that
-    /// passes it.
+    /// Tension at the anchor [N] from the force that the anchor exerts on the last node: with the momentum of the rope
+    /// that passes it.
     ///
     /// # References
     /// docs/theory.md, equation (97f).
@@ -505,8 +505,8 @@ impl RopeMesh {
         (reaction + self.slope_at_end(length, x) * (self.mass * length.rate * length.rate)).norm()
     }
 
-    /// Energies and powers. The power of the winch is that of the mesh, so that the books of a coarse mesh, of slack rope
-    /// and of rope that runs out fast balance as well.
+    /// Energies and powers. The power of the winch is that of the mesh, so that the books of a coarse mesh, of slack
+    /// rope and of rope that runs out fast balance as well.
     ///
     /// # References
     /// docs/theory.md, equation (97g).

@@ -22,9 +22,9 @@ const SLACK: f64 = SlackCable::TENSION;
 const MAX_DEFECT: f64 = 1e-4;
 /// … over the weight times the tolerance, …
 const MAX_DEFECT_OF_TOLERANCE: f64 = 1e-3;
-/// … and over the energies themselves, whose rounding is all that is left at rest; the largest of the three counts. Steps
-/// of smooth motion leave less. Ropes that go slack or taut within a step leave more, and so does a command that a long
-/// step passes over.
+/// … and over the energies themselves, whose rounding is all that is left at rest; the largest of the three counts.
+/// Steps of smooth motion leave less. Ropes that go slack or taut within a step leave more, and so does a command that
+/// a long step passes over.
 const MAX_ROUNDING: f64 = 1e-12;
 /// Maximum step that may leave more [s], a guard against steps that shrink to nothing.
 const MAX_DEFECT_STEP: f64 = 1e-6;
@@ -59,7 +59,7 @@ pub struct RobotSample {
     pub energy: EnergyBooks,
 }
 
-/// How long a cable has been slack.
+/// Time for which a cable has been slack.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct SlackCable {
     /// Time at which its tension at the platform first fell below half a newton [s].
@@ -478,7 +478,7 @@ impl Simulation {
         }
     }
 
-    /// How long each cable has been slack.
+    /// Time for which each cable has been slack.
     pub fn slack(&self) -> &[SlackCable] {
         &self.slack
     }

@@ -174,8 +174,8 @@ pub enum RestFault {
     NotFound,
 }
 
-/// Inertia of a rope without mass whose far end moves, over the mass of the platform. Frequencies of the platform change by
-/// at most half of it for each rope.
+/// Inertia of a rope without mass whose far end moves, over the mass of the platform. Frequencies of the platform
+/// change by at most half of it for each rope.
 const MASSLESS_PART: f64 = 1e-6;
 
 /// Refuses parts of a robot that are not simulated.
@@ -416,8 +416,8 @@ fn rest_fault(robot: &Robot, rest: &Equilibrium, system: &System) -> RestFault {
     }
 }
 
-/// Minimum number of pieces of a rope at which gusts are drawn. For the camera of the tests, on ropes of 150 m, the root mean
-/// square upwards was 0.78 of the spectral answer with two pieces, 0.88 with five and 1.02 with eight.
+/// Minimum number of pieces of a rope at which gusts are drawn. For the camera of the tests, on ropes of 150 m, the
+/// root mean square upwards was 0.78 of the spectral answer with two pieces, 0.88 with five and 1.02 with eight.
 const MIN_GUSTY_PIECES: usize = 8;
 
 /// Ends of equal pieces of the ropes at rest, as places of gusts: at least one for each element.
@@ -462,8 +462,8 @@ fn let_go(robot: &Robot, stepper: &mut Stepper, holds_tension: &dyn Fn(usize) ->
     }
 }
 
-/// Nodes on the curves of the cables at rest, and what lies behind them; with the load per length of each rope in a bend
-/// too narrow for its mesh.
+/// Nodes on the curves of the cables at rest, and what lies behind them; with the load per length of each rope in a
+/// bend too narrow for its mesh.
 fn hanging(
     robot: &Robot,
     system: &System,

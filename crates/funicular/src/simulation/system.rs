@@ -1,7 +1,7 @@
 //! Platform and ropes as one system: the forces that a motion needs, and Newton's corrections of it.
 //!
-//! A motion is stored as numbers in a row: centre of mass, turn since the beginning of the step, supports, then for each
-//! rope its nodes and the numbers of its far end. The ends of a rope are filled from what they are on.
+//! A motion is stored as numbers in a row: centre of mass, turn since the beginning of the step, supports, then for
+//! each rope its nodes and the numbers of its far end. The ends of a rope are filled from what they are on.
 
 use super::body::{BodyMotion, MovingBody};
 use super::far_end::{ExitMotion, FarEnd, FarForces, FarState, delayed_weights};
@@ -14,8 +14,8 @@ use crate::robot::Support;
 /// Number of numbers of the platform in a motion.
 pub(super) const BODY: usize = 6;
 
-/// Jump of a commanded acceleration [m/s²] and of the share of a push from which on it counts as one: far above rounding,
-/// far below gravity.
+/// Jump of a commanded acceleration [m/s²] and of the share of a push from which on it counts as one: far above
+/// rounding, far below gravity.
 const MIN_JUMP: f64 = 1e-6;
 
 /// End of a rope at the platform.
@@ -246,7 +246,7 @@ impl System {
         far.whole(*given, [&m.x[range.clone()], &m.v[range.clone()], &m.a[range]], self.free_length(i, given, m))
     }
 
-    /// What the forces at a far end depend on. `needed` has the forces of the rope's nodes.
+    /// State on which the forces at a far end depend. `needed` has the forces of the rope's nodes.
     pub(super) fn far_state<'a>(
         &'a self,
         i: usize,

@@ -164,8 +164,8 @@ impl<'a> LoadCapacity<'a> {
         self.as_judged(margins.reduce(f64::min)?)
     }
 
-    /// Capacity margin with the sign of the verdict. The hull of sagging cables may contain loads that no tensions within
-    /// the limits hold; then the plane at the end of the load that binds is one more facet.
+    /// Capacity margin with the sign of the verdict. The hull of sagging cables may contain loads that no tensions
+    /// within the limits hold; then the plane at the end of the load that binds is one more facet.
     fn as_judged(&self, margin: f64) -> Option<f64> {
         match &self.rest {
             Err(_) if margin < 0.0 => return Some(margin),

@@ -77,7 +77,8 @@ const PARALLEL: f64 = 1e-9;
 /// chords long. With less, the guess is all sag; well above it, light platforms are lifted by their cables.
 const MIN_GUESS: f64 = 0.25;
 
-/// Weight of the largest violation in the merit over the sum of the multipliers: above 1, so that each step within the limits is a gain.
+/// Weight of the largest violation in the merit over the sum of the multipliers: above 1, so that each step within the
+/// limits is a gain.
 const PENALTY: f64 = 2.0;
 
 /// Curvature of a change of the tensions alone, beside 1 for motions: such changes are made only where limits demand

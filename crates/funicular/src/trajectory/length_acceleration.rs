@@ -1,15 +1,15 @@
 //! Accelerations of the lengths from lengths and rates at neighbouring times.
 
-/// Least time over which a difference is taken, if the values are smooth for so long [s]: lengths have an error of 1e-12 m,
-/// which is then 4e-6 m/s².
+/// Least time over which a difference is taken, if the values are smooth for so long [s]: lengths have an error of
+/// 1e-12 m, which is then 4e-6 m/s².
 const MIN_STEP: f64 = 5e-4;
 
 /// Second derivative over time of values whose first derivatives are known, at every time (docs/theory.md, equation
-/// (40z7)). `belongs(k)` is true if the values between the times k and k + 1 are smooth; a difference does not reach over
-/// an interval that is not, unless there is no other beside it.
+/// (40z7)). `belongs(k)` is true if the values between the times k and k + 1 are smooth; a difference does not reach
+/// over an interval that is not, unless there is no other beside it.
 ///
-/// A neighbour is the nearest time that is at least 0.5 ms away, or the farthest one before the values cease to be smooth.
-/// Times may be equal: a pair of them stands for both sides of a jump.
+/// A neighbour is the nearest time that is at least 0.5 ms away, or the farthest one before the values cease to be
+/// smooth. Times may be equal: a pair of them stands for both sides of a jump.
 ///
 /// With both neighbours the polynomial of the fifth degree through values and rates is differentiated, with one that of
 /// the third degree.
@@ -60,8 +60,8 @@ pub fn length_accelerations(
     (0..times.len()).map(row).collect()
 }
 
-/// Time next to that with the index k on one side: the nearest of these indices that is far enough, or the farthest that
-/// can be reached.
+/// Time next to that with the index k on one side: the nearest of these indices that is far enough, or the farthest
+/// that can be reached.
 fn neighbour(
     k: usize,
     indices: impl Iterator<Item = usize>,

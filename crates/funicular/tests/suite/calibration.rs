@@ -1,5 +1,5 @@
-//! Calibration from lengths alone: published belts of a machine, synthetic sets of a separate program, derivatives against
-//! differences, coverage of intervals, starts from nothing, and data that are wrong.
+//! Calibration from lengths alone: published belts of a machine, synthetic sets of a separate program, derivatives
+//! against differences, coverage of intervals, starts from nothing, and data that are wrong.
 
 mod more_unknowns;
 mod planes_and_trackers;
@@ -290,8 +290,8 @@ fn camera_poses(count: usize, draws: &mut Draws) -> Vec<Pose> {
 
 #[test]
 fn derivatives_are_those_of_differences() {
-    // χ² of a calibration along each unknown, against the exact step of the undamped fit: a fit of exact readings from a
-    // start that is off arrives at the truth only with true derivatives, and quadratically.
+    // χ² of a calibration along each unknown, against the exact step of the undamped fit: a fit of exact readings from
+    // a start that is off arrives at the truth only with true derivatives, and quadratically.
     let mut draws = Draws(11);
     let truth = robot("rigid", &RIGID_START, &RIGID_ATTACHMENTS);
     let poses: Vec<Pose> = (0..32)

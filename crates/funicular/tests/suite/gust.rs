@@ -5,7 +5,7 @@ mod kinds;
 
 use funicular::cable::catenary_dynamic::DriveSignal;
 use funicular::dynamics::{Dynamics, Linearisation};
-use funicular::gust::{self, GustError, Gusts, PeakFactor, Resonance, Spectra};
+use funicular::gust::{self, GustError, GustResonance, Gusts, PeakFactor, Spectra};
 use funicular::math::Vec3;
 use funicular::modes;
 use funicular::response::{self, Quantity, Signal};
@@ -94,10 +94,10 @@ impl WindyRobot {
     }
 }
 
-fn resonances(robot: &Robot, rest: &Equilibrium, dynamics: &Dynamics, below_hz: f64) -> Vec<Resonance> {
+fn resonances(robot: &Robot, rest: &Equilibrium, dynamics: &Dynamics, below_hz: f64) -> Vec<GustResonance> {
     let found = modes::below(dynamics, below_hz).modes;
     let in_air = gust::aerodynamic_damping_ratio(robot, rest, dynamics, &found).unwrap();
-    Resonance::of_modes(&found, &in_air)
+    GustResonance::of_modes(&found, &in_air)
 }
 
 fn along(direction_w: Vec3) -> (Signal, Quantity) {
@@ -411,8 +411,8 @@ fn a_simulation_in_time_has_the_rms_value_of_the_spectrum() {
     assert!((variance / expected - 1.0).abs() < 0.05, "{variance} {expected}");
 }
 
-/// A table of the formula is the formula: the error of straight lines is the curvature between two rows, (ln 1.01)²/12 of
-/// the density, and rows end at the limit of the frequencies.
+/// A table of the formula is the formula: the error of straight lines is the curvature between two rows, (ln 1.01)²/12
+/// of the density, and rows end at the limit of the frequencies.
 #[test]
 fn a_measured_spectrum_of_the_formula_has_its_response() {
     let case = stadium();
@@ -515,7 +515,7 @@ fn a_narrow_peak_has_the_variance_of_its_closed_form() {
         for output in 0..2 {
             let parts = &spectra.by_mode[output];
             let k = (1..found.len() - 1).max_by(|a, b| parts[*a].total_cmp(&parts[*b])).unwrap();
-            let Resonance { frequency_hz, damping_ratio } = found[k];
+            let GustResonance { frequency_hz, damping_ratio } = found[k];
             // Height of the peak by thirds of an interval, because the truncated series of the ropes may move it.
             let density = |hz: f64| gusts.densities(hz).unwrap().total[output];
             let (mut low, mut high) = [-30.0, 30.0].map(|of| frequency_hz * (1.0 + of * damping_ratio)).into();

@@ -30,13 +30,15 @@ pub(crate) fn library() -> Vec<(String, Robot, Equilibrium)> {
 }
 
 /// Along a line the first platform mode jumps where its motion is split over two modes. Wherever it does, modes below
-/// it are named that move the platform, too.
+/// it are named that move the platform, too. Where a mode of the platform that falls steeply passes another one,
+/// nothing jumps: the frequencies of the two poses before lead to it in a straight line.
 #[test]
 fn jumps_of_the_first_platform_mode_are_explained_by_the_modes_that_share_its_motion() {
     let mut jumps = 0;
     for (text, height, limit) in [(funicular_robots::COGIRO, 1.5, 9.0), (funicular_robots::IPANEMA2, 1.0, 40.0)] {
         let robot = Robot::from_toml(text).unwrap();
         let mut last: Option<(f64, bool)> = None;
+        let mut before: [Vec<f64>; 2] = Default::default();
         for step in 0..=14 {
             let pose = funicular::robot::Pose::new([2.0 + 0.1 * f64::from(step), 0.0, height], [0.0; 3]);
             let rest = statics::distribute_tensions(&robot, &pose, StaticModel::Catenary, &TensionRule::default());
@@ -51,13 +53,20 @@ fn jumps_of_the_first_platform_mode_are_explained_by_the_modes_that_share_its_mo
             let Some(first) = found.first_platform(modes::PLATFORM_SHARE) else { continue };
             assert!(sharing.iter().all(|&i| i < first));
             let (hz, told) = (found.modes[first].frequency_hz, !sharing.is_empty());
-            if let Some((before, was_told)) = last
-                && (hz / before - 1.0).abs() > 0.05
+            let [earlier, previous] = &before;
+            let straight = previous.iter().flat_map(|of| earlier.iter().map(move |older| 2.0 * of - older));
+            let is_passing = straight.into_iter().any(|expected| (hz / expected - 1.0).abs() < 0.02);
+            if let Some((last_hz, was_told)) = last
+                && (hz / last_hz - 1.0).abs() > 0.05
+                && !is_passing
             {
                 jumps += 1;
-                assert!(told || was_told, "{} at step {step}: {before} Hz, then {hz} Hz", robot.name);
+                assert!(told || was_told, "{} at step {step}: {last_hz} Hz, then {hz} Hz", robot.name);
             }
             last = Some((hz, told));
+            let of_platform = found.modes.iter().filter(|mode| mode.platform_energy_fraction >= modes::PLATFORM_SHARE);
+            let now = of_platform.map(|mode| mode.frequency_hz).collect();
+            before = [std::mem::take(&mut before[1]), now];
         }
     }
     // The line of the large robot has such jumps; without one the test would say nothing.

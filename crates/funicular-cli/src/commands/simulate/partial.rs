@@ -1,5 +1,5 @@
-//! Rows and state of a simulation that has not ended, in FILE.csv.partial and FILE.csv.partial.state. A run that is killed is
-//! continued from them.
+//! Rows and state of a simulation that has not ended, in FILE.csv.partial and FILE.csv.partial.state. A run that is
+//! killed is continued from them.
 
 use crate::errors;
 use anyhow::{Context, Result, bail};

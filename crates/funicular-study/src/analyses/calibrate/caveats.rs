@@ -168,8 +168,8 @@ fn stretch(of: &CalibrationReport) -> Option<String> {
     })
 }
 
-/// Usual change of a length by stretch and sag [m], with the tension [N]: the weight shared by the cables. `None` if the
-/// cables do not carry the weight.
+/// Usual change of a length by stretch and sag [m], with the tension [N]: the weight shared by the cables. `None` if
+/// the cables do not carry the weight.
 fn elongation(robot: &Robot) -> Option<(f64, f64)> {
     let gravity = robot.gravity_w;
     let carried = match &robot.platform.motion {

@@ -47,7 +47,7 @@ pub(super) fn chosen(key: &str, name: &str, unknowns: &[CalibrationUnknown], rob
     Ok(found)
 }
 
-/// The same for a list of names, as a mark for each unknown.
+/// Mark for each unknown, from a list of names.
 ///
 /// # Errors
 /// A name that no unknown has.

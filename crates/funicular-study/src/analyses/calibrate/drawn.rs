@@ -1,4 +1,4 @@
-//! What figures and pages draw of a calibration: anchors with their covariance, and the rows as linear equations, with
+//! Drawing of a calibration in figures and pages: anchors with their covariance, and the rows as linear equations, with
 //! which a page fits again without some of them.
 
 use super::Calibrated;
@@ -8,7 +8,8 @@ use funicular::math::DMat;
 use serde::Serialize;
 use serde_json::{Value, json};
 
-/// Largest half axis of an ellipse of two deviations, as a part of the width of the room; smaller ones are drawn larger.
+/// Largest half axis of an ellipse of two deviations, as a part of the width of the room; smaller ones are drawn
+/// larger.
 const LARGEST: f64 = 0.08;
 
 /// Anchor after a calibration.
@@ -34,7 +35,7 @@ pub struct AnchorRow {
 pub struct LinearRows {
     /// Changes of the values along the free directions, one list per value.
     pub free: Vec<Vec<f64>>,
-    /// The same with inner conditions.
+    /// Covariance with inner conditions.
     pub inner: Vec<Vec<f64>>,
     /// Information of all rows and priors.
     pub information: Vec<Vec<f64>>,
@@ -49,7 +50,7 @@ pub struct LinearRows {
     pub factor: Option<f64>,
 }
 
-/// What one row leaves for the values.
+/// Equations that one row leaves for the values.
 #[derive(Serialize)]
 pub struct NetRows {
     pub by_free: Vec<Vec<f64>>,
@@ -76,9 +77,9 @@ impl Calibrated {
         step * power
     }
 
-    /// Data with which the script of a page fits again without some rows: the linear equations, the numbers of their rows, the
-    /// values and anchors that they move, and the factor with which ellipses are drawn. `linear` is null where a combination
-    /// is lost.
+    /// Data with which the script of a page fits again without some rows: the linear equations, the numbers of their
+    /// rows, the values and anchors that they move, and the factor with which ellipses are drawn. `linear` is null
+    /// where a combination is lost.
     pub fn refit_data(&self) -> Value {
         let values = self
             .values

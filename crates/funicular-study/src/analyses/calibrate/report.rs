@@ -187,8 +187,8 @@ impl<'a> CalibrationReport<'a> {
         self.factor.unwrap_or(1.0).max(MIN_FACTOR).powi(2)
     }
 
-    /// Variance of the residuals over that of the data, and the factor of a deviation whose interval holds 95 %; `None` if
-    /// nothing tells them.
+    /// Variance of the residuals over that of the data, and the factor of a deviation whose interval holds 95 %; `None`
+    /// if nothing tells them.
     pub(super) fn noise(&self) -> Option<(f64, f64)> {
         self.factor.filter(|factor| *factor > MIN_FACTOR && self.quantile.is_finite())?;
         Some((self.variance(), self.quantile))

@@ -5,7 +5,7 @@ use crate::normal::NOISE_DEVIATIONS;
 use crate::quantiles::chi2_above;
 use funicular::calibration::{CableExchange, WrongRow, cable_exchange, wrong_rows};
 
-/// What is wrong with readings that do not fit.
+/// Fault of readings that do not fit.
 #[derive(Default)]
 pub(super) struct Wrong {
     /// Rows that do not agree with the others, the worst one first.
@@ -69,7 +69,7 @@ fn limit(of: &CalibrationReport, net: usize) -> f64 {
     chi2_above(OUTLIER / of.of.rows.len() as f64, net.max(1))
 }
 
-/// The same beside the variance of the others, which comes from few degrees of freedom.
+/// Limit of χ² beside the variance of the others, which comes from few degrees of freedom.
 pub(super) fn limit_of(of: &CalibrationReport, row: &WrongRow) -> f64 {
     let net = of.of.data_count(&of.of.rows[row.row]).saturating_sub(of.of.row_unknown_count());
     let limit = limit(of, net);

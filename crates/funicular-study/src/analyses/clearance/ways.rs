@@ -76,8 +76,8 @@ impl WayAround {
     }
 }
 
-/// Poses of the lattice: inside the box of anchors and both poses, in the plane of a planar platform, each orientation of
-/// the ends once.
+/// Poses of the lattice: inside the box of anchors and both poses, in the plane of a planar platform, each orientation
+/// of the ends once.
 fn candidates(robot: &Robot, ends: [&Pose; 2]) -> Vec<Pose> {
     let corners = robot.cables.iter().map(|cable| cable.anchor.reference_w()).chain(ends.map(|pose| pose.position_w));
     let (lower, upper) = corners.fold((ends[0].position_w, ends[0].position_w), |(lower, upper), corner| {

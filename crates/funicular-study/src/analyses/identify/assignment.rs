@@ -42,8 +42,8 @@ const MAX_AS_GOOD: f64 = 0.02;
 const MIN_REFINED: usize = 7;
 
 /// Ratio of likelihoods down to which another assignment is possible, if the deviations of the measurements are given,
-/// and if they were assumed. With an unknown factor of the deviations, five frequencies with errors of 0.5 % were fitted
-/// to 0.1 % with one wrong mode, a ratio of 1e-3.
+/// and if they were assumed. With an unknown factor of the deviations, five frequencies with errors of 0.5 % were
+/// fitted to 0.1 % with one wrong mode, a ratio of 1e-3.
 const POSSIBLE: f64 = 1e-2;
 const POSSIBLE_IF_ASSUMED: f64 = 1e-4;
 
@@ -82,7 +82,7 @@ pub(crate) struct Assigning {
     /// Part of χ² that frequencies, poses, tensions, lengths and priors have, and its degrees of freedom.
     pub(crate) own: f64,
     pub(crate) own_degrees: usize,
-    /// This part after the best fit to each list of random frequencies, ascending.
+    /// Part of χ² after the best fit to each list of random frequencies, ascending.
     pub(crate) random: Vec<f64>,
     /// Second best fit.
     pub(crate) other: Option<OtherFit>,

@@ -20,7 +20,8 @@ use funicular::robot::Pose;
 use serde::Serialize;
 use std::cell::RefCell;
 
-/// Maximum number of candidates: each is computed with its derivatives, which takes about as long as one step of the fit.
+/// Maximum number of candidates: each is computed with its derivatives, which takes about as long as one step of the
+/// fit.
 const MAX_CANDIDATES: usize = 2000;
 
 /// Largest number of proposed measurements while a wanted deviation is looked for.
@@ -45,7 +46,7 @@ pub struct ProposedMeasurement {
     /// Payload that the platform carries there, if payloads are candidates.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub payload_kg: Option<f64>,
-    /// What is measured there: `frequencies`, `tensions`, `lengths` or `pose`.
+    /// Measured quantities there: `frequencies`, `tensions`, `lengths` or `pose`.
     pub measured: String,
     /// Natural frequencies of the identified robot there, if they are measured.
     #[serde(skip_serializing_if = "Vec::is_empty")]

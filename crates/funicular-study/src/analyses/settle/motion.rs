@@ -158,8 +158,8 @@ impl<'a> Motion<'a> {
     }
 }
 
-/// Change of each length per unit of a motion at its end [m, or m/s for a velocity]: of inverse statics with the tension
-/// rule, so that sag and tensions follow.
+/// Change of each length per unit of a motion at its end [m, or m/s for a velocity]: of inverse statics with the
+/// tension rule, so that sag and tensions follow.
 ///
 /// # Errors
 /// A pose beside that of rest which the cables cannot hold.

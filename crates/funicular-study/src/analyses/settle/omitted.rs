@@ -13,9 +13,9 @@ use funicular::robot::{Damping, Robot, StretchLoss};
 /// Ratio of the next limit that is tried.
 pub(super) const NEXT_LIMIT: f64 = 1.4;
 
-/// Maximum number of modes below a limit that the program chooses above the one of all modes of the platform: their damped
-/// list takes a second.
-pub(super) const MOST_MODES: usize = 150;
+/// Maximum number of modes below a limit that the program chooses above the one of all modes of the platform: their
+/// damped list takes a second.
+pub(super) const MAX_CHOSEN_MODES: usize = 150;
 
 /// Part of the tolerance from which on modes above the limit count.
 const COUNTS: f64 = 0.1;

@@ -166,8 +166,8 @@ impl<'a> Trajectory<'a> {
         Self::of_rows(self.at_rest, self.rows.shaped(shaper)?)
     }
 
-    /// Lengths over time of a robot that is linear about the end: the real ones are curved along the path, which it would
-    /// take for a stretch.
+    /// Lengths over time of a robot that is linear about the end: the real ones are curved along the path, which it
+    /// would take for a stretch.
     pub(super) fn lengths(&self) -> LengthCommand {
         LengthCommand::Samples { times: self.rows.times.clone(), lengths: self.linear.clone() }
     }

@@ -26,7 +26,7 @@ pub struct Peak {
     pub cable: String,
     pub peak_n: f64,
     pub root_mean_square_n: f64,
-    /// The same of the finer run.
+    /// Value of the finer run.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub finer_peak_n: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]

@@ -1,5 +1,5 @@
-//! What pages and figures of a simulation show beyond its rows: the robot at some of the times, marks of the events, and
-//! the times at which cables are slack.
+//! Drawing of a simulation in pages and figures beyond its rows: the robot at some of the times, marks of the events,
+//! and the times at which cables are slack.
 
 use super::rows::SimulatedRow;
 use crate::text::short;
@@ -13,8 +13,8 @@ const MAX_FRAMES: usize = 300;
 /// Largest number of coordinates in all pictures: with more a page is larger than 5 MB.
 const MAX_COORDINATES: usize = 300_000;
 
-/// Largest displacement of a picture, as a part of the robot's size, up to which motion is enlarged: smaller motion is not
-/// seen.
+/// Largest displacement of a picture, as a part of the robot's size, up to which motion is enlarged: smaller motion is
+/// not seen.
 const VISIBLE: f64 = 0.03;
 
 /// Robot at one time, as it is drawn.
@@ -161,7 +161,8 @@ fn marks(robot: &Robot, events: &[SimulationEvent]) -> Vec<EventMark> {
     events.iter().filter_map(mark).collect()
 }
 
-/// Times at which cables are slack, by the rows, in which a tension counts as straight. A cable that failed is not slack.
+/// Times at which cables are slack, by the rows, in which a tension counts as straight. A cable that failed is not
+/// slack.
 pub(super) fn slack_spans(rows: &[SimulatedRow], cut_at: impl Fn(usize) -> Option<f64>) -> Vec<SlackSpan> {
     let mut spans = Vec::new();
     let count = rows.first().map_or(0, |row| row.tensions_platform_n.len());

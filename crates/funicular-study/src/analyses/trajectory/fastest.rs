@@ -70,8 +70,8 @@ pub(super) fn fastest<'a>(planned: &Planned<'a>, watch: &mut dyn Watch) -> Resul
     Ok(planned.slowed(slow))
 }
 
-/// True if the motion keeps all limits of tensions and winches. Distances do not depend on the speed but by the sag, and
-/// tensions by choice are found or not.
+/// True if the motion keeps all limits of tensions and winches. Distances do not depend on the speed but by the sag,
+/// and tensions by choice are found or not.
 fn keeps_limits(planned: &Planned, count: usize, watch: &mut dyn Watch) -> Result<bool> {
     let judged = JudgedLimits { clearance: false, inertia: false, ..planned.judged };
     let plain = Planned { judged, ..planned.clone() };

@@ -1,12 +1,13 @@
-//! Times at which a motion is computed: those of the rows, and times of its own, so that what is largest on the path does
-//! not depend on the rows.
+//! Times at which a motion is computed: those of the rows, and times of its own, so that what is largest on the path
+//! does not depend on the rows.
 
 use funicular::path::{PlatformPath, Side};
 
 /// Part of the duration within which two times are one.
 const SAME_TIME: f64 = 1e-9;
 
-/// Least number of parts of a phase between two corners of the path: the accelerations of lengths bend once or twice in it.
+/// Least number of parts of a phase between two corners of the path: the accelerations of lengths bend once or twice in
+/// it.
 const MIN_PARTS: f64 = 8.0;
 
 /// Distance of a time from a row, over the time between two of them, below which the row stands for it.

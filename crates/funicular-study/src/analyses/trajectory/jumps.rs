@@ -18,13 +18,13 @@ const HALVINGS: usize = 20;
 const MAX_CHANGES_BETWEEN: usize = 8;
 pub(super) const MAX_CHANGES: usize = 100;
 
-/// Jump of a rate [m/s] and of a length [m] that counts: within the period of a servo, 1 ms, the first is 0.01 m/s² and the
-/// second 10 µm/s. Rounding leaves 1e-8 m/s, and 1e-11 m.
+/// Jump of a rate [m/s] and of a length [m] that counts: within the period of a servo, 1 ms, the first is 0.01 m/s² and
+/// the second 10 µm/s. Rounding leaves 1e-8 m/s, and 1e-11 m.
 const MIN_RATE: f64 = 1e-5;
 const MIN_LENGTH: f64 = 1e-8;
 
-/// Difference between the change of a length and the integral of its rate from which on a jump is looked for [m]: one of
-/// 1 N in 10 m of rope with 1 MN is 10 µm.
+/// Difference between the change of a length and the integral of its rate from which on a jump is looked for [m]: one
+/// of 1 N in 10 m of rope with 1 MN is 10 µm.
 const MIN_WAY: f64 = 1e-6;
 
 /// Largest number of jumps of a rule that are looked for inside each other.
@@ -156,8 +156,8 @@ fn largest(of: &[f64]) -> Option<(usize, f64)> {
     of.iter().copied().enumerate().max_by(|a, b| a.1.total_cmp(&b.1))
 }
 
-/// Samples on both sides of every time between two samples at which a tension of choice reaches a limit or leaves it; the
-/// first of each pair has the jump.
+/// Samples on both sides of every time between two samples at which a tension of choice reaches a limit or leaves it;
+/// the first of each pair has the jump.
 ///
 /// # Errors
 /// A time at which the cables do not hold the platform.

@@ -1,20 +1,21 @@
-//! Rows of a path with few digits, or with noise: a smooth curve through them has accelerations that the motion does not
-//! have.
+//! Rows of a path with few digits, or with noise: a smooth curve through them has accelerations that the motion does
+//! not have.
 
 use super::super::timed_rows::{POSE, TimedRows};
 use crate::request::NumberColumns;
 use crate::text::{short, significant};
 use funicular::path::smoothed_within;
 
-/// Accelerations by rounding, over those of the smoothed motion, from which on a warning comes. A motion with 1.4 m/s² in
-/// steps of 1 mm every 0.1 s has some 0.2, and tensions that are right to 2 %; steps of 0.1 mm every 10 ms have 2 and more.
+/// Accelerations by rounding, over those of the smoothed motion, from which on a warning comes. A motion with 1.4 m/s²
+/// in steps of 1 mm every 0.1 s has some 0.2, and tensions that are right to 2 %; steps of 0.1 mm every 10 ms have 2
+/// and more.
 const MAX_PART: f64 = 0.4;
 
 /// Unit of the last digit below which a column has all digits [m or degrees].
 const MIN_UNIT: f64 = 1e-9;
 
-/// Part of the noise of fourth differences that sixth differences show at least if the values are noisy: white noise has
-/// 1, and smooth values the square of their frequency times the step.
+/// Part of the noise of fourth differences that sixth differences show at least if the values are noisy: white noise
+/// has 1, and smooth values the square of their frequency times the step.
 const NOISE: f64 = 0.7;
 
 /// Noise over the unit of the last digit from which on it is none of rounding, which has 0.29.
@@ -56,7 +57,7 @@ impl RoundedRows {
             return None;
         }
         let scales: [f64; COUNT] = std::array::from_fn(|k| if k < 3 { 1.0 } else { length.to_radians() });
-        let errors: [ColumnError; COUNT] = std::array::from_fn(|k| ColumnError::of(rows, columns, k));
+        let errors: [RowRounding; COUNT] = std::array::from_fn(|k| RowRounding::of(rows, columns, k));
         let mut own = vec![0.0; rows.times.len()];
         let mut others: Vec<[f64; COUNT]> = vec![[0.0; COUNT]; rows.times.len()];
         for k in 0..COUNT {
@@ -145,14 +146,14 @@ impl RoundedRows {
 
 /// Error of the values of a column.
 #[derive(Debug, Clone, Copy)]
-struct ColumnError {
+struct RowRounding {
     /// Unit of the last digit; `None` for a column with all digits, and for a noisy one.
     unit: Option<f64>,
     /// Standard deviation of noise that is no rounding; zero without it.
     deviation: f64,
 }
 
-impl ColumnError {
+impl RowRounding {
     fn of(rows: &TimedRows, columns: &NumberColumns, k: usize) -> Self {
         // A constant is as exact as it is written.
         let varying = columns.get(POSE[k]).filter(|values| values.iter().any(|value| *value != values[0]));
@@ -175,8 +176,8 @@ fn decimal_places(value: f64) -> usize {
     format!("{value}").split_once('.').map_or(0, |(_, places)| places.len())
 }
 
-/// Standard deviation of the noise of a column with steps of one length: by fourth differences, if sixth differences show
-/// as much; those of a smooth motion are far smaller. Rounding is such noise as well.
+/// Standard deviation of the noise of a column with steps of one length: by fourth differences, if sixth differences
+/// show as much; those of a smooth motion are far smaller. Rounding is such noise as well.
 fn noise(rows: &TimedRows, k: usize) -> Option<f64> {
     let steps = rows.times.windows(2).map(|pair| pair[1] - pair[0]);
     let (shortest, longest) = steps.fold((f64::INFINITY, 0.0_f64), |(a, b), step| (a.min(step), b.max(step)));

@@ -91,8 +91,8 @@ fn of_winch(samples: &MotionSamples, robot: &Robot, k: usize, i: usize) -> Vec<(
     parts.into_iter().map(judged).collect()
 }
 
-/// Inertia over the largest multiple of it that tensions within their limits hold, the largest on the path; `None` where
-/// the dead load alone is not held, and where the tensions are no matter of choice.
+/// Inertia over the largest multiple of it that tensions within their limits hold, the largest on the path; `None`
+/// where the dead load alone is not held, and where the tensions are no matter of choice.
 pub(super) fn part_of_inertia(planned: &Planned, motions: &[InMotion]) -> Option<f64> {
     if !planned.judged.inertia {
         return None;

@@ -139,8 +139,8 @@ impl Conditions {
         Ok(())
     }
 
-    /// Distance of a pose from the limits: the least of all, each over its value if that is not zero. Negative if one is
-    /// not kept, `None` if a quantity has no value there.
+    /// Distance of a pose from the limits: the least of all, each over its value if that is not zero. Negative if one
+    /// is not kept, `None` if a quantity has no value there.
     pub(super) fn margin(&self, robot: &Robot, pose: &Pose, options: &Options) -> Option<f64> {
         match (&self.limits[..], &self.rows[..]) {
             ([], _) => tension_margin(robot, pose, options),
@@ -167,8 +167,8 @@ fn tension_margin(robot: &Robot, pose: &Pose, options: &Options) -> Option<f64> 
     capacity.margin().filter(|margin| margin.is_finite()).or(verdict)
 }
 
-/// Distance of the load factor from its limit. Bounds that lie on one side of the limit decide, and the upper one stands
-/// for the value, to which it is nearer; only between them the factor itself is computed.
+/// Distance of the load factor from its limit. Bounds that lie on one side of the limit decide, and the upper one
+/// stands for the value, to which it is nearer; only between them the factor itself is computed.
 fn load_margin(limit: &Limit, robot: &Robot, pose: &Pose, options: &Options) -> Option<f64> {
     let model = options.static_model;
     let mut bounds = statics::load_factor_bounds(robot, pose, model).ok()?;

@@ -1,5 +1,5 @@
-//! How far the platform may go from where it is, along rays: without the whole set, so that a page shows it while the
-//! platform moves.
+//! Distances that the platform may go from where it is, along rays: without the whole set, so that a page shows it
+//! while the platform moves.
 
 use super::conditions::ConditionRow;
 use super::places::{self, PlaneOfMotion};
@@ -11,8 +11,8 @@ use funicular::math::Vec3;
 use funicular::robot::{Pose, Robot};
 use std::f64::consts::TAU;
 
-/// Highest level of rays: 258 in space, 64 in a plane. The next lower one leaves up to 34° between neighbours, too much for the
-/// corners of a workspace; with 1026 rays a large robot takes seconds.
+/// Highest level of rays: 258 in space, 64 in a plane. The next lower one leaves up to 34° between neighbours, too much
+/// for the corners of a workspace; with 1026 rays a large robot takes seconds.
 const MAX_LEVEL: usize = 3;
 
 /// Number of rays of level 0 in a plane; each further level doubles it.
@@ -66,8 +66,8 @@ impl WorkspaceReach {
         &self.judged.conditions.rows
     }
 
-    /// Ends of the rays of a level that no lower level has, from a pose at its orientation. Empty if the conditions are not
-    /// kept at the pose, `None` if it is beyond the box.
+    /// Ends of the rays of a level that no lower level has, from a pose at its orientation. Empty if the conditions are
+    /// not kept at the pose, `None` if it is beyond the box.
     pub fn from(&self, pose: &Pose, level: usize) -> Option<Vec<ReachedPoint>> {
         let center = self.plane.map_or(pose.position_w, |plane| plane.project(pose.position_w));
         let directions = self.of_level(level);
@@ -85,8 +85,8 @@ impl WorkspaceReach {
         Some(directions.iter().zip(&ends).map(point).collect())
     }
 
-    /// Triangles between the ends of all rays up to a level, in the order of the levels: the hull of the reach. In a plane they
-    /// go out from the pose, whose number is that of the rays.
+    /// Triangles between the ends of all rays up to a level, in the order of the levels: the hull of the reach. In a
+    /// plane they go out from the pose, whose number is that of the rays.
     pub fn triangles(&self, level: usize) -> Vec<[usize; 3]> {
         let level = level.min(MAX_LEVEL);
         if self.plane.is_none() {

@@ -204,7 +204,7 @@ impl ComparedSets {
     }
 }
 
-/// What was searched for, apart from what was found.
+/// Conditions and grid of a search, apart from the found set.
 pub(super) struct WantedSet<'a> {
     pub(super) robot: &'a str,
     pub(super) anchors: Vec<Vec3>,
@@ -298,7 +298,8 @@ impl Workspace {
         self.volumes.get(1).filter(|row| row.rays.is_none())
     }
 
-    /// Largest expected error of the volume over the volume, or of the area of a planar platform; `None` without a volume.
+    /// Largest expected error of the volume over the volume, or of the area of a planar platform; `None` without a
+    /// volume.
     pub fn relative_error(&self) -> Option<f64> {
         let fine = self.volume();
         fine.volume_error_m3.map(|error| error / fine.volume_m3).filter(|error| error.is_finite())

@@ -17,9 +17,9 @@ use std::collections::{HashMap, HashSet};
 /// Set whose positions are evaluated.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum SearchedSet {
-    /// That of the robot.
+    /// Set of the robot.
     Own,
-    /// That of the robot with which it is compared.
+    /// Set of the robot with which it is compared.
     Other,
     /// Positions of both.
     Common,
@@ -74,8 +74,8 @@ impl WorkspaceStudy {
         let sections = places::sections(&request.section, &grid, plane)?;
         let rays = request.rays.map(places::sphere).transpose()?;
         let rays = rays.map(|sphere| (sphere, request.center_m.map(Vec3::from)));
-        // A vertex that is interpolated to this is mostly a hundred times nearer, and the chords between vertices miss a
-        // curved surface by more.
+        // A vertex that is interpolated to this is mostly a hundred times nearer, and the chords between vertices miss
+        // a curved surface by more.
         let step = grid.step();
         let in_space = (0..3).filter(|k| plane.is_none_or(|plane| plane.axis != *k)).map(|k| step[k]);
         let tolerance = request.vertex_tolerance_m.unwrap_or(0.01 * in_space.fold(f64::INFINITY, f64::min));
@@ -139,7 +139,8 @@ impl WorkspaceStudy {
         Ok(Some(found))
     }
 
-    /// Set of the other robot, and what both sets share; absent without another robot, or if the work was stopped there.
+    /// Set of the other robot, and what both sets share; absent without another robot, or if the work was stopped
+    /// there.
     fn compared(&self, surface: &BoundaryMesh, evaluate: &mut EvaluateSet<'_>) -> Option<ComparedSets> {
         let other = self.other.as_ref()?;
         let mut volume = |which: SearchedSet| {

@@ -258,8 +258,8 @@ impl CatenaryDynamicEnd {
         Some(through + self.drum_tension_of_ends([paid_out, 0.0, 0.0], omega))
     }
 
-    /// Force on the commanded length per length, the platform end held, at ω [rad/s]; `None` for a motor that turns, whose
-    /// command is no length.
+    /// Force on the commanded length per length, the platform end held, at ω [rad/s]; `None` for a motor that turns,
+    /// whose command is no length.
     pub(crate) fn own_stiffness_of_length(&self, omega: Complex) -> Option<Complex> {
         if self.chain().is_some_and(|chain| chain.drum.is_some() || chain.motor.is_some()) {
             return None;

@@ -10,8 +10,8 @@ use crate::dynamics::Dynamics;
 use crate::math::Complex;
 use std::f64::consts::TAU;
 
-/// Distance of a prediction from a zero, over that from the next one, up to which the zero is meant; and the ratio of two
-/// steps of Newton's method up to which a step is short enough: it is this ratio of distances, too.
+/// Distance of a prediction from a zero, over that from the next one, up to which the zero is meant; and the ratio of
+/// two steps of Newton's method up to which a step is short enough: it is this ratio of distances, too.
 const CLEAR: f64 = 0.1;
 
 /// Minimum step of the part of the damping by which a mode is followed. Pairs of modes that come nearer than a
@@ -28,7 +28,7 @@ const MAX_STEPS: usize = 16;
 const SAME_ZERO: f64 = 1e-7;
 
 /// Robot whose modes are followed.
-pub(super) struct Followed<'a> {
+pub(super) struct FollowedMode<'a> {
     pub(super) dynamics: &'a Dynamics,
     /// Frequency up to which the clamped modes of the cables are divided out [rad/s].
     pub(super) poles_below: f64,
@@ -44,18 +44,18 @@ pub(super) struct Pairs {
 }
 
 /// Place at which there are as many zeros as are free.
-struct Place {
+struct ModePlace {
     zero: DampedMode,
     free: usize,
 }
 
-impl Followed<'_> {
+impl FollowedMode<'_> {
     /// Pairs of modes with the zeros of a search, which come in the order of the modes, and then others. `is_known`
     /// tells for each mode whether its zero is known without a search.
     pub(super) fn paired(&self, modes: &[Mode], zeros: &[DampedMode], is_known: impl Fn(usize) -> bool) -> Pairs {
         let mut places = places_of(zeros);
         let mut found: Vec<Option<DampedMode>> = vec![None; modes.len()];
-        let mut take = |places: &mut [Place], k: usize, at: usize| -> bool {
+        let mut take = |places: &mut [ModePlace], k: usize, at: usize| -> bool {
             let is_free = places[at].free > 0;
             if is_free {
                 places[at].free -= 1;
@@ -94,8 +94,8 @@ impl Followed<'_> {
                 if found[k].is_some() {
                     continue;
                 }
-                let is_free = |place: &&mut Place| place.free > 0;
-                let distance = |place: &Place| (place.zero.omega - zeros[k].omega).norm();
+                let is_free = |place: &&mut ModePlace| place.free > 0;
+                let distance = |place: &ModePlace| (place.zero.omega - zeros[k].omega).norm();
                 let left = places.iter_mut().filter(is_free).min_by(|a, b| distance(a).total_cmp(&distance(b)));
                 let Some(place) = left else { continue };
                 if !own || distance(place) <= ONE_ZERO * zeros[k].omega.norm() {
@@ -133,9 +133,9 @@ impl Followed<'_> {
         }
     }
 
-    /// Zero with a part of the damping beside a prediction, with its relative error; `None` if the prediction is not much
-    /// nearer to it than to any other. Beside a zero at the distance e, with another one at the distance g, the step that
-    /// follows Newton's step e is e²/g.
+    /// Zero with a part of the damping beside a prediction, with its relative error; `None` if the prediction is not
+    /// much nearer to it than to any other. Beside a zero at the distance e, with another one at the distance g, the
+    /// step that follows Newton's step e is e²/g.
     fn zero_beside(&self, prediction: Complex, part: f64) -> Option<(Complex, f64)> {
         let near_enough = if part < 1.0 { ON_THE_WAY } else { CONVERGED };
         let (mut omega, mut before) = (prediction, f64::INFINITY);
@@ -161,31 +161,31 @@ impl Followed<'_> {
 }
 
 /// Distinct places of zeros.
-fn places_of(zeros: &[DampedMode]) -> Vec<Place> {
-    let mut places: Vec<Place> = Vec::with_capacity(zeros.len());
+fn places_of(zeros: &[DampedMode]) -> Vec<ModePlace> {
+    let mut places: Vec<ModePlace> = Vec::with_capacity(zeros.len());
     for zero in zeros {
-        let is_here = |place: &&mut Place| (place.zero.omega - zero.omega).norm() <= ONE_ZERO * zero.omega.norm();
+        let is_here = |place: &&mut ModePlace| (place.zero.omega - zero.omega).norm() <= ONE_ZERO * zero.omega.norm();
         match places.iter_mut().rev().find(is_here) {
             Some(place) => place.free += 1,
-            None => places.push(Place { zero: *zero, free: 1 }),
+            None => places.push(ModePlace { zero: *zero, free: 1 }),
         }
     }
     places
 }
 
 /// Nearest place, by its index, and its distance.
-fn nearest(places: &[Place], omega: Complex) -> (Option<usize>, f64) {
+fn nearest(places: &[ModePlace], omega: Complex) -> (Option<usize>, f64) {
     let [(at, distance), _] = two_nearest(places, omega);
     (at, distance)
 }
 
 /// Place that is nearest by far.
-fn clearly_nearest(places: &[Place], omega: Complex) -> Option<usize> {
+fn clearly_nearest(places: &[ModePlace], omega: Complex) -> Option<usize> {
     let [(at, distance), (_, next)] = two_nearest(places, omega);
     at.filter(|_| distance <= CLEAR * next)
 }
 
-fn two_nearest(places: &[Place], omega: Complex) -> [(Option<usize>, f64); 2] {
+fn two_nearest(places: &[ModePlace], omega: Complex) -> [(Option<usize>, f64); 2] {
     let mut best = [(None, f64::INFINITY); 2];
     for (at, place) in places.iter().enumerate() {
         let distance = (place.zero.omega - omega).norm();

@@ -263,7 +263,7 @@ pub(super) fn check_places(reader: &mut Reader, root: &Section, robot: &Robot, s
     }
 }
 
-/// What an obstacle must not contain and does, in words.
+/// Part of the robot that an obstacle must not contain and does, in words.
 fn inside(obstacle: &Body, robot: &Robot) -> Option<String> {
     // Anchors may lie in the surface of what carries them.
     let is_inside = |cable: &&Cable| obstacle.depth_inside(&cable.anchor.point_w) > robot.clearance_from_end();

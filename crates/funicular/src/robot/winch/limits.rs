@@ -50,7 +50,7 @@ impl LimitOfWinch {
     }
 }
 
-/// What the motor of a winch does at one moment.
+/// State of the motor of a winch at one moment.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MotorLoad {
     /// Speed of the motor [rad/s], positive while it winds cable in; `None` without a radius of the drum.

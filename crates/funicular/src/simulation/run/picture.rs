@@ -1,4 +1,4 @@
-//! What a picture of a simulation needs beyond a sample: the curves of the ropes, and the platform that is left.
+//! Parts of a picture of a simulation beyond a sample: the curves of the ropes, and the platform that is left.
 
 use super::{Simulation, SlackCable};
 use crate::math::Vec3;
@@ -11,8 +11,8 @@ impl SlackCable {
 }
 
 impl Simulation {
-    /// Nodes of every rope [m] from the platform to the anchor, in file order, at a time of the last step or at its end.
-    /// A cut rope without mass has none.
+    /// Nodes of every rope [m] from the platform to the anchor, in file order, at a time of the last step or at its
+    /// end. A cut rope without mass has none.
     ///
     /// # Example
     /// ```

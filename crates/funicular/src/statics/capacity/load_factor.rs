@@ -22,8 +22,9 @@ use crate::statics::wrench_set::{
 /// bound itself is exact to about 1e-9.
 const OPEN_GAP: f64 = 1e-7;
 
-/// Gaps over the multiple above which the search begins again more often, and the number of starts up to each. The bends
-/// of heavy ropes leave gaps of up to 1 % where there is no higher optimum; one that was higher by 1.2e-4 has been met.
+/// Gaps over the multiple above which the search begins again more often, and the number of starts up to each. The
+/// bends of heavy ropes leave gaps of up to 1 % where there is no higher optimum; one that was higher by 1.2e-4 has
+/// been met.
 const GAPS: [(f64, usize); 3] = [(OPEN_GAP, 1), (1e-5, 5), (0.02, 12)];
 
 /// Maximum number of directions tried for a set without vertices. Each step to the worst load of the last direction
@@ -33,8 +34,8 @@ const MAX_DIRECTIONS: usize = 30;
 /// Change of the worst load, over its size, at which the search for a set without vertices ends.
 const SAME_LOAD: f64 = 1e-9;
 
-/// First step of a search along a load beyond the sag of (37), over the multiple, and the number of steps: 30 doublings,
-/// and as many halvings.
+/// First step of a search along a load beyond the sag of (37), over the multiple, and the number of steps: 30
+/// doublings, and as many halvings.
 const FIRST_STEP: f64 = 1e-3;
 const MAX_STEPS: usize = 90;
 
@@ -147,8 +148,8 @@ impl LoadCapacity<'_> {
         Ok(WorstPlane { multiple: held.multiple, along: if along > 0.0 { along } else { load.norm() } })
     }
 
-    /// Value of [`Self::load_factor`] alone, in less time: straight cables have it from the facets, and bounds of the bends
-    /// of sagging ones are enough to choose the loads.
+    /// Value of [`Self::load_factor`] alone, in less time: straight cables have it from the facets, and bounds of the
+    /// bends of sagging ones are enough to choose the loads.
     ///
     /// # Errors
     /// As [`Self::load_factor`].
@@ -167,8 +168,8 @@ impl LoadCapacity<'_> {
         }
     }
 
-    /// Smallest ratio of the reach of the cables to that of the required loads over all facets; `None` without facets, or
-    /// with exit points that move with the tensions.
+    /// Smallest ratio of the reach of the cables to that of the required loads over all facets; `None` without facets,
+    /// or with exit points that move with the tensions.
     pub(super) fn smallest(&self, available: &AvailableWrenches, reach: impl Fn(&Facet) -> f64) -> Option<f64> {
         if exit_points::depend_on_tensions(self.robot(), self.model) {
             return None;
@@ -302,8 +303,9 @@ impl LoadCapacity<'_> {
         Ok(best)
     }
 
-    /// The same multiple without the limit (37) of the sag, which as many cables as degrees of freedom do not have: their
-    /// tensions are those of the equilibrium, however slack. It follows the equilibrium as the load grows.
+    /// Largest multiple of the load without the limit (37) of the sag, which as many cables as degrees of freedom do
+    /// not have: their tensions are those of the equilibrium, however slack. It follows the equilibrium as the load
+    /// grows.
     fn with_slacker_cables(&self, load: &Vec6, best: HeldMultiple) -> HeldMultiple {
         let robot = self.robot();
         let held = |multiple: f64| {
@@ -426,10 +428,11 @@ fn smallest_ratio(facets: &[Facet], loads: &RequiredSet, reach: impl Fn(&Facet) 
     facets.iter().map(ratio).reduce(f64::min).map(|smallest| smallest.max(0.0))
 }
 
-/// Bounds of the load factor at a pose from the facets alone, without an equilibrium: it takes a fraction of the time of
+/// Bounds of the load factor at a pose from the facets alone, without an equilibrium: it takes a fraction of the time
+/// of
 /// [`LoadCapacity::load_factor_value`]. Up to the lower one all required loads are held, and the dead load with them if
-/// it is positive; beyond the upper one, no tensions within the limits hold them. `None` if nothing is required, without
-/// facets, with exit points that move with the tensions, or with required wind on the cables.
+/// it is positive; beyond the upper one, no tensions within the limits hold them. `None` if nothing is required,
+/// without facets, with exit points that move with the tensions, or with required wind on the cables.
 ///
 /// # Errors
 /// As [`LoadCapacity::at`].

@@ -29,10 +29,11 @@ const SAME_MULTIPLE: f64 = 1e-11;
 /// Maximum number of pressures tried for one direction, a guard: 3 to 5 are usual.
 const MAX_PRESSURES: usize = 60;
 
-/// Bounds of the load factor at a pose with required wind on the cables, as [`load_factor_bounds`](super::load_factor_bounds)
-/// for calm ropes: with their drag in a wind of `multiple` of the required pressure, they are on that side of the multiple
-/// on which the load factor is. They take a hundredth of the time of the load factor. `None` without wind on the cables,
-/// with exit points that move with the tensions, and without facets.
+/// Bounds of the load factor at a pose with required wind on the cables, as
+/// [`load_factor_bounds`](super::load_factor_bounds) for calm ropes: with their drag in a wind of `multiple` of the
+/// required pressure, they are on that side of the multiple on which the load factor is. They take a hundredth of the
+/// time of the load factor. `None` without wind on the cables, with exit points that move with the tensions, and
+/// without facets.
 ///
 /// # Errors
 /// As [`LoadCapacity::at`]; a dead load that is not held.
@@ -68,8 +69,8 @@ impl<'a> LoadCapacity<'a> {
         self.in_worst_wind(margin, |margin| *margin).ok().filter(|margin| !margin.is_nan())
     }
 
-    /// Bounds of the load factor from the facets, with the drag of the ropes in a wind of a multiple of the pressure: they
-    /// are on that side of the multiple on which the load factor is.
+    /// Bounds of the load factor from the facets, with the drag of the ropes in a wind of a multiple of the pressure:
+    /// they are on that side of the multiple on which the load factor is.
     fn bounds_in_wind(&self, multiple: f64) -> Result<[f64; 2], StaticsError> {
         self.rest.as_ref().map_err(Clone::clone)?;
         let least = Cell::new(f64::INFINITY);

@@ -129,7 +129,7 @@ fn on_rigid_supports(
     model: StaticModel,
     last: Option<&TensionCentre>,
 ) -> Result<TensionCentre, StaticsError> {
-    let mut search = Search::new(robot, pose, model)?;
+    let mut search = CentreSearch::new(robot, pose, model)?;
     let has_room = search.cables.iter().all(|cable| cable.lower < cable.upper);
     let mut found = false;
     if has_room {
@@ -162,7 +162,7 @@ fn on_rigid_supports(
 }
 
 /// Cable with its limits.
-struct Cable<'a> {
+struct CentreCable<'a> {
     curve: TensionCurve<'a>,
     /// Lever arm over ℓ.
     lever_w: Vec3,
@@ -171,7 +171,7 @@ struct Cable<'a> {
     upper: f64,
 }
 
-impl Cable<'_> {
+impl CentreCable<'_> {
     /// Distances of τ from both limits.
     fn room(&self) -> [f64; 2] {
         [self.curve.tau() - self.lower, self.upper - self.curve.tau()]
@@ -189,12 +189,12 @@ fn barrier([below, above]: [f64; 2]) -> [f64; 2] {
 }
 
 /// Search for the centre.
-struct Search<'a> {
+struct CentreSearch<'a> {
     robot: &'a Robot,
     pose: &'a Pose,
     model: StaticModel,
     coordinates: Coordinates,
-    cables: Vec<Cable<'a>>,
+    cables: Vec<CentreCable<'a>>,
     /// Wrench of weight and load, reduced.
     load: Vec6,
     /// Reference size of the tensions [N].
@@ -204,12 +204,12 @@ struct Search<'a> {
 }
 
 /// Newton's step: changes of the tensions and of the multipliers.
-struct Step {
+struct CentreStep {
     tau: Vec<f64>,
     multipliers: Vec6,
 }
 
-impl<'a> Search<'a> {
+impl<'a> CentreSearch<'a> {
     fn new(robot: &'a Robot, pose: &'a Pose, model: StaticModel) -> Result<Self, StaticsError> {
         let coordinates = Coordinates::of(robot);
         let cables = (0..robot.cables.len())
@@ -217,7 +217,7 @@ impl<'a> Search<'a> {
                 let curve = TensionCurve::new(robot, i, pose, model)?;
                 let [lower, upper] = curve.limits().map(|limit| limit.curve.tau());
                 let lever_w = (curve.span.start_w - pose.position_w) / coordinates.ell();
-                Ok(Cable { curve, lever_w, lower, upper })
+                Ok(CentreCable { curve, lever_w, lower, upper })
             })
             .collect::<Result<Vec<_>, StaticsError>>()?;
         let load = coordinates.reduce(&load_wrench(robot, pose));
@@ -238,7 +238,7 @@ impl<'a> Search<'a> {
     }
 
     /// Reduced wrench of a force at a cable.
-    fn wrench(&self, cable: &Cable<'_>, force_w: &Vec3) -> Vec6 {
+    fn wrench(&self, cable: &CentreCable<'_>, force_w: &Vec3) -> Vec6 {
         self.coordinates.motion().reduced(&wrench_of(force_w, &cable.lever_w))
     }
 
@@ -288,7 +288,7 @@ impl<'a> Search<'a> {
     }
 
     /// Newton's step (40b6). `follows` lets the exit points follow in the derivatives.
-    fn step(&self, follows: bool) -> Result<Step, StaticsError> {
+    fn step(&self, follows: bool) -> Result<CentreStep, StaticsError> {
         let y = &self.multipliers;
         let (mut balance, mut matrix, mut right) = (self.load, Mat6::zeros(), Vec6::zeros());
         let mut rows = Vec::with_capacity(self.cables.len());
@@ -307,7 +307,7 @@ impl<'a> Search<'a> {
 
         let multipliers = self.solved(&matrix, &(right - balance), &rows)?;
         let tau = rows.iter().map(|(column, weight, residual)| weight * (column.dot(&multipliers) - residual));
-        Ok(Step { tau: tau.collect(), multipliers })
+        Ok(CentreStep { tau: tau.collect(), multipliers })
     }
 
     /// Solution of `S Δy = right`. If the cables do not span the degrees of freedom, that in the wrenches which they
@@ -346,7 +346,7 @@ impl<'a> Search<'a> {
     }
 
     /// True if the Lagrangian is convex in the tension of a cable at [`PLACES`] places between its limits, (40b4).
-    fn is_convex(&self, cable: &Cable<'_>) -> bool {
+    fn is_convex(&self, cable: &CentreCable<'_>) -> bool {
         let ratio = cable.upper / cable.lower;
         (0..PLACES).all(|place| {
             let tau = cable.lower * ratio.powf((place as f64 + 0.5) / PLACES as f64);

@@ -55,7 +55,7 @@ fn definitions_of_types_are_found_in_sources() {
 }
 
 /// Folders of all crates of the workspace.
-fn crates() -> Vec<PathBuf> {
+pub(super) fn crates() -> Vec<PathBuf> {
     let entries = fs::read_dir(root().join("..")).unwrap().map(|entry| entry.unwrap().path());
     let mut folders: Vec<PathBuf> = entries.filter(|path| path.join("Cargo.toml").exists()).collect();
     folders.push(root().join("../../robots"));

@@ -44,8 +44,8 @@ fn radii_of_pulleys_are_found_from_exact_lengths() {
     }
     let of = Calibration::new(start, all, rows, deviations(1e-3), StaticModel::Ideal).unwrap();
     let (fit, frame, precision) = fitted(&of);
-    // Axes of the pulleys stand in the world: the frame keeps its shifts and its turn about them. A derivative that is 1 %
-    // off would not arrive at the truth of exact readings quadratically.
+    // Axes of the pulleys stand in the world: the frame keeps its shifts and its turn about them. A derivative that is
+    // 1 % off would not arrive at the truth of exact readings quadratically.
     assert_eq!(frame.motion_count(), 4);
     assert!(fit.converged && fit.chi2 < 1e-9, "{}", fit.chi2);
     let radii = &fit.values[24..];

@@ -1,8 +1,8 @@
-//! Numbers to compare with. `PLANE_*` and `RIGID_*` are synthetic sets of a separate program (NumPy): each was fitted with
-//! eliminated poses and again with all poses as unknowns, and its deviations agree with those of a dense inverse and with
-//! 200 noise draws. `MACHINE_*` are belt lengths that a Maslow 4 machine measured during its anchor calibration
-//! (github.com/MaslowCNC/Maslow_4, docs/calibration-simulation/data-parser.html at 07a4d73, numbers only); their fit is
-//! that of the separate program.
+//! Numbers to compare with. `PLANE_*` and `RIGID_*` are synthetic sets of a separate program (NumPy): each was fitted
+//! with eliminated poses and again with all poses as unknowns, and its deviations agree with those of a dense inverse
+//! and with 200 noise draws. `MACHINE_*` are belt lengths that a Maslow 4 machine measured during its anchor
+//! calibration (github.com/MaslowCNC/Maslow_4, docs/calibration-simulation/data-parser.html at 07a4d73, numbers only);
+//! their fit is that of the separate program.
 
 /// Belt lengths of the machine, belts bl, br, tr, tl [mm].
 pub(super) const MACHINE_LENGTHS_MM: [[f64; 4]; 6] = [
@@ -133,7 +133,7 @@ pub(super) const RIGID_READINGS: [[f64; 8]; 32] = [
     [3.92357, 4.58707, 4.51601, 3.90726, 3.41292, 3.93231, 4.10658, 3.56472],
 ];
 
-/// Its attachments [m].
+/// Attachments of the rigid robot [m].
 pub(super) const RIGID_ATTACHMENTS: [[f64; 3]; 8] = [
     [-0.1904, -0.4198, 0.2],
     [0.444, -0.124, 0.22],
@@ -145,7 +145,7 @@ pub(super) const RIGID_ATTACHMENTS: [[f64; 3]; 8] = [
     [-0.3775, 0.0998, -0.2],
 ];
 
-/// Its starting anchors [m].
+/// Starting anchors of the rigid robot [m].
 pub(super) const RIGID_START: [[f64; 3]; 8] = [
     [0.0, 0.0, 0.0],
     [6.0, 0.0, 0.0],
@@ -332,7 +332,7 @@ pub(super) const SAG_TENSIONS: [[f64; 4]; 24] = [
     [188.97, 38.23, 137.5, 103.69],
 ];
 
-/// Its starting anchors [m]; axial stiffness 130 kN, rope 1.18 N/m, weight 196.2 N.
+/// Starting anchors with sagging cables [m]; axial stiffness 130 kN, rope 1.18 N/m, weight 196.2 N.
 pub(super) const SAG_START: [[f64; 3]; 4] = [[0.0, 0.0, 0.0], [8.0, 0.0, 0.4], [8.0, 6.0, 0.0], [0.0, 6.0, 0.4]];
 
 /// Values: x and z of anchor 2, anchors 3 and 4, four offsets [m], logarithm of the axial stiffness in newtons.

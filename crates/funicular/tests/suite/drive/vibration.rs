@@ -62,8 +62,8 @@ fn guides(wheels: &[(f64, f64)]) -> String {
 }
 
 /// Impedance at the exit point along the cable and sideways [N/m], from the series of theory (68), (75) and (76): from
-/// the drum towards the exit point, each piece of the drum side and each guide wheel in turn. The axial stiffness of the
-/// rope has the factor `h`.
+/// the drum towards the exit point, each piece of the drum side and each guide wheel in turn. The axial stiffness of
+/// the rope has the factor `h`.
 fn impedances(
     rest: &Equilibrium,
     wheels: &[(f64, f64)],

@@ -342,8 +342,8 @@ fn a_course_is_a_ramp_with_one_box_and_has_the_way_of_its_mean_time() {
     assert!((smooth.duration() - 1.6).abs() < 1e-15 && smooth.remaining(1.6) == 0.0 && smooth.done(-1.0) == 0.0);
 }
 
-/// What the modes above a limit add to a stop stays within the bounds of a list that ends there, from the mass of slow
-/// displacements that the listed modes leave: with a higher limit the bounds fall.
+/// The part of the modes above a limit in a stop stays within the bounds of a list that ends there, from the mass of
+/// slow displacements that the listed modes leave: with a higher limit the bounds fall.
 #[test]
 fn modes_above_the_limit_stay_within_their_bounds() {
     let mut robot = Robot::from_toml(funicular_robots::COGIRO).unwrap();

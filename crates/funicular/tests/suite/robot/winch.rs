@@ -56,8 +56,8 @@ fn torque_speed_and_power_of_the_motor_are_those_of_hand_calculations() {
 }
 
 proptest! {
-    /// What the motor gives is what the cable takes, the change of the kinetic energies, and losses, which are never
-    /// negative; without damping and at an efficiency of one there are none.
+    /// Power balance: the motor gives what the cable takes, the change of the kinetic energies, and losses, which are
+    /// never negative; without damping and at an efficiency of one there are none.
     #[test]
     fn the_power_of_the_motor_is_that_of_cable_masses_and_losses(
         tension in 0.0..1e4_f64, speed in -10.0..10.0_f64, acceleration in -50.0..50.0_f64,

@@ -193,8 +193,8 @@ fn drives_at_rest_are_those_of_statics() {
             let scale = state.tension_platform;
             assert!((cable.tension_platform - scale).abs() < 1e-6 * scale, "{name}");
             assert!((cable.tension_anchor - state.tension_anchor).abs() < 1e-6 * scale, "{name}");
-            // A servo without integral action has paid out what it yields, and a motor with constant torque pulls a drum that is
-            // behind its shaft.
+            // A servo without integral action has paid out what it yields, and a motor with constant torque pulls a
+            // drum that is behind its shaft.
             let yielded = state.drive.as_ref().filter(|_| YIELDING.contains(&name.as_str()));
             let paid_out = yielded.map_or(0.0, |drive| {
                 drive.winch_yield / (1.0 + drive.tension_drum / robot.cables[0].material.axial_stiffness)
@@ -208,8 +208,9 @@ fn drives_at_rest_are_those_of_statics() {
     }
 }
 
-/// Robots that are rung, one of each kind of drive: with the size of the push, the number of cycles and the tolerance. The
-/// robot on supports is eight times as heavy and stiff: a push as small as that of the others would drown in rounding.
+/// Robots that are rung, one of each kind of drive: with the size of the push, the number of cycles and the tolerance.
+/// The robot on supports is eight times as heavy and stiff: a push as small as that of the others would drown in
+/// rounding.
 const RINGING: [(&str, f64, f64, f64); 6] = [
     ("pulley", 1.0, 60.0, 1e-12),
     ("inclined pulley with a drum side", 1.0, 60.0, 1e-12),

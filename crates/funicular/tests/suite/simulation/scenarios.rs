@@ -1,7 +1,7 @@
 //! Random scenarios on random robots: every number is finite, the work is bounded, and no energy comes from nowhere.
 //!
-//! The variable `FUNICULAR_RANDOM_SCENARIOS=1000`, or a range of numbers such as `137..138`, selects other scenarios than
-//! the first few.
+//! The variable `FUNICULAR_RANDOM_SCENARIOS=1000`, or a range of numbers such as `137..138`, selects other scenarios
+//! than the first few.
 
 use crate::random::Draw;
 use crate::random::campaign::{asked, robots};
@@ -17,18 +17,18 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 
 /// Scenarios if the variable is not set: some with each event, …
 const FEW: std::ops::Range<u64> = 0..12;
-/// … and some that faults were found in: strongly damped ropes that fold, or go slack and taut at many points, a command that
-/// begins with an acceleration, and one of ropes without mass on a platform that does not move.
+/// … and some that faults were found in: strongly damped ropes that fold, or go slack and taut at many points, a
+/// command that begins with an acceleration, and one of ropes without mass on a platform that does not move.
 const ONCE_WRONG: [u64; 4] = [378, 416, 753, 939];
 /// Samples of a run.
 const SAMPLES: u32 = 60;
 /// Largest number of steps of a run; the first thousand scenarios need up to 200,000.
 const MAX_STEPS: usize = 300_000;
-/// Largest energy that the books cannot explain, over the energies that changed hands: that of steps with a tolerance as
-/// coarse as here; without the power of the mesh in the books it was up to 0.7.
+/// Largest energy that the books cannot explain, over the energies that changed hands: that of steps with a tolerance
+/// as coarse as here; without the power of the mesh in the books it was up to 0.7.
 const MAX_DEFECT: f64 = 0.02;
 
-/// What the scenarios did.
+/// Results of the scenarios.
 #[derive(Default)]
 struct ScenarioTally {
     refused: BTreeMap<String, Vec<u64>>,

@@ -1,5 +1,5 @@
-//! Small motion in time is the linear answer of the program: modes, responses to lengths, stops, held cables; and without
-//! an event the robot stays at its equilibrium.
+//! Small motion in time is the linear answer of the program: modes, responses to lengths, stops, held cables; and
+//! without an event the robot stays at its equilibrium.
 
 use crate::library::{at_rest, independent_robot};
 use funicular::cable::catenary_dynamic::DriveSignal;
@@ -110,7 +110,8 @@ fn fitted(times: &[f64], values: &[f64], lambdas: &[Complex]) -> Vec<(Complex, C
 }
 
 /// Largest relative difference of the frequencies of a history from those of the given λ, among those with at least
-/// `least` of the largest amplitude and below a limit that no neighbour blurs; and how many these are. `histories` are columns of values.
+/// `least` of the largest amplitude and below a limit that no neighbour blurs; and how many these are. `histories` are
+/// columns of values.
 fn off(times: &[f64], histories: &[Vec<f64>], lambdas: &[Complex], [least, below_hz]: [f64; 2]) -> (f64, usize) {
     let fits: Vec<_> = histories.iter().map(|values| fitted(times, values, lambdas)).collect();
     let power = |k: usize| fits.iter().map(|fit| fit[k].0.norm_sqr()).sum::<f64>();
@@ -141,7 +142,7 @@ fn push(duration: f64, force_w: Vec3, moment_w: Vec3) -> SimulationEvent {
     SimulationEvent::Push { time: 0.0, duration, rise: 0.5 * duration, force_w, moment_w, point_p: Vec3::zeros() }
 }
 
-/// How a robot is rung: for how many cycles of its first mode, with which tolerance [m], by how much the frequencies may
+/// Ringing of a robot: for how many cycles of its first mode, with which tolerance [m], by how much the frequencies may
 /// be off, and how many modes it must show with which part of the largest amplitude.
 pub(super) struct Ring {
     pub(super) cycles: f64,

@@ -150,8 +150,8 @@ fn random_with_six_cables(draw: &mut Draw) -> Robot {
     Robot::from_toml(&text).unwrap()
 }
 
-/// As many cables as degrees of freedom have the tensions of their equilibrium, however deep the cables hang. The binding
-/// load is within the limits just inside the load factor and not just outside, and what is proved is so.
+/// As many cables as degrees of freedom have the tensions of their equilibrium, however deep the cables hang. The
+/// binding load is within the limits just inside the load factor and not just outside, and what is proved is so.
 #[test]
 fn six_sagging_cables_hold_the_binding_load_just_inside_the_load_factor_and_not_just_outside() {
     let mut draw = Draw(61);

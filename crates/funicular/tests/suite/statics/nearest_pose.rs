@@ -185,7 +185,8 @@ proptest! {
     }
 }
 
-/// Far from any pose at which it can hang, a robot in wind gives the answer that it gives without wind, after as many steps.
+/// Far from any pose at which it can hang, a robot in wind gives the answer that it gives without wind, after as many
+/// steps.
 #[test]
 fn a_far_pose_in_wind_is_refused_after_as_many_steps_as_without() {
     let calm = Robot::from_toml(funicular_robots::GRAB_3_CABLES).unwrap();
