@@ -232,7 +232,10 @@ fn around_kink(
         }
     }
     let Some((_, mut from, mut to)) = best else { return Ok(near) };
-    while to.0.time - from.0.time > whole * 0.5_f64.powi(i32::try_from(HALVINGS).unwrap_or(i32::MAX)) {
+    for _ in 0..HALVINGS {
+        if to.0.time - from.0.time <= whole * 0.5_f64.powi(i32::try_from(HALVINGS).unwrap_or(i32::MAX)) {
+            break;
+        }
         let middle = at(0.5 * (from.0.time + to.0.time))?;
         if change(&from, &middle) > change(&middle, &to) { to = middle } else { from = middle }
     }
