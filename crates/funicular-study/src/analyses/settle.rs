@@ -58,8 +58,8 @@ pub struct Settled {
     pub held: Option<Held>,
     /// Maximum distance of the point from its rest in the history.
     pub peak_m: f64,
-    /// Last time at which the point is at the tolerance, since the release or the end of the command; absent if it never
-    /// settles.
+    /// Last time at which the point is at the tolerance, since the release or the end of the command; absent if it
+    /// never settles.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub settled_s: Option<f64>,
     /// Time from which on the sum of all amplitudes is within the tolerance; absent if it never is.
@@ -516,14 +516,14 @@ pub fn after(time: Option<f64>) -> String {
 }
 
 impl Settled {
-    /// Sentence without its end that says when the point has settled, also by the sum of all amplitudes, or why it never
-    /// does.
+    /// Sentence without its end that says when the point has settled, also by the sum of all amplitudes, or why it
+    /// never does.
     pub fn when_settled(&self) -> String {
         let tolerance = significant(1e3 * self.tolerance_m, 4);
         if let Some(of) = &self.never_settles {
             return format!(
-                "Never within {tolerance} mm for good: the point keeps swinging by up to {} mm, because the mode at {} Hz \
-                 has no damping; give the ropes `damping_ratio` and `axial_loss_factor`, or the platform \
+                "Never within {tolerance} mm for good: the point keeps swinging by up to {} mm, because the mode at \
+                 {} Hz has no damping; give the ropes `damping_ratio` and `axial_loss_factor`, or the platform \
                  `translational_damping_n_s_m`",
                 significant(1e3 * of.amplitude_m, 4),
                 decimals(of.frequency_hz, 4)

@@ -19,8 +19,8 @@ const MAX_GAP: f64 = 1e-6;
 /// Relative distance within which poles count on the circle, a part of which is its radius.
 const BESIDE: f64 = 1e-3;
 
-/// Radius of the circle over the frequency, and the number of its points: with a pole beyond [`BESIDE`] the mean is wrong
-/// by `(2 RADIUS/BESIDE)^POINTS`, 4e-9 of its part.
+/// Radius of the circle over the frequency, and the number of its points: with a pole beyond [`BESIDE`] the mean is
+/// wrong by `(2 RADIUS/BESIDE)^POINTS`, 4e-9 of its part.
 const RADIUS: f64 = 1e-4;
 const POINTS: usize = 12;
 
@@ -32,22 +32,17 @@ const MIN_NEW: f64 = 1e-3;
 const MIN_PARTICIPATION: f64 = 1e-20;
 
 /// Product of a free motion with the row of a signal of cable `i` at its complex frequency: platform and supports move,
-/// and what lies between them follows. `None` if the cable has no such signal.
+/// and what lies between them follows. `None` if the cable has no such signal, as the length of a cable without mass.
 pub(super) fn signal_at(dynamics: &Dynamics, free: &PoleMotion, i: usize, signal: DriveSignal) -> Option<Complex> {
+    if signal == DriveSignal::Length && dynamics.is_at_rest(i) {
+        return None;
+    }
     let moved = CableMotion::of(dynamics, free, i)?;
     let near = moved.near_poles(dynamics, free, i);
-    if !near.iter().any(|pole| pole.gap <= MAX_GAP) {
-        return moved.signal(signal, free.omega, &moved.end);
+    if near.iter().any(|pole| pole.gap <= MAX_GAP) {
+        return moved.on_circle(signal, free.omega, near);
     }
-
-    let near = independent(near, moved.form.end_mass());
-    let mut sum = Complex::new(0.0, 0.0);
-    for k in 0..POINTS {
-        let angle = TAU * (k as f64 + 0.5) / POINTS as f64;
-        let omega = free.omega * (1.0 + Complex::from_polar(RADIUS, angle));
-        sum += moved.signal(signal, omega, &moved.end_at(omega, &near))?;
-    }
-    Some(sum / POINTS as f64)
+    moved.signal(signal, free.omega, &moved.end)
 }
 
 /// Motion of the ends of a cable.
@@ -90,6 +85,18 @@ impl<'a> CableMotion<'a> {
             sum += self.form.signal_by_carrier(motion, signal, omega)? * size;
         }
         Some(sum)
+    }
+
+    /// Signal at a frequency near poles, as the mean over a circle.
+    fn on_circle(&self, signal: DriveSignal, center: Complex, near: Vec<Near>) -> Option<Complex> {
+        let near = independent(near, self.form.end_mass());
+        let mut sum = Complex::new(0.0, 0.0);
+        for k in 0..POINTS {
+            let angle = TAU * (k as f64 + 0.5) / POINTS as f64;
+            let omega = center * (1.0 + Complex::from_polar(RADIUS, angle));
+            sum += self.signal(signal, omega, &self.end_at(omega, &near))?;
+        }
+        Some(sum / POINTS as f64)
     }
 
     /// Clamped modes of cable `i` with their amplitudes in a motion, without those that are far from its frequency.
@@ -156,4 +163,46 @@ fn independent(mut poles: Vec<Near>, mass: f64) -> Vec<Near> {
         is_new
     });
     poles
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::dynamics::Linearisation;
+    use crate::modes::decay::pole_motions;
+    use crate::modes::{self, damped};
+    use crate::robot::{Robot, StretchLoss};
+    use crate::statics::{self, StaticModel};
+
+    /// Signals near a pole, but not at it, have enough digits by the row and are those of the circle, without losses of
+    /// the stretch and with them.
+    #[test]
+    fn the_circle_gives_the_signals_of_the_row() {
+        for factor in [0.0, 0.02] {
+            let mut robot = Robot::from_toml(funicular_robots::KNTU_PLANAR).unwrap();
+            robot.cables.iter_mut().for_each(|of| of.material.stretch_loss = StretchLoss { factor, time: 0.0 });
+            let rest = statics::solve(&robot, StaticModel::Catenary, None).unwrap().equilibrium;
+            let dynamics = Dynamics::about(&robot, &rest, Linearisation::default(), 60.0).unwrap();
+            let found = modes::below(&dynamics, 60.0);
+            let damped = damped::damped_modes(&dynamics, &found);
+
+            let mut compared = 0;
+            for free in pole_motions(&dynamics, &found, &damped).unwrap() {
+                for (i, signal) in (0..4).flat_map(|i| [DriveSignal::Length, DriveSignal::Tension].map(|of| (i, of))) {
+                    let moved = CableMotion::of(&dynamics, &free, i).unwrap();
+                    assert!(signal_at(&dynamics, &free, i, signal).unwrap().norm().is_finite());
+                    let near = moved.near_poles(&dynamics, &free, i);
+                    if near.is_empty() || near.iter().any(|pole| pole.gap <= MAX_GAP) {
+                        continue;
+                    }
+                    let row = moved.signal(signal, free.omega, &moved.end).unwrap();
+                    let circle = moved.on_circle(signal, free.omega, near).unwrap();
+                    let size = free.omega.norm_sqr() * free.found.near.iter().map(|of| of.3.norm()).fold(0.0, f64::max);
+                    assert!((row - circle).norm() <= 1e-7 * (row.norm() + size), "{factor} {i}: {row} {circle}");
+                    compared += 1;
+                }
+            }
+            assert!(compared > 20, "{compared}");
+        }
+    }
 }

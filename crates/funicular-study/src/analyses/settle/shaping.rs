@@ -21,8 +21,8 @@ pub struct Shaping {
     pub longer_s: f64,
     /// Sum of all amplitudes at the end, with frequencies as they are and with others.
     pub robustness: Vec<Robustness>,
-    /// Last time at which the point is at the tolerance without the shaper, since the end of the command without it; absent
-    /// if it never settles.
+    /// Last time at which the point is at the tolerance without the shaper, since the end of the command without it;
+    /// absent if it never settles.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub settled_without_s: Option<f64>,
     /// Time from which on the sum of all amplitudes without the shaper is within the tolerance; absent if it never is.
