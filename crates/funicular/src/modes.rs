@@ -14,6 +14,7 @@ mod mac;
 mod omitted;
 mod release;
 mod rigid_cables;
+mod signals;
 mod stretch;
 pub mod tracking;
 

@@ -9,7 +9,7 @@ use anyhow::Result;
 use funicular_files::Guard;
 use funicular_files::endings::Kind;
 use funicular_pages::figures;
-use funicular_study::analyses::settle::{self, Commanded, Held, Settled, SettlingMode, Shaping};
+use funicular_study::analyses::settle::{self, Commanded, Held, Settled, SettlingMode, Shaping, after};
 use funicular_study::request::{NumberColumns, Request, SettleRequest};
 use funicular_study::wording::{Words, worded};
 use serde_json::{Map, Value};
@@ -68,8 +68,9 @@ pub(super) fn run(of: &SettleRequest, args: &SettleArgs, mut guard: Guard) -> Re
 impl Printed for Settled {
     fn text(&self) -> String {
         let table = Table::of(&SettlingMode::columns(&self.modes), self.modes.iter().take(SHOWN));
-        let last = self.modes.iter().max_by(|a, b| a.settled_s.total_cmp(&b.settled_s));
-        let last = last.filter(|mode| mode.settled_s > 0.0).map_or_else(String::new, |mode| {
+        let ends = self.modes.iter().filter_map(|mode| Some((mode, mode.settled_s?)));
+        let last = ends.max_by(|a, b| a.1.total_cmp(&b.1)).filter(|(_, time)| *time > 0.0);
+        let last = last.filter(|_| self.never_settles.is_none()).map_or_else(String::new, |(mode, _)| {
             format!("; the mode at {} Hz lasts longest", decimals(mode.frequency_hz, 4))
         });
         let (what, before) = match (&self.commanded, &self.held) {
@@ -79,13 +80,11 @@ impl Printed for Settled {
         };
         let shaping = self.commanded.as_ref().and_then(|commanded| commanded.shaping.as_ref());
         format!(
-            "{}: decay after {what}, modes below {} Hz\n{}\n\n{before}\n{}; by the sum of all amplitudes after {} \
-             s{last}.\n{}\n{table}\n{} of {} shown.{}\n",
+            "{}: decay after {what}, modes below {} Hz\n{}\n\n{before}\n{}{last}.\n{}\n{table}\n{} of {} shown.{}\n",
             self.robot,
             self.below_hz,
             self.models.line(),
             self.when_settled(),
-            significant(self.surely_settled_s, 4),
             match (&self.held, &self.commanded) {
                 (Some(held), _) => of_omitted(held),
                 (None, Some(commanded)) => {
@@ -153,11 +152,11 @@ fn of_command(of: &Commanded) -> String {
         let _ = write!(
             text,
             "\nWith a payload of {} kg: sum of the amplitudes {} mm{without}, most of it at {} Hz; within the tolerance \
-             for good after {} s.",
+             for good {}.",
             row.payload_kg,
             significant(1e3 * row.amplitude_m, 3),
             decimals(row.frequency_hz, 4),
-            significant(row.settled_s, 4),
+            after(row.settled_s),
         );
     }
     text
@@ -173,14 +172,15 @@ fn of_shaper(of: &Shaping, tolerance: f64) -> String {
         .map(|impulse| format!("{} at {} s", decimals(impulse.part, 4), decimals(impulse.t_s, 4)))
         .collect();
     let mut text = format!(
-        "Shaper {} for {} Hz, {} s longer: {}.\nWithout it: within {} mm for good {} s after an end that is {} s \
+        "Shaper {} for {} Hz, {} s longer: {}.\nWithout it: within {} mm for good {} an end that is {} s \
          earlier.\n",
         of.shaper,
         modes.join(", "),
         significant(of.longer_s, 4),
         impulses.join(", "),
         significant(1e3 * tolerance, 3),
-        significant(of.settled_without_s, 4),
+        of.settled_without_s
+            .map_or_else(|| "never after".to_owned(), |time| format!("{} s after", significant(time, 4))),
         significant(of.longer_s, 4),
     );
     for row in &of.robustness {

@@ -63,12 +63,30 @@ fn wrong_requests_are_refused_with_a_remedy() {
         assert_eq!(output.status.code(), Some(2), "{more:?}: {}", stderr(&output));
         assert!(stderr(&output).contains(expected), "{more:?}: {}", stderr(&output));
     }
+}
 
-    // Nothing damps: valid, but there is no decay.
+/// Nothing damps: the point never settles, unless it moves less than the tolerance.
+#[test]
+fn without_damping_the_answer_is_never() {
     let undamped = yuan().replace("damping_ratio = 0.003", "damping_ratio = 0.0");
-    let output = run_with(&["settle", "-", "--release-n", "0,0,-1", "--below-hz", "3"], &undamped);
-    assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
-    assert!(stderr(&output).contains("does not decay: give the ropes"), "{}", stderr(&output));
+    let line = ["settle", "-", "--release-n", "0,0,-1", "--below-hz", "3", "--tolerance-m"];
+    let found = json_of(&[&line[..], &["1e-5"]].concat(), &undamped);
+    let never = &found["never_settles"];
+    let sum: f64 = found["modes"].as_array().unwrap().iter().map(|mode| number(&mode["amplitude_m"])).sum();
+    assert!(
+        (number(&never["amplitude_m"]) / sum - 1.0).abs() < 1e-9 && number(&never["frequency_hz"]) > 0.3,
+        "{never}"
+    );
+    assert!(found["settled_s"].is_null() && found["surely_settled_s"].is_null());
+    assert!(found["modes"].as_array().unwrap().iter().all(|mode| number(&mode["damping_ratio"]) == 0.0));
+
+    let output = run_with(&[&line[..], &["1e-5"]].concat(), &undamped);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let text = String::from_utf8_lossy(&output.stdout).into_owned();
+    assert!(text.contains("Never within") && text.contains("has no damping; give the ropes"), "{text}");
+
+    let wide = json_of(&[&line[..], &["1"]].concat(), &undamped);
+    assert!(number(&wide["settled_s"]) == 0.0 && wide["never_settles"].is_null(), "{wide}");
 }
 
 /// Short move of the robot of Yuan 2014, whose sag swings for minutes.
@@ -375,22 +393,42 @@ fn a_page_shows_the_decay_and_the_lengths() {
     }
 }
 
-/// Symmetric robots have motions that share a frequency: every robot of the library with damping and every new one has
-/// an answer.
+/// Symmetric robots have motions that share a frequency with each other and with cables that vibrate alone: every robot
+/// of the library and every new one has an answer after a release and after a stop. Lengths of cables without mass
+/// drive nothing, and are refused.
 #[test]
-fn every_robot_with_damping_has_a_decay() {
-    let release = ["settle", "-", "--release-n", "0,0,-1"];
+fn every_robot_has_an_answer() {
+    let [release, stop] = [["--release-n", "0,0,-1"], ["--stop-m-s", "0.01,0,0"]];
+    let answered = |name: &str, text: &str, command: &[&str]| {
+        let found = json_of(&[&["settle", "-"], command].concat(), text);
+        assert_eq!(found["settled_s"].is_null(), !found["never_settles"].is_null(), "{name} {command:?}");
+        if found["never_settles"].is_null() {
+            assert!(number(&found["settled_s"]) <= number(&found["surely_settled_s"]), "{name} {command:?}");
+        }
+        assert!(number(&found["lowest_tension"]["tension_n"]) > 0.0, "{name} {command:?}");
+    };
     for (name, text) in funicular_robots::ALL {
-        if text.contains("damping_ratio") {
-            let found = json_of(&release, text);
-            assert!(number(&found["settled_s"]) <= number(&found["surely_settled_s"]), "{name}");
-            assert!(number(&found["lowest_tension"]["tension_n"]) > 0.0, "{name}");
+        answered(name, text, &release);
+        if text.contains("mass_kg_per_m = 0.0\n") {
+            let output = run_with(&[&["settle", "-"][..], &stop].concat(), text);
+            assert_eq!(output.status.code(), Some(2), "{name}");
+            assert!(stderr(&output).contains("every cable needs mass"), "{name}: {}", stderr(&output));
+        } else {
+            answered(name, text, &stop);
         }
     }
-    for more in [&["--cables", "3"][..], &["--cables", "4"], &["--cables", "6"], &["--cables", "8"]] {
-        let file = succeed(&[&["new"][..], more].concat());
-        let output = run_with(&release, &file);
-        assert!(output.status.success(), "{more:?}: {}", stderr(&output));
+    let new = ["--cables 3", "--cables 4", "--cables 6", "--cables 8", "--motion point-mass", "--motion planar-xz"];
+    for more in new {
+        let file = succeed(&[&["new"][..], &more.split(' ').collect::<Vec<_>>()].concat());
+        answered(more, &file, &release);
+        answered(more, &file, &stop);
+    }
+
+    // Limits at which cables of these two vibrate alone at a frequency of the platform.
+    let [kntu, stadium] = ["kntu-planar.toml", "stadium-camera.toml"].map(robot);
+    for (robot, force, limit) in [(&kntu, "20,0,0", "50"), (&kntu, "20,0,0", "80"), (&stadium, "0,0,-20", "4")] {
+        let found = json(&["settle", robot, "--release-n", force, "--below-hz", limit]);
+        assert!(number(&found["lowest_tension"]["tension_n"]) > 0.0, "{robot} {limit}");
     }
 }
 

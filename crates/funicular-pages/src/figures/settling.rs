@@ -19,7 +19,8 @@ struct Course<'a> {
     /// Motion while the command runs; empty for a release, and for a command that is only compared.
     during: &'a [HistoryRow],
     history: &'a [HistoryRow],
-    settled: f64,
+    /// `None` if the point never settles.
+    settled: Option<f64>,
 }
 
 /// Distance over the time since the release or the start of the command: with and without the shaper.
@@ -46,10 +47,13 @@ pub(super) fn chart(found: &Settled) -> Chart {
             layers.push(Layer::Line { points: ends, stroke: stroke.clone() });
             legend.push(Entry { text: "end of the command".to_owned(), sample: Sample::Line(stroke) });
         }
-        let at = of.end + of.settled;
-        layers
-            .push(Layer::Line { points: vec![(at, 0.0), (at, tolerance)], stroke: Stroke::solid(stroke.colour, 2.0) });
-        let text = format!("{}: within {} mm for good at {} s", of.name, significant(tolerance, 3), significant(at, 4));
+        let at = of.settled.map(|settled| of.end + settled);
+        layers.extend(at.map(|at| {
+            let stroke = Stroke::solid(stroke.colour, 2.0);
+            Layer::Line { points: vec![(at, 0.0), (at, tolerance)], stroke }
+        }));
+        let within = format!("{}: within {} mm for good", of.name, significant(tolerance, 3));
+        let text = at.map_or_else(|| format!("{within} never"), |at| format!("{within} at {} s", significant(at, 4)));
         legend.push(Entry { text, sample: Sample::Line(stroke) });
         legend.push(Entry { text: format!("{}: sum of all amplitudes", of.name), sample: Sample::Line(bound) });
     }

@@ -38,12 +38,7 @@ pub fn page(found: &Settled, command_line: String) -> anyhow::Result<String> {
             if lengths.is_some() { WITH_LENGTHS } else { CONTENTS },
         ),
         found,
-        summary: format!(
-            "{}; by the sum of all amplitudes after {} s. Largest distance {} mm.",
-            found.when_settled(),
-            significant(found.surely_settled_s, 4),
-            significant(1e3 * found.peak_m, 4)
-        ),
+        summary: format!("{}. Largest distance {} mm.", found.when_settled(), significant(1e3 * found.peak_m, 4)),
         decay: decay(found),
         modes: PageTable::of(
             "table-modes",

@@ -25,14 +25,14 @@ use crate::error::NoSolution;
 use crate::frequency_range::rounded_up;
 use crate::request::{self, SettleRequest, check_vector};
 use crate::table::Column;
-use crate::text::significant;
+use crate::text::{decimals, significant};
 use anyhow::{Result, bail};
 use command::{Command, CommandKind};
 use funicular::cable::CableModel;
 use funicular::dynamics::{Dynamics, Linearisation};
 use funicular::math::Vec3;
 use funicular::modes::damped::DampedModes;
-use funicular::modes::{self, CommandedMotions, Decay, LengthCommand, Modes, Release};
+use funicular::modes::{self, CommandedMotions, Decay, DecayingMotion, LengthCommand, Modes, Release};
 use funicular::robot::Robot;
 use funicular::statics::{Equilibrium, Stability, StaticModel};
 use history::History;
@@ -58,10 +58,16 @@ pub struct Settled {
     pub held: Option<Held>,
     /// Maximum distance of the point from its rest in the history.
     pub peak_m: f64,
-    /// Last time at which the point is at the tolerance, since the release or the end of the command.
-    pub settled_s: f64,
-    /// Time from which on the sum of all amplitudes is within the tolerance.
-    pub surely_settled_s: f64,
+    /// Last time at which the point is at the tolerance, since the release or the end of the command; absent if it
+    /// never settles.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub settled_s: Option<f64>,
+    /// Time from which on the sum of all amplitudes is within the tolerance; absent if it never is.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub surely_settled_s: Option<f64>,
+    /// Motion that never ends, because nothing damps it; absent if the point settles.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub never_settles: Option<NeverSettles>,
     /// True if a count proves that every mode has its damped mode.
     pub damped_certified: bool,
     /// Modes that take part, the largest amplitude first.
@@ -76,6 +82,15 @@ pub struct Settled {
     whole: Vec<HistoryRow>,
     #[serde(skip)]
     pub warnings: Vec<String>,
+}
+
+/// Undamped motion that is larger than the tolerance.
+#[derive(Debug, Clone, Copy, Serialize)]
+pub struct NeverSettles {
+    /// Sum of the amplitudes of all undamped modes: the point keeps swinging by up to this distance.
+    pub amplitude_m: f64,
+    /// Frequency of the undamped mode with the largest amplitude.
+    pub frequency_hz: f64,
 }
 
 /// Displacement before a release.
@@ -142,8 +157,9 @@ pub struct SettlingMode {
     /// Amplitude without the shaper; absent without one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub amplitude_without_m: Option<f64>,
-    /// Time in which this amplitude alone falls to the tolerance; zero if it is smaller.
-    pub settled_s: f64,
+    /// Time in which this amplitude alone falls to the tolerance; zero if it is smaller, absent if it never does.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub settled_s: Option<f64>,
 }
 
 /// Displacement of the point at one time from where the lengths of this time hold it at rest, and the bound of its
@@ -198,9 +214,10 @@ pub fn about(at_rest: &AtRest, request: &SettleRequest) -> Result<Settled> {
     };
 
     let (decay, tolerance) = (&moved.decay, request.tolerance_m);
-    let surely_settled_s = decay.surely_settled(tolerance);
-    let without_s = moved.without.as_ref().map_or(0.0, |decay| decay.surely_settled(tolerance));
-    let History { rows: history, up_to_hz, peak } = History::of(decay, surely_settled_s.max(without_s));
+    let surely_settled = decay.surely_settled(tolerance);
+    let without = moved.without.as_ref().map(|decay| decay.surely_settled(tolerance));
+    let shown_until = without.filter(|time| time.is_finite()).map_or(surely_settled, |time| surely_settled.max(time));
+    let History { rows: history, up_to_hz, peak } = History::of(decay, shown_until);
     warnings.extend(up_to_hz.map(history::caveat));
     let held = moved.held.as_ref().map_or(0.0, |held| Vec3::from(held.held_m).norm());
     let during = moved.commanded.as_ref().map_or(&[][..], |commanded| &commanded.during);
@@ -211,8 +228,9 @@ pub fn about(at_rest: &AtRest, request: &SettleRequest) -> Result<Settled> {
         models: Models::of(at_rest, swing.linearisation),
         tolerance_m: tolerance,
         peak_m: peak.max(held),
-        settled_s: decay.settled(tolerance),
-        surely_settled_s,
+        settled_s: finite(decay.settled(tolerance)),
+        surely_settled_s: finite(surely_settled),
+        never_settles: NeverSettles::of(decay, tolerance),
         damped_certified: swing.damped.certified,
         modes: settling_modes(decay, moved.without.as_ref(), tolerance),
         history,
@@ -416,6 +434,20 @@ fn check_rest(AtRest { robot, equilibrium, .. }: &AtRest) -> Result<()> {
     Ok(())
 }
 
+/// Time, or `None` for one that never comes.
+fn finite(time: f64) -> Option<f64> {
+    Some(time).filter(|time| time.is_finite())
+}
+
+impl NeverSettles {
+    /// Undamped motion of a decay, if it is larger than the tolerance.
+    fn of(decay: &Decay, tolerance: f64) -> Option<Self> {
+        let amplitude_m: f64 = decay.undamped().map(DecayingMotion::size).sum();
+        let largest = decay.undamped().max_by(|a, b| a.size().total_cmp(&b.size()))?;
+        (amplitude_m > tolerance).then(|| Self { amplitude_m, frequency_hz: largest.omega.norm() / TAU })
+    }
+}
+
 fn settling_modes(decay: &Decay, without: Option<&Decay>, tolerance: f64) -> Vec<SettlingMode> {
     let mut all: Vec<SettlingMode> = (decay.motions.iter().enumerate())
         .map(|(k, motion)| {
@@ -425,7 +457,7 @@ fn settling_modes(decay: &Decay, without: Option<&Decay>, tolerance: f64) -> Vec
                 damping_ratio: rate / motion.omega.norm(),
                 amplitude_m: size,
                 amplitude_without_m: without.map(|without| without.motions[k].size()),
-                settled_s: if size > tolerance { (size / tolerance).ln() / rate } else { 0.0 },
+                settled_s: if size > tolerance { finite((size / tolerance).ln() / rate) } else { Some(0.0) },
             }
         })
         .collect();
@@ -443,7 +475,7 @@ fn points_in(until: f64, fastest: f64) -> f64 {
 fn during(motions: &CommandedMotions, command: &LengthCommand) -> Vec<HistoryRow> {
     let end = command.duration();
     let left = motions.after(command).motions;
-    let largest = left.iter().map(modes::DecayingMotion::size).fold(0.0, f64::max);
+    let largest = left.iter().map(DecayingMotion::size).fold(0.0, f64::max);
     let counts = left.iter().filter(|motion| motion.size() >= SMALL * largest);
     let points = points_in(end, counts.fold(0.0, |fastest, motion| fastest.max(motion.omega.re)));
     // The end itself is the first row of the history after it.
@@ -478,18 +510,38 @@ impl HistoryRow {
     }
 }
 
+/// Words for a time after which something holds.
+pub fn after(time: Option<f64>) -> String {
+    time.map_or_else(|| "never".to_owned(), |time| format!("after {} s", significant(time, 4)))
+}
+
 impl Settled {
-    /// Sentence without its end that says when the point has settled.
+    /// Sentence without its end that says when the point has settled, also by the sum of all amplitudes, or why it
+    /// never does.
     pub fn when_settled(&self) -> String {
         let tolerance = significant(1e3 * self.tolerance_m, 4);
+        if let Some(of) = &self.never_settles {
+            return format!(
+                "Never within {tolerance} mm for good: the point keeps swinging by up to {} mm, because the mode at \
+                 {} Hz has no damping; give the ropes `damping_ratio` and `axial_loss_factor`, or the platform \
+                 `translational_damping_n_s_m`",
+                significant(1e3 * of.amplitude_m, 4),
+                decimals(of.frequency_hz, 4)
+            );
+        }
+        format!("{}; by the sum of all amplitudes {}", self.when_within(&tolerance), after(self.surely_settled_s))
+    }
+
+    /// Time after which the point stays within the tolerance [mm].
+    fn when_within(&self, tolerance: &str) -> String {
         match &self.commanded {
-            Some(of) if self.settled_s == 0.0 => {
+            Some(of) if self.settled_s == Some(0.0) => {
                 format!("The point is already within {tolerance} mm of its rest when the {} ends", of.command)
             }
-            None if self.settled_s == 0.0 => {
+            None if self.settled_s == Some(0.0) => {
                 format!("The point is already within {tolerance} mm of its rest at the release")
             }
-            _ => format!("Within {tolerance} mm for good after {} s", significant(self.settled_s, 4)),
+            _ => format!("Within {tolerance} mm for good {}", after(self.settled_s)),
         }
     }
 }

@@ -3,7 +3,7 @@
 use super::{AtRest, ModesBelow};
 use anyhow::{Result, bail};
 use funicular::dynamics::Linearisation;
-use funicular::gust::{self, Gusts, Moments, PeakFactor, Resonance};
+use funicular::gust::{self, GustResonance, Gusts, Moments, PeakFactor};
 use funicular::modes;
 use funicular::response::{Quantity, Signal};
 use funicular::statics::CableState;
@@ -30,7 +30,7 @@ pub(crate) fn moments_in_gusts(
     let AtRest { robot, equilibrium, .. } = at_rest;
     let signals: Vec<(Signal, Quantity)> = signals.iter().map(|signal| (*signal, Quantity::Displacement)).collect();
     let in_air = gust::aerodynamic_damping_ratio(robot, equilibrium, &dynamics, &modes.modes)?;
-    let resonances = Resonance::of_modes(&modes.modes, &in_air);
+    let resonances = GustResonance::of_modes(&modes.modes, &in_air);
     let spectra = Gusts::new(robot, equilibrium, &dynamics, &signals, limit)?.spectra(limit, &resonances)?;
     Ok(spectra.moments)
 }

@@ -97,10 +97,13 @@ function show() {
     width: Math.max(280, $("stop").clientWidth),
   });
   const seconds = (value) => `${short(value, 3)} s`;
-  const own = `within ${millimetres} of its rest for good ${seconds(answer.settled_s)} after the end of the stop`;
+  const never = "never, because nothing damps its motion";
+  const after = (value) => (value === undefined ? never : `${seconds(value)} after the end of the stop`);
+  const own = `within ${millimetres} of its rest for good ${after(answer.settled_s)}`;
+  const past = shaping?.settled_without_s;
   const words = shaping
-    ? `With the shaper (full line) the platform is ${own}; without it (broken line) after ` +
-      `${seconds(shaping.settled_without_s)}. The shaped stop takes ${seconds(shaping.longer_s)} longer, and cancels ` +
+    ? `With the shaper (full line) the platform is ${own}; without it (broken line) ` +
+      `${past === undefined ? never : `after ${seconds(past)}`}. The shaped stop takes ${seconds(shaping.longer_s)} longer, and cancels ` +
       `${shaping.modes_hz.map((hz) => `${short(hz, 4)} Hz`).join(", ") || "nothing: nothing is left to cancel"}.`
     : `The platform is ${own}.`;
   const largest = answer.modes[0];

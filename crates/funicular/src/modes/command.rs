@@ -7,6 +7,7 @@
 use super::Modes;
 use super::damped::DampedModes;
 use super::decay::{Decay, DecayError, DecayingMotion, PoleMotion, point_rows, pole_motions};
+use super::signals::signal_at;
 use crate::cable::catenary_dynamic::DriveSignal;
 use crate::dynamics::Dynamics;
 use crate::math::{Complex, Vec3};
@@ -145,22 +146,6 @@ impl CommandedMotion {
         let by_length = signals(DriveSignal::Length)?.into_iter().map(|b| b * factor).collect();
         Ok(Self { mode: free.mode, omega: free.omega, point, tensions: signals(DriveSignal::Tension)?, by_length })
     }
-}
-
-/// Product of a free motion with the row of a signal of cable `i` at its complex frequency: platform and supports move,
-/// and what lies between them follows.
-pub(super) fn signal_at(dynamics: &Dynamics, free: &PoleMotion, i: usize, signal: DriveSignal) -> Option<Complex> {
-    let t = dynamics.terms().iter().position(|term| term.cable() == i)?;
-    let (term, omega) = (&dynamics.terms()[t], free.omega);
-    let form = term.form().by_poles()?;
-    let vector = form.signal_vector(signal, omega)?;
-    let mut sum: Complex = term.axes().iter().zip(vector).map(|(axis, part)| free.along(axis) * part).sum();
-    if let Some((first, motions)) = dynamics.supports().and_then(|supports| supports.carrier_motions(t)) {
-        for (moved, motion) in free.found.supports[first..].iter().zip(&motions) {
-            sum += form.signal_by_carrier(motion, signal, omega)? * moved;
-        }
-    }
-    Some(sum)
 }
 
 impl CommandedMotions {

@@ -43,12 +43,12 @@ pub enum DecayError {
          decay: give winches and platform less damping"
     )]
     Overdamped(usize),
-    /// A mode does not decay.
+    /// A mode grows.
     #[error(
-        "the mode at {frequency_hz:.4} Hz does not decay: give the ropes `damping_ratio` and `axial_loss_factor`, or \
-         the platform `translational_damping_n_s_m`"
+        "the mode at {frequency_hz:.4} Hz grows, because its damping ratio is negative, as by the delay of a control: \
+         lower the gains of the motors, or give ropes or platform more damping"
     )]
-    NoDecay {
+    Grows {
         /// Frequency [Hz].
         frequency_hz: f64,
     },
@@ -77,7 +77,7 @@ const AT_TOLERANCE: f64 = 1e-9;
 const MAX_STEPS: usize = 1_000_000;
 
 impl DecayingMotion {
-    /// Rate of decay, −Re λ [1/s].
+    /// Rate of decay, −Re λ [1/s]; zero without damping.
     pub fn rate(&self) -> f64 {
         self.omega.im
     }
@@ -126,12 +126,22 @@ impl Decay {
         self.motions.iter().map(|motion| motion.size() * (-motion.rate() * time).exp()).sum()
     }
 
-    /// Time from which on the bound of the distance is at most `tolerance` [m]: the point stays within it.
+    /// Motions that keep their amplitudes, because nothing damps them.
+    pub fn undamped(&self) -> impl Iterator<Item = &DecayingMotion> {
+        self.motions.iter().filter(|motion| motion.rate() == 0.0)
+    }
+
+    /// Time from which on the bound of the distance is at most `tolerance` [m]: the point stays within it. Infinite if
+    /// the undamped motions alone are larger.
     pub fn surely_settled(&self, tolerance: f64) -> f64 {
         if self.envelope(0.0) <= tolerance {
             return 0.0;
         }
-        let slowest = self.motions.iter().map(DecayingMotion::rate).fold(f64::INFINITY, f64::min);
+        if self.undamped().map(DecayingMotion::size).sum::<f64>() > tolerance {
+            return f64::INFINITY;
+        }
+        let rates = self.motions.iter().map(DecayingMotion::rate).filter(|rate| *rate > 0.0);
+        let slowest = rates.fold(f64::INFINITY, f64::min);
         let mut after = 1.0 / slowest;
         while self.envelope(after) > tolerance {
             after *= 2.0;
@@ -144,7 +154,8 @@ impl Decay {
         after
     }
 
-    /// Last time at which the point is at the distance `tolerance` [m] from its rest; zero if it never is.
+    /// Last time at which the point is at the distance `tolerance` [m] from its rest; zero if it never is, infinite if
+    /// the undamped motions alone are larger.
     ///
     /// From the sure time backwards: within the remaining distance over the largest speed, no crossing is possible.
     pub fn settled(&self, tolerance: f64) -> f64 {
@@ -152,6 +163,9 @@ impl Decay {
             self.motions.iter().map(|motion| motion.speed() * (-motion.rate() * time).exp()).sum()
         };
         let mut time = self.surely_settled(tolerance);
+        if time.is_infinite() {
+            return time;
+        }
         for _ in 0..MAX_STEPS {
             let left = tolerance - self.at(time).norm();
             if time <= 0.0 || left <= AT_TOLERANCE * tolerance {
@@ -194,6 +208,14 @@ const SAME_PLACE: f64 = 1e-6;
 /// over this distance.
 const TOGETHER: f64 = 1e-9;
 
+/// Maximum size of a damping ratio that counts as rounding: the zero is found with an error of this size.
+const NO_DAMPING: f64 = 1e-12;
+
+/// Complex frequency whose damping is zero if it is rounding.
+fn without_rounding(omega: Complex) -> Complex {
+    if omega.im.abs() <= NO_DAMPING * omega.norm() { omega.re.into() } else { omega }
+}
+
 /// Motions at all poles, without modes in which the platform rests.
 ///
 /// # Errors
@@ -217,10 +239,10 @@ pub(super) fn pole_motions(
         if !group.iter().any(|k| moves(&all[*k].0)) {
             continue;
         }
-        let mean = group.iter().map(|k| all[*k].1).sum::<Complex>() / group.len() as f64;
+        let mean = without_rounding(group.iter().map(|k| all[*k].1).sum::<Complex>() / group.len() as f64);
         let frequency_hz = mean.norm() / TAU;
-        if let Some(k) = group.iter().find(|k| all[**k].1.im <= 0.0) {
-            return Err(DecayError::NoDecay { frequency_hz: all[*k].1.norm() / TAU });
+        if let Some(k) = group.iter().find(|k| without_rounding(all[**k].1).im < 0.0) {
+            return Err(DecayError::Grows { frequency_hz: all[*k].1.norm() / TAU });
         }
         let refused = if by_poles { DecayError::Shared { frequency_hz } } else { DecayError::Model };
         if let [k] = group[..]
@@ -230,11 +252,12 @@ pub(super) fn pole_motions(
             continue;
         }
 
-        let found = dynamics.shared_motions(mean, group.len(), SAME_PLACE * mean.im).ok_or(refused)?;
+        let same = (SAME_PLACE * mean.im).max(NO_DAMPING * mean.norm());
+        let found = dynamics.shared_motions(mean, group.len(), same).ok_or(refused)?;
         let members = group.iter().map(|k| Some(*k)).chain(std::iter::repeat(None));
         motions.extend(found.into_iter().zip(members).map(|((gap, found), member)| PoleMotion {
             mode: member.and_then(|k| all[k].0),
-            omega: mean + gap,
+            omega: without_rounding(mean + gap),
             found,
         }));
     }

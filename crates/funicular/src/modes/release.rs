@@ -4,9 +4,9 @@
 //! λ_k the amplitudes are `A_k = −R_k f/λ_k` (docs/theory.md, equations (46f) to (46h)).
 
 use super::Modes;
-use super::command::signal_at;
 use super::damped::DampedModes;
 use super::decay::{Decay, DecayError, DecayingMotion, PoleMotion, point_rows, pole_motions, scaled};
+use super::signals::signal_at;
 use crate::cable::catenary_dynamic::DriveSignal;
 use crate::dynamics::Dynamics;
 use crate::math::{Complex, Vec3, Vec6};

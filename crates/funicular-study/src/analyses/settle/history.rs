@@ -5,6 +5,9 @@ use funicular::math::Vec3;
 use funicular::modes::{Decay, DecayingMotion};
 use std::f64::consts::TAU;
 
+/// Periods of the slowest mode that are shown of a motion that never settles.
+const PERIODS: f64 = 20.0;
+
 /// History of a decay.
 pub(super) struct History {
     pub(super) rows: Vec<HistoryRow>,
@@ -15,7 +18,8 @@ pub(super) struct History {
 }
 
 impl History {
-    /// Motion up to a time [s], with enough points per period of every mode that counts. If these are too many, the
+    /// Motion up to a time [s], or for some periods if it never settles, with enough points per period of every mode
+    /// that counts. If these are too many, the
     /// fastest modes are left out, because too few points would show them as slow ones.
     pub(super) fn of(decay: &Decay, until: f64) -> Self {
         let largest = decay.motions.iter().map(DecayingMotion::size).fold(0.0, f64::max);
@@ -27,7 +31,7 @@ impl History {
         }
         // At least one period of the slowest mode is shown.
         let period = TAU / slowest;
-        let until = until.max(period);
+        let until = if until.is_finite() { until.max(period) } else { PERIODS * period };
         let most = MAX_POINTS / (until * POINTS_PER_PERIOD) * TAU;
         if fastest <= most {
             let rows = rows(decay, decay, until, points_in(until, fastest));

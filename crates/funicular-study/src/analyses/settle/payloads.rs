@@ -2,7 +2,7 @@
 //! it.
 
 use super::rows::unstrained;
-use super::{Swing, check_rest};
+use super::{Swing, check_rest, finite};
 use crate::at_rest::AtRest;
 use crate::error::{ErrorKind, NoSolution};
 use crate::payload::carrying;
@@ -24,8 +24,9 @@ pub struct WithPayload {
     /// Sum of all amplitudes at the end of the command without its shaper; absent without one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub without_m: Option<f64>,
-    /// Last time at which the point is at the tolerance, since the end of the command.
-    pub settled_s: f64,
+    /// Last time at which the point is at the tolerance, since the end of the command; absent if it never settles.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub settled_s: Option<f64>,
 }
 
 impl Swing<'_> {
@@ -76,7 +77,7 @@ impl Swing<'_> {
             frequency_hz: largest.map_or(0.0, |motion| motion.omega.norm() / TAU),
             amplitude_m: sum(&decay),
             without_m: without.map(|lengths| sum(&motions.after(lengths))),
-            settled_s: decay.settled(request.tolerance_m),
+            settled_s: finite(decay.settled(request.tolerance_m)),
         })
     }
 }

@@ -1,7 +1,7 @@
 //! Shaper of a command: the modes that it cancels, its impulses, and what it leaves if the frequencies are others.
 
-use super::HistoryRow;
 use super::history::History;
+use super::{HistoryRow, finite};
 use crate::request::SettleRequest;
 use anyhow::{Result, anyhow, bail};
 use funicular::modes::{Decay, DecayingMotion};
@@ -21,10 +21,13 @@ pub struct Shaping {
     pub longer_s: f64,
     /// Sum of all amplitudes at the end, with frequencies as they are and with others.
     pub robustness: Vec<Robustness>,
-    /// Last time at which the point is at the tolerance without the shaper, since the end of the command without it.
-    pub settled_without_s: f64,
-    /// Time from which on the sum of all amplitudes without the shaper is within the tolerance.
-    pub surely_settled_without_s: f64,
+    /// Last time at which the point is at the tolerance without the shaper, since the end of the command without it;
+    /// absent if it never settles.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub settled_without_s: Option<f64>,
+    /// Time from which on the sum of all amplitudes without the shaper is within the tolerance; absent if it never is.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub surely_settled_without_s: Option<f64>,
     /// Motion from the end of the command without it.
     pub history_without: Vec<HistoryRow>,
 }
@@ -161,8 +164,8 @@ impl Shaping {
             impulses: shaper.impulses.iter().map(row).collect(),
             longer_s: shaper.duration(),
             robustness: FACTORS.map(robustness).to_vec(),
-            settled_without_s: without.settled(tolerance),
-            surely_settled_without_s: surely,
+            settled_without_s: finite(without.settled(tolerance)),
+            surely_settled_without_s: finite(surely),
             history_without: History::of(without, surely).rows,
         }
     }

@@ -1,6 +1,6 @@
 //! Motion of the points along a cable, from the motion of its ends and the amplitudes of its clamped modes.
 
-use super::{CatenaryDynamic, Family, PoleResidue};
+use super::{CarrierMotion, CatenaryDynamic, CatenaryDynamicEnd, Family, PoleResidue};
 use crate::math::{Complex, DMat};
 use std::array::from_fn;
 
@@ -179,6 +179,11 @@ impl InternalMotion {
         [a, b, c, d, e, f]
     }
 
+    /// Amplitudes of some clamped modes, by family and index [m √kg].
+    fn of_modes(mut self, modes: &[(Family, usize)]) -> Vec<Complex> {
+        modes.iter().map(|(family, index)| self.amplitudes(*family)[*index]).collect()
+    }
+
     /// Amplitudes of the clamped modes of a family [m √kg].
     pub(crate) fn amplitudes(&mut self, family: Family) -> &mut Vec<Complex> {
         match family {
@@ -186,6 +191,38 @@ impl InternalMotion {
             Family::OutOfPlane => &mut self.out_of_plane,
             Family::Coupled => &mut self.coupled,
         }
+    }
+}
+
+impl CatenaryDynamicEnd {
+    /// Amplitudes of clamped modes, by family and index, for a motion (e, n, b) of the platform end at ω [rad/s]. Not
+    /// finite at a pole.
+    pub(crate) fn amplitudes_by_platform(
+        &self,
+        start: [Complex; 3],
+        omega: Complex,
+        modes: &[(Family, usize)],
+    ) -> Vec<Complex> {
+        let (square, losses) = (self.square(omega), self.beyond_undamped(omega, 1.0));
+        let moved = InternalMotion::new(&self.cable, start, square);
+        moved.with_drive(&self.cable, &losses, square).of_modes(modes)
+    }
+
+    /// Amplitudes of clamped modes for a motion of the carrier of the far end at ω [rad/s], the platform end held.
+    pub(crate) fn amplitudes_by_carrier(
+        &self,
+        motion: &CarrierMotion,
+        omega: Complex,
+        modes: &[(Family, usize)],
+    ) -> Vec<Complex> {
+        self.motion_by_carrier(&self.cable, motion, omega).of_modes(modes)
+    }
+
+    /// Mass of the cable at its held platform end, the sum over all directions [kg].
+    pub(crate) fn end_mass(&self) -> f64 {
+        let CatenaryDynamic { in_plane, out_of_plane, coupled, .. } = &self.cable;
+        let of_coupled = coupled.as_ref().map_or(0.0, |of| (0..3).map(|k| of.mass[k][k]).sum());
+        in_plane.mass[0][0] + in_plane.mass[1][1] + out_of_plane.mass[0][0] + of_coupled
     }
 }
 

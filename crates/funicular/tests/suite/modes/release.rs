@@ -2,7 +2,7 @@
 
 use funicular::dynamics::{Dynamics, Linearisation};
 use funicular::math::{DMat, Rotation, Vec3, Vec6};
-use funicular::modes::{self, DecayError, Release, damped};
+use funicular::modes::{self, Release, damped};
 use funicular::reduced_model::{DampingAt, RequestedModel, reduce};
 use funicular::response::{Quantity, Signal};
 use funicular::robot::{Damping, Pose, Robot, State, StretchLoss};
@@ -82,16 +82,27 @@ fn the_decay_is_that_of_the_complete_matrices() {
     assert!(release.decay.settled(10.0 * peak) <= 0.0);
 }
 
+/// Without damping every mode keeps its amplitude; the sum of all is the bound for ever.
 #[test]
-fn what_does_not_decay_is_refused() {
+fn what_does_not_decay_keeps_its_amplitude() {
     let mut robot = Robot::from_toml(funicular_robots::COGIRO).unwrap();
     robot.cables.iter_mut().for_each(|cable| cable.material.damping = Damping::Ratio(0.0));
     let rest = statics::solve(&robot, StaticModel::Catenary, None).unwrap().equilibrium;
     let dynamics = Dynamics::about(&robot, &rest, Linearisation::default(), 9.0).unwrap();
     let found = modes::below(&dynamics, 9.0);
     let damped = damped::damped_modes(&dynamics, &found);
-    let released = Release::of(&dynamics, &found, &damped, &Vec6::z(), &Vec3::zeros());
-    assert!(matches!(released, Err(DecayError::NoDecay { .. })), "{released:?}");
+    let release = Release::of(&dynamics, &found, &damped, &Vec6::z(), &Vec3::zeros()).unwrap();
+    let decay = &release.decay;
+    assert_eq!(decay.undamped().count(), decay.motions.len());
+    assert!((decay.at(0.0) - release.held).norm() <= release.omitted + 1e-9 * release.held.norm());
+
+    let sum = decay.envelope(0.0);
+    assert!((decay.envelope(1e6) / sum - 1.0).abs() < 1e-12);
+    assert!(decay.settled(0.9 * sum).is_infinite() && decay.surely_settled(0.9 * sum).is_infinite());
+    assert!(decay.settled(1.1 * sum) <= 0.0);
+    // The motion comes back to most of its first size, however late.
+    let late = (0..20_000).map(|i| decay.at(1e3 + 0.01 * f64::from(i)).norm()).fold(0.0, f64::max);
+    assert!(late > 0.8 * decay.at(0.0).norm() && late <= sum, "{late} {sum}");
 }
 
 /// Robot with four equal sides: its motions along both level axes share their frequencies.
