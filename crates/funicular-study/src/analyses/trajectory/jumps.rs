@@ -200,8 +200,8 @@ pub(super) fn between(
     Ok(samples)
 }
 
-/// Samples on both sides of the time at which the rates jump, near those between which a limit counts as reached or left:
-/// this is told within a millionth of the limit, some microseconds beside it.
+/// Samples on both sides of the time at which the rates jump, near those between which a limit counts as reached or
+/// left: this is told within a millionth of the limit, some microseconds beside it.
 fn around_kink(
     along: &mut AlongPath,
     planned: &Planned,
