@@ -267,6 +267,12 @@ impl<'a> Swing<'a> {
     /// Free motions, with warnings. Without a given limit it is so high that the modes above it do not count.
     fn of(at_rest: &'a AtRest, request: &SettleRequest, command: Option<&Command>) -> Result<(Self, Vec<String>)> {
         let linearisation = at_rest::linearisation(&request.model, at_rest.equilibrium.model);
+        if command.is_some() && linearisation.cable_model != CableModel::CatenaryDynamic {
+            bail!(
+                "the cable model `{}` has no length that is commanded: commands need `catenary-dynamic`, the default",
+                linearisation.cable_model.name()
+            );
+        }
         let point_p = Vec3::from(request.points.output_point_m.unwrap_or_default());
         let arm_w = at_rest.equilibrium.pose.rot_wp * point_p;
         let of_limit = |limit: f64| at_rest.modes_with_strains(linearisation, limit, modes::MAX_MODES);
@@ -309,12 +315,6 @@ impl<'a> Swing<'a> {
     }
 
     fn after_command(&self, unshaped: &Command, request: &SettleRequest, warnings: &mut Vec<String>) -> Result<Moved> {
-        if self.linearisation.cable_model != CableModel::CatenaryDynamic {
-            bail!(
-                "the cable model `{}` has no length that is commanded: commands need `catenary-dynamic`, the default",
-                self.linearisation.cable_model.name()
-            );
-        }
         let motions = CommandedMotions::of(&self.dynamics, &self.modes, &self.damped, &self.arm_w)?;
         let without = motions.after(&unshaped.lengths());
         let shaped = match shaping::kind(request)? {
