@@ -13,7 +13,7 @@ use super::at_limits::{AT_LIMIT, Condition, TensionBound, TensionsAtLimits};
 use super::cable_form::CableForm;
 use super::centre::add_limit;
 use super::scalar::add_real;
-use crate::drive::derivatives::end;
+use crate::drive::derivatives::{end, place};
 use crate::math::{DMat, Vec3, Vec6};
 use crate::platform::Coordinates;
 use crate::statics::derivatives::{StaticDerivativeError, load_of};
@@ -207,8 +207,7 @@ impl RuleConditions<'_> {
         Ok(found.of_tensions(cables))
     }
 
-    /// Conditions of the centre of the tensions: `φ' − G·y`, over φ''. The wrench per tension has its exit point
-    /// following in G; the change of G holds it.
+    /// Conditions of the centre of the tensions: `φ' − G·y`, over φ''. The exit point follows in G and in its change.
     fn centre(&self, rule: &TensionRule) -> Result<RuleFollower, GradientError> {
         let (cables, n) = (self.at.tensions.len(), self.coordinates.count());
         let not_by_rule = |i: usize| GradientError::NotByRule { rule: rule.name(), cable: self.at.name(i) };
@@ -249,7 +248,7 @@ impl RuleConditions<'_> {
         let conditions = (0..cables)
             .map(|i| {
                 let share = barriers[i].curvature().recip();
-                let mut condition = self.stationarity(i, false, &(y_v * share), &(y_theta * share))?;
+                let mut condition = self.of_centre(i, &(y_v * share), &(y_theta * share))?;
                 for (limit, curvature) in limits[i].iter().zip(barriers[i].curvatures) {
                     add_limit(&mut condition, &self.at, limit, -curvature * share)?;
                 }
@@ -261,6 +260,28 @@ impl RuleConditions<'_> {
             -self.wrenches[(k, condition.cable)] * (least / barriers[condition.cable].curvature())
         })?;
         Ok(found.of_tensions(cables))
+    }
+
+    /// Stationarity `τ − G·y` whose exit point follows the tension, as in the centre of the tensions.
+    fn of_centre(&self, i: usize, y_v: &Vec3, y_theta: &Vec3) -> Result<Condition, GradientError> {
+        let (state, tension) = (self.at.state(i), &self.at.tensions[i]);
+        let along_w = y_v + y_theta.cross(&state.lever_w);
+        let curve = TensionCurve::of_state(self.at.robot, i, state);
+        let (Some(second), Some(drive)) =
+            (curve.and_then(|curve| curve.second_by_outer(&along_w)), &self.at.partials[i].drive)
+        else {
+            return self.stationarity(i, false, y_v, y_theta);
+        };
+
+        let mut condition = Condition { is_stationarity: true, ..Condition::new(i) };
+        let sum = &mut condition.coefficients;
+        tension.add(sum, 1.0 - second[place::LENGTH]);
+        for (variable, (sum, by)) in sum.outer.iter_mut().zip(second).enumerate() {
+            *sum -= if variable == place::LENGTH { 0.0 } else { by };
+        }
+        let force_w = Vec3::from_fn(|k, _| drive.by_outer.force_w[k][place::LENGTH]) / tension.by_length;
+        add_real(&mut sum.lever, -force_w.cross(y_theta));
+        Ok(condition)
     }
 
     /// Multipliers of force and moment by those of the reduced balance.

@@ -135,11 +135,11 @@ fn on_rigid_supports(
     if has_room {
         if let Some(last) = last {
             search.start(|i| last.tensions.get(i).copied().unwrap_or(0.0), &last.multipliers);
-            found = search.newton()?;
+            found = search.newton();
         }
         if !found {
             search.start(|_| f64::NAN, &[]);
-            found = search.newton()?;
+            found = search.newton();
         }
     }
 
@@ -152,7 +152,7 @@ fn on_rigid_supports(
         };
         if has_room {
             search.start(of_state, &[]);
-            found = search.newton()?;
+            found = search.newton();
         }
         if !found {
             return Err(search.no_centre(of_state));
@@ -242,15 +242,13 @@ impl<'a> CentreSearch<'a> {
         self.coordinates.motion().reduced(&wrench_of(force_w, &cable.lever_w))
     }
 
-    /// Newton's method; true if it converges.
-    ///
-    /// # Errors
-    /// A singular pose whose load the cables cannot balance.
-    fn newton(&mut self) -> Result<bool, StaticsError> {
+    /// Newton's method; true if it converges. It does not at a singular pose, and where so many tensions have run into
+    /// their limits that the others do not span the degrees of freedom: the search of the rule `middle` tells which.
+    fn newton(&mut self) -> bool {
         let mut far = true;
         for _ in 0..MAX_STEPS {
             self.iterations += 1;
-            let step = self.step(!far)?;
+            let Some(step) = self.step(!far) else { return false };
 
             // Part of the way to the nearest limit.
             let (mut fraction, mut change, mut rounding) = (1.0_f64, 0.0_f64, true);
@@ -262,13 +260,13 @@ impl<'a> CentreSearch<'a> {
                 }
                 let part = step.abs() / below.min(above);
                 if part.is_nan() {
-                    return Ok(false);
+                    return false;
                 }
                 change = change.max(part);
                 rounding &= step.abs() <= LAST_STEP * below.min(above) + ROUNDING * self.size;
             }
             if fraction <= MIN_FRACTION {
-                return Ok(false);
+                return false;
             }
 
             for (cable, step) in self.cables.iter_mut().zip(&step.tau) {
@@ -276,19 +274,19 @@ impl<'a> CentreSearch<'a> {
             }
             self.multipliers += step.multipliers * fraction;
             if rounding && !far {
-                return Ok(true);
+                return true;
             }
             far = change > FAR && self.has_moving_exits();
         }
-        Ok(false)
+        false
     }
 
     fn has_moving_exits(&self) -> bool {
         self.cables.iter().any(|cable| cable.curve.has_moving_exit())
     }
 
-    /// Newton's step (40b6). `follows` lets the exit points follow in the derivatives.
-    fn step(&self, follows: bool) -> Result<CentreStep, StaticsError> {
+    /// Newton's step (40b6); `None` if its matrix is singular. `follows` lets the exit points follow in the derivatives.
+    fn step(&self, follows: bool) -> Option<CentreStep> {
         let y = &self.multipliers;
         let (mut balance, mut matrix, mut right) = (self.load, Mat6::zeros(), Vec6::zeros());
         let mut rows = Vec::with_capacity(self.cables.len());
@@ -307,29 +305,28 @@ impl<'a> CentreSearch<'a> {
 
         let multipliers = self.solved(&matrix, &(right - balance), &rows)?;
         let tau = rows.iter().map(|(column, weight, residual)| weight * (column.dot(&multipliers) - residual));
-        Ok(CentreStep { tau: tau.collect(), multipliers })
+        Some(CentreStep { tau: tau.collect(), multipliers })
     }
 
-    /// Solution of `S Δy = right`. If the cables do not span the degrees of freedom, that in the wrenches which they
-    /// span.
-    fn solved(&self, matrix: &Mat6, right: &Vec6, rows: &[(Vec6, f64, f64)]) -> Result<Vec6, StaticsError> {
+    /// Solution of `S Δy = right`; `None` if there is none. If the cables do not span the degrees of freedom, that in the
+    /// wrenches which they span.
+    fn solved(&self, matrix: &Mat6, right: &Vec6, rows: &[(Vec6, f64, f64)]) -> Option<Vec6> {
         let n = self.coordinates.count();
         if let Some(solution) = solved_if_regular(matrix, right, n) {
-            return Ok(solution);
+            return Some(solution);
         }
         let columns: Vec<Vec6> = rows.iter().map(|(column, ..)| *column).collect();
         let SpannedWrenches { spanned, free } = SpannedWrenches::of(&columns, n);
         let unbalanced = free.iter().map(|free| free.dot(right).abs()).fold(0.0, f64::max);
-        let singular = || StaticsError::singular(self.robot, self.pose, self.model);
         if spanned.is_empty() || unbalanced > BALANCED_ALONG_FREE * (right.norm() + self.size) {
-            return Err(singular());
+            return None;
         }
 
         let row = |k: usize| spanned.get(k).copied().unwrap_or_else(Vec6::zeros);
         let within = Mat6::from_fn(|j, k| row(j).dot(&(matrix * row(k))));
         let along = Vec6::from_fn(|k, _| row(k).dot(right));
-        let solution = solved_if_regular(&within, &along, spanned.len()).ok_or_else(singular)?;
-        Ok(spanned.iter().zip(solution.iter()).map(|(wrench, part)| wrench * *part).sum())
+        let solution = solved_if_regular(&within, &along, spanned.len())?;
+        Some(spanned.iter().zip(solution.iter()).map(|(wrench, part)| wrench * *part).sum())
     }
 
     /// True if (40b5), or the curvature at some places between the limits, shows that the centre is the only one.

@@ -181,8 +181,8 @@ fn tensions_over_pulleys_follow_their_rule_with_every_number_of_the_robot() {
     assert!(by_rule.iter().all(|count| *count > 80) && refused < 10, "{by_rule:?} {refused}");
 }
 
-/// Centre of the tensions, which the same robots over pulleys have within given limits and above a default minimum. The
-/// change of the wrench per tension holds the exit point: that leaves a millionth of the derivatives.
+/// Centre of the tensions, which the same robots over pulleys have within given limits and above a default minimum; many
+/// of their ropes sag so deeply that the exit points move with the tensions.
 #[test]
 fn the_centre_over_pulleys_follows_every_number_of_the_robot() {
     let (mut compared, mut worst) = (0, 0.0_f64);
@@ -191,7 +191,8 @@ fn the_centre_over_pulleys_follows_every_number_of_the_robot() {
         let weight = case.robot.platform.mass * 9.81;
         let minimum = (number % 4 > 0 || case.model == StaticModel::Spring).then_some(0.05 * weight);
         let robot = case.robot.with_tension_limits(TensionLimits { minimum, maximum: Some(4.0 * weight) });
-        let case = RuleCase { rule: TensionRule::Centre, robot, ..case };
+        let name = format!("{number}, centre, minimum {minimum:?}");
+        let case = RuleCase { name, rule: TensionRule::Centre, robot, ..case };
         let Some(rest) = case.at(&case.robot, &case.pose) else { continue };
         let gradients = match Gradients::by_rule(&case.robot, &rest, &case.rule) {
             Ok(gradients) => gradients,

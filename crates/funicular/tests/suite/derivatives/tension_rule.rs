@@ -171,11 +171,16 @@ fn at_limits(case: &RuleCase, rest: &Equilibrium) -> usize {
 
 /// Every number changes the tensions and the lengths as the distribution of the changed robot says. The distribution
 /// ends when tensions change by 1e-10 of their size, over steps that change them by 1e-4 to 1e-2. Half of the
-/// extrapolation's own part is spared.
+/// extrapolation's own part is spared. The centre is found to rounding, but its limits have narrow rounded corners: a
+/// turn of the load by a thousandth moves the lowest point of a level rope to its end. So its differences count where
+/// those of a tenfold longer step are the same.
 #[test]
 fn tensions_follow_their_rule_with_every_number_of_the_robot() {
-    let (mut compared, mut limited, mut refused) = (0, 0, 0);
+    let (mut compared, mut limited, mut refused, mut centres) = (0, 0, 0, 0);
     for case in cases() {
+        let is_centre = case.rule == TensionRule::Centre;
+        let (noise, steps): (f64, &[f64]) =
+            if is_centre { (1e-11, &[1.0, 1e-1, 1e-2, 1e-3, 1e-4]) } else { (1e-9, &[1.0, 1e-2, 1e-4]) };
         let Some(rest) = case.at(&case.robot, &case.pose) else { continue };
         let gradients = match Gradients::by_rule(&case.robot, &rest, &case.rule) {
             Ok(gradients) => gradients,
@@ -204,30 +209,34 @@ fn tensions_follow_their_rule_with_every_number_of_the_robot() {
                 continue;
             }
             // Shorter steps, if the first ones cross a change of the limits that are reached.
-            let mut smooth = None;
-            for shorter in [1.0, 1e-2, 1e-4] {
+            let size_of_tensions = rest.cables.iter().map(|c| c.tension_platform).fold(0.0, f64::max);
+            let (mut smooth, mut longer) = (None, None);
+            for shorter in steps {
                 let step = step * shorter;
                 let differences =
                     extrapolated(step, |h| case.changed(&change, h).map(|(_, rest)| values(&rest, stiffness)));
                 let Some((differences, added)) = differences else { continue };
                 let (error, size) = distance(&found, &differences);
-                if added <= 1e-4 * size {
-                    smooth = Some((step, error, size, added));
+                let rounding = noise * size_of_tensions / step;
+                let last: Option<Vec<f64>> = longer.replace(differences.clone());
+                let is_same = |last: &Vec<f64>| distance(last, &differences).0 <= 1e-5 * size + rounding;
+                if added <= 1e-4 * size && (!is_centre || last.as_ref().is_some_and(is_same)) {
+                    smooth = Some((error, size, added, rounding));
                     break;
                 }
             }
-            let Some((step, error, size, added)) = smooth else { continue };
-            let size_of_tensions = rest.cables.iter().map(|c| c.tension_platform).fold(0.0, f64::max);
-            let rounding = 1e-9 * size_of_tensions / step;
+            let Some((error, size, added, rounding)) = smooth else { continue };
             assert!(
                 error <= 1e-5 * size + added + rounding,
                 "{}, {what}: {error:e} of {size:e}, extrapolation {added:e}, rounding {rounding:e}",
                 case.name
             );
             compared += 1;
+            centres += usize::from(is_centre);
             limited += usize::from(at_limits(&case, &rest) > 0);
         }
     }
+    assert!(centres > 40, "{centres}");
     assert!(compared > 500 && limited > 150 && refused < 10, "{compared} {limited} {refused}");
 }
 

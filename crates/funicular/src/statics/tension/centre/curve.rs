@@ -1,11 +1,11 @@
 //! Cable whose tension along the chord varies while the pose is held, its exit point following, and its limits.
 
 use super::corners::{RoundedTension, SpanForces};
-use crate::catenary::Catenary;
 use crate::catenary::space::HangingCable;
-use crate::drive::derivatives::{DriveDerivatives, OuterRow, place};
+use crate::catenary::{Catenary, Rope};
+use crate::drive::derivatives::{DriveDerivatives, OuterRow, VARIABLES, place};
 use crate::drive::{CableAtRest, tension_at_drum};
-use crate::math::Vec3;
+use crate::math::{Rotation, Vec3};
 use crate::robot::{Cable, Pose, PulleyContact, Robot};
 use crate::statics::equilibrium::CableState;
 use crate::statics::error::StaticsError;
@@ -27,6 +27,10 @@ const MIN_SLOPE: f64 = 1e-3;
 /// Minimum ratio of span to chord from which on the derivative by τ counts the motion of the exit point. A vertical
 /// cable has no direction in which its horizontal force acts.
 const MIN_COSINE: f64 = 1e-6;
+
+/// Step of differences over the size of what changes. They are of the fourth order: the step leaves 1e-12 of a second
+/// derivative, and rounding leaves 1e-12.
+const PART: f64 = 1e-3;
 
 /// Cable at a pose as a curve over its tension τ parallel to the chord.
 #[derive(Debug, Clone)]
@@ -220,29 +224,89 @@ impl<'a> TensionCurve<'a> {
     /// Derivative of the force on the platform along the curve, whose exit point follows: (60t2). `None` for a fixed
     /// exit point and for a cable that is vertical.
     fn force_by_tau_with_exit(&self) -> Option<Vec3> {
-        if !self.has_moving_exit() {
-            return None;
-        }
-        let at_rest = CableAtRest::with_span(self.span.clone(), &self.cable().anchor, self.contact);
-        let derivatives = DriveDerivatives::of(&self.span, &self.cable().anchor, at_rest.drive.as_deref()?)?;
-        let column = |rows: &[OuterRow; 3]| Vec3::from_fn(|k, _| rows[k][place::LENGTH]);
-        let (force, chord) = (column(&derivatives.force_w), column(&derivatives.chord_w));
+        let contact = self.contact.filter(|_| self.has_moving_exit())?;
+        force_by_tau_over_pulley(self.cable(), &self.span, contact)
+    }
 
-        // τ = H l/x, with horizontal force H, chord l and span x.
-        let (along_w, _) = self.span.axes_w();
-        let (chord_w, x) = (self.span.chord_w(), self.span.catenary.span());
-        let square = chord_w.norm_squared();
-        if x * x < MIN_COSINE * MIN_COSINE * square {
-            return None;
+    /// Second derivatives of the force on the platform, as far as it acts along a vector: of [`Self::force_by_tau`] by
+    /// the outer variables of the cable at the same τ, and by τ in the place of the length. The winch and the drum side
+    /// do not count at the same τ. `None` as there.
+    pub(crate) fn second_by_outer(&self, along_w: &Vec3) -> Option<OuterRow> {
+        let contact = self.contact.filter(|_| self.has_moving_exit())?;
+        let rope = self.span.catenary.rope();
+        let mut row = [0.0; VARIABLES];
+        for (variable, by) in row.iter_mut().enumerate() {
+            let size = match variable {
+                place::REACH..place::LOAD => self.span.chord_w().norm(),
+                place::LOAD..place::AXIAL_STIFFNESS => rope.weight_per_length,
+                place::AXIAL_STIFFNESS => rope.axial_stiffness,
+                place::RADIUS => contact.radius,
+                place::LENGTH => self.tau,
+                place::DRUM_SIDE | place::COMPLIANCE => continue,
+                _ => 1.0,
+            };
+            let at = |parts: f64| {
+                let force_w = self.force_by_tau_after(contact, variable, parts * PART * size)?;
+                Some(along_w.dot(&force_w))
+            };
+            *by = (8.0 * (at(1.0)? - at(-1.0)?) - (at(2.0)? - at(-2.0)?)) / (12.0 * PART * size);
         }
-        let by_length = self.tau
-            * (along_w.dot(&force) / self.span.catenary.horizontal_force() + chord_w.dot(&chord) / square
-                - along_w.dot(&chord) / x);
-        Some(force / by_length)
+        Some(row)
+    }
+
+    /// Derivative of the force by τ after a change of one of the variables of [`Self::second_by_outer`].
+    fn force_by_tau_after(&self, contact: PulleyContact, variable: usize, change: f64) -> Option<Vec3> {
+        let unit = |k: usize| Vec3::from_fn(|i, _| f64::from(u8::from(i == k)));
+        let mut cable = self.cable().clone();
+        let (mut load_w, mut rope, mut tau) = (self.span.load_w(), self.span.catenary.rope(), self.tau);
+        match variable {
+            place::REACH..place::LOAD => cable.anchor.point_w += unit(variable - place::REACH) * change,
+            place::LOAD..place::AXIAL_STIFFNESS => load_w += unit(variable - place::LOAD) * change,
+            place::AXIAL_STIFFNESS => rope.axial_stiffness += change,
+            place::LENGTH => tau += change,
+            _ => {}
+        }
+        if let Some(pulley) = &mut cable.anchor.pulley {
+            match variable {
+                place::RADIUS => pulley.radius += change,
+                place::TURN..place::DRUM_SIDE => {
+                    let turn = Rotation::from_scaled_axis(unit(variable - place::TURN) * change);
+                    pulley.entry_direction_w = turn * pulley.entry_direction_w;
+                }
+                _ => {}
+            }
+        }
+
+        let rope = Rope { weight_per_length: load_w.norm(), ..rope };
+        let up_w = -load_w / rope.weight_per_length;
+        let span = HangingCable::with_parallel_tension(self.span.start_w, self.span.end_w, up_w, rope, tau);
+        let (span, contact) = exit_points::at_own_exit_point(&cable, &span, contact, tau);
+        force_by_tau_over_pulley(&cable, &span, contact)
     }
 
     /// Cable at rest with its present tension, drum side and winch included.
     pub(crate) fn at_rest(&self) -> CableAtRest {
         CableAtRest::with_span(self.span.clone(), &self.cable().anchor, self.contact)
     }
+}
+
+/// Derivative of the force on the platform by τ for a cable with weight over a pulley, the exit point following; `None`
+/// for a vertical one.
+fn force_by_tau_over_pulley(cable: &Cable, span: &HangingCable, contact: PulleyContact) -> Option<Vec3> {
+    let at_rest = CableAtRest::with_span(span.clone(), &cable.anchor, Some(contact));
+    let derivatives = DriveDerivatives::of(span, &cable.anchor, at_rest.drive.as_deref()?)?;
+    let column = |rows: &[OuterRow; 3]| Vec3::from_fn(|k, _| rows[k][place::LENGTH]);
+    let (force, chord) = (column(&derivatives.force_w), column(&derivatives.chord_w));
+
+    // τ = H l/x, with horizontal force H, chord l and span x.
+    let (along_w, _) = span.axes_w();
+    let (chord_w, x) = (span.chord_w(), span.catenary.span());
+    let square = chord_w.norm_squared();
+    if x * x < MIN_COSINE * MIN_COSINE * square {
+        return None;
+    }
+    let by_length = span.catenary.parallel_tension()
+        * (along_w.dot(&force) / span.catenary.horizontal_force() + chord_w.dot(&chord) / square
+            - along_w.dot(&chord) / x);
+    Some(force / by_length)
 }
