@@ -84,11 +84,16 @@ impl Printed for TrajectoryResult {
                 writeln!(text, "other tensions within the limits hold the inertia times {}", significant(factor, 4));
         }
         for of in &self.extremes {
-            let (value, time) = (significant(of.value, 4), significant(of.t_s, 4));
-            let place = format!("{value} {}, cable \"{}\", at {time} s", of.unit, of.cable);
-            let _ = match &of.no_bound {
-                Some(because) => writeln!(text, "{}: no bound, {because}; beside the jumps {place}", of.what),
-                None => writeln!(text, "{}: {place}", of.what),
+            let place = of.value.map(|value| {
+                let (value, time) = (significant(value, 4), significant(of.t_s, 4));
+                format!("{value} {}, cable \"{}\", at {time} s", of.unit, of.cable)
+            });
+            let _ = match (&of.no_bound, place) {
+                (Some(because), Some(place)) => {
+                    writeln!(text, "{}: no bound, {because}; beside the jumps {place}", of.what)
+                }
+                (Some(because), None) => writeln!(text, "{}: no bound, {because}", of.what),
+                (None, place) => writeln!(text, "{}: {}", of.what, place.unwrap_or_default()),
             };
         }
         if let Some(sums) = &self.sums {

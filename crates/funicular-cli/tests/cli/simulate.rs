@@ -79,7 +79,7 @@ fn slack_is_marked_in_page_figure_and_animation() {
     let text = succeed(&[&line[..], &more].concat());
     assert!(text.contains("is slack from"), "{text}");
     let page = fs::read_to_string(&page).unwrap();
-    assert!(page.contains("The error is not known") && page.contains("Warning: ropes go slack"));
+    assert!(page.contains("The error is not known") && page.contains("ropes go slack"));
     assert!(page.contains("\"text\":\"slack\"") && page.contains("0.1 to 0.15 s: push."));
     assert!(fs::read_to_string(&figure).unwrap().contains(">slack<"));
     assert!(fs::read_to_string(&animation).unwrap().contains("attributeName=\"stroke\" calcMode=\"discrete\""));
@@ -312,9 +312,14 @@ fn files_that_other_files_name_are_not_written_over() {
                    unstrained_length_5_m,unstrained_length_6_m\n0,6.863,6.565,6.756,6.663,6.801,6.604\n\
                    0.005,6.8629,6.565,6.756,6.663,6.801,6.604\n";
     fs::write(at("table.csv"), lengths).unwrap();
-    let triangle = "solid m\nfacet normal 0 0 0\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\n\
-                    endfacet\nendsolid m\n";
-    fs::write(at("m.stl"), triangle).unwrap();
+    let corners = ["0 0 0", "1 0 0", "0 1 0", "0 0 1"];
+    let facet = |of: [usize; 3]| {
+        let vertices: String = of.map(|k| format!("vertex {}\n", corners[k])).concat();
+        format!("facet normal 0 0 0\nouter loop\n{vertices}endloop\nendfacet\n")
+    };
+    let facets = [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]].map(facet).concat();
+    let mesh_text = format!("solid m\n{facets}endsolid m\n");
+    fs::write(at("m.stl"), &mesh_text).unwrap();
     let text = fs::read_to_string(robot("yuan2014-4mm.toml")).unwrap();
     let mesh = "\n[obstacles.m]\nshape = \"mesh\"\nfile = \"m.stl\"\nposition_m = [0.0, 30.0, 0.0]\n";
     fs::write(at("robot.toml"), text + mesh).unwrap();
@@ -340,7 +345,7 @@ fn files_that_other_files_name_are_not_written_over() {
         assert_eq!(output.status.code(), Some(2), "{line:?}: {}", stderr(&output));
         assert!(stderr(&output).contains(says), "{line:?}: {}", stderr(&output));
         assert_eq!(fs::read_to_string(at("table.csv")).unwrap(), lengths);
-        assert_eq!(fs::read_to_string(at("m.stl")).unwrap(), triangle);
+        assert_eq!(fs::read_to_string(at("m.stl")).unwrap(), mesh_text);
     }
 }
 

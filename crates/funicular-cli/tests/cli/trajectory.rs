@@ -161,10 +161,10 @@ fn faults_are_named_with_their_place() {
 }
 
 /// Value of an extreme, and the reason why it has no bound.
-fn extreme(found: &serde_json::Value, what: &str) -> (f64, Option<String>) {
+fn extreme(found: &serde_json::Value, what: &str) -> (Option<f64>, Option<String>) {
     let all = found["extremes"].as_array().unwrap();
     let of = all.iter().find(|of| of["what"] == what).unwrap();
-    (number(&of["value"]), of["no_bound"].as_str().map(str::to_owned))
+    (of["value"].as_f64(), of["no_bound"].as_str().map(str::to_owned))
 }
 
 #[test]
@@ -183,13 +183,20 @@ fn what_is_largest_does_not_depend_on_the_rows() {
         assert_eq!(no_bound.is_some(), jumps, "{more:?} {no_bound:?}");
         for step in ["0.01", "0.002", "0.001"] {
             let found = of(step);
+            let near = |finer: Option<f64>, coarse: Option<f64>| match (finer, coarse) {
+                (Some(finer), Some(coarse)) => (finer - coarse).abs() < 0.01 * coarse,
+                // Beside limits of tensions no acceleration is told.
+                (None, None) => more.contains(&"--min-tension-n"),
+                _ => false,
+            };
             let (finer, _) = extreme(&found, "largest speed");
-            assert!((finer - speed).abs() < 0.01 * speed, "{more:?} {step}: {finer} {speed}");
+            assert!(near(finer, speed), "{more:?} {step}: {finer:?} {speed:?}");
             let (finer, _) = extreme(&found, "largest acceleration");
-            assert!((finer - acceleration).abs() < 0.01 * acceleration, "{more:?} {step}: {finer} {acceleration}");
+            assert!(near(finer, acceleration), "{more:?} {step}: {finer:?} {acceleration:?}");
 
             // No row has more, and no difference of two rows.
             let rows = found["rows"].as_array().unwrap();
+            let speed = speed.unwrap();
             for pair in rows.windows(2) {
                 let [before, after] = [0, 1].map(|k| numbers(&pair[k]["unstrained_lengths_m"]));
                 let time = number(&pair[1]["t_s"]) - number(&pair[0]["t_s"]);
@@ -233,7 +240,8 @@ fn used_parts_of_tensions_are_those_of_the_tensions() {
     let found = moved(&["--min-tension-n", "150", "--max-tension-n", "900"]);
     let used = found["used"].as_array().unwrap();
     let part = |limit: &str| number(&used.iter().find(|of| of["limit"] == limit).unwrap()["part"]);
-    let (largest, lowest) = (extreme(&found, "largest tension").0, extreme(&found, "lowest tension").0);
+    let (largest, lowest) =
+        (extreme(&found, "largest tension").0.unwrap(), extreme(&found, "lowest tension").0.unwrap());
     assert!((part("maximum-tension") - largest / 900.0).abs() < 1e-9);
     // The lowest tension of a cable may lie between its ends.
     assert!(part("minimum-tension") >= 150.0 / lowest - 1e-9 && part("minimum-tension") < 1.02 * 150.0 / lowest);
@@ -289,7 +297,7 @@ fn rounded_rows_are_named_and_smoothed() {
     let tension = |more: &[&str]| {
         let line = line(more);
         let line: Vec<&str> = line.iter().map(String::as_str).collect();
-        (extreme(&json(&line), "largest tension").0, stderr(&run(&line)).to_owned())
+        (extreme(&json(&line), "largest tension").0.unwrap(), stderr(&run(&line)).to_owned())
     };
 
     write(0.01, 9);
@@ -317,8 +325,9 @@ fn rounded_rows_are_named_and_smoothed() {
     let owned = line(&[]);
     let output = run(&owned.iter().map(String::as_str).collect::<Vec<_>>());
     assert!(stderr(&output).contains("rounded to 0.001 m") && stderr(&output).contains("rows "), "{}", stderr(&output));
+    // Half a millimetre of freedom takes 2 % from the peak at the end.
     let (smooth, _) = tension(&["--row-tolerance-m", "0.0005"]);
-    assert!((smooth - exact).abs() < 0.01 * exact, "{smooth} {exact}");
+    assert!((smooth - exact).abs() < 0.03 * exact, "{smooth} {exact}");
 
     let without = run(&[&["trajectory", &cogiro], &MOVE[..], &COURSE, &["--row-tolerance-m", "0.1"]].concat());
     assert_eq!(without.status.code(), Some(2));
@@ -371,7 +380,7 @@ fn a_rule_that_jumps_has_no_rate_across_the_jump() {
         let found = json(&line);
         assert_eq!(found["rule_jumps"].as_array().unwrap().len(), jumps, "{rule}");
         let (speed, no_bound) = extreme(&found, "largest speed");
-        assert!(speed < 0.02, "{rule}: {speed}");
+        assert!(speed.unwrap() < 0.02, "{rule}: {speed:?}");
         assert_eq!(no_bound.is_some(), jumps > 0);
         let warnings = stderr(&run(&line)).to_owned();
         assert_eq!(warnings.contains("the rule `middle` jumps to other tensions at 1 time"), jumps > 0, "{warnings}");

@@ -69,7 +69,8 @@ fn extremes(found: &TrajectoryResult) -> PageTable {
     let mut table = PageTable::new("table-extremes", caption, &["<number", "value", "<unit", "<cable", "at|s"]);
     for of in &found.extremes {
         let time = fixed(of.t_s, 3);
-        let value = if of.no_bound.is_some() { "no bound".to_owned() } else { significant(of.value, 4) };
+        let bounded = of.value.filter(|_| of.no_bound.is_none());
+        let value = bounded.map_or_else(|| "no bound".to_owned(), |value| significant(value, 4));
         table.row(vec![of.what.to_owned(), value, of.unit.to_owned(), of.cable.clone(), time]);
     }
     table

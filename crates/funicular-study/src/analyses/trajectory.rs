@@ -131,12 +131,14 @@ pub struct MostUsed {
 pub struct Extreme {
     /// Name of the number.
     pub what: &'static str,
-    pub value: f64,
+    /// Largest beside the jumps where the number has no bound; absent where rates jump because tensions reach limits,
+    /// near which they change too fast for a number that does not depend on the rows.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub value: Option<f64>,
     pub unit: &'static str,
     pub cable: String,
     pub t_s: f64,
-    /// Reason why the number has no bound, with the place of the largest jump; the value is then the largest beside the
-    /// jumps.
+    /// Reason why the number has no bound, with the place of the largest jump.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub no_bound: Option<String>,
 }
@@ -409,7 +411,7 @@ fn extremes(planned: &Planned, samples: &MotionSamples) -> Vec<Extreme> {
         let (k, i, value) = each.max_by(|a, b| a.2.total_cmp(&b.2))?;
         Some(Extreme {
             what,
-            value: value.abs(),
+            value: (!told::jumps_at_limits(samples, what)).then_some(value.abs()),
             unit,
             cable: robot.cables[i].name.clone(),
             t_s: samples.times[k],

@@ -19,8 +19,8 @@ pub(super) struct History {
 
 impl History {
     /// Motion up to a time [s], or for some periods if it never settles, with enough points per period of every mode
-    /// that counts. If these are too many, the fastest modes are left out, because too few points would show them as slow
-    /// ones.
+    /// that counts. If these are too many, the fastest modes are left out, because too few points would show them as
+    /// slow ones.
     pub(super) fn of(decay: &Decay, until: f64) -> Self {
         let largest = decay.motions.iter().map(DecayingMotion::size).fold(0.0, f64::max);
         let counts = || decay.motions.iter().filter(move |motion| motion.size() >= SMALL * largest);

@@ -56,6 +56,12 @@ pub(super) fn no_bound(planned: &Planned, samples: &MotionSamples, what: &str) -
     Some(format!("because {} ({})", worst.because(planned), worst.told(planned.robot)))
 }
 
+/// True if the rates of lengths jump where tensions reach limits, so that the acceleration has no number.
+pub(super) fn jumps_at_limits(samples: &MotionSamples, what: &str) -> bool {
+    let is_at_limit = |jump: &LengthJump| matches!(jump.cause, JumpCause::Limits(_)) && jump.rate_jumps().is_some();
+    what == ACCELERATION && samples.jumps.iter().any(is_at_limit)
+}
+
 /// Warning about a rule that goes over to other tensions on the way.
 pub(super) fn rule_that_jumps(planned: &Planned, samples: &MotionSamples) -> Option<String> {
     let jumps: Vec<&LengthJump> = samples.jumps.iter().filter(|jump| jump.cause == JumpCause::Rule).collect();
@@ -101,21 +107,21 @@ pub(super) fn notes(planned: &Planned, samples: &MotionSamples, extremes: &[Extr
 /// Reason why the fastest cable is faster than its end at the platform.
 fn fast_cable(planned: &Planned, samples: &MotionSamples, extremes: &[Extreme]) -> Option<String> {
     let fastest = extremes.iter().find(|of| of.what == SPEED)?;
+    let speed = fastest.value?;
     let i = planned.robot.cables.iter().position(|cable| cable.name == fastest.cable)?;
-    let k = (0..samples.times.len()).find(|k| {
-        samples.times[*k] == fastest.t_s && samples.winch(planned.robot, *k, i).speed.abs() == fastest.value
-    })?;
+    let k = (0..samples.times.len())
+        .find(|k| samples.times[*k] == fastest.t_s && samples.winch(planned.robot, *k, i).speed.abs() == speed)?;
 
     let point = &samples.motions[k].point;
     let [velocity, omega]: [Vec3; 2] = point.twist();
     let end = (velocity + omega.cross(&(point.pose.rot_wp * planned.robot.cables[i].attachment_p))).norm();
-    (fastest.value > FAST * end && fastest.value > 1e-3).then(|| {
+    (speed > FAST * end && speed > 1e-3).then(|| {
         format!(
             "cable \"{}\" runs at {} m/s while its end at the platform moves at {} m/s: its tension changes, and the slack \
              of its sag is wound in or paid out; higher tensions (⟪tension_rule⟫, ⟪min_tension_n⟫) or a smaller jerk \
              make it slower",
             fastest.cable,
-            significant(fastest.value, 3),
+            significant(speed, 3),
             significant(end, 3)
         )
     })

@@ -27,6 +27,17 @@ const MAX_STEPS: usize = 16;
 /// Maximum relative distance of a followed zero from a listed one that is the same.
 const SAME_ZERO: f64 = 1e-7;
 
+/// Relative distance of two modes up to which they may have been exchanged.
+const BESIDE: f64 = 0.01;
+
+/// Relative distance of a zero from the damping of first order up to which it is that of the mode: light damping leaves
+/// its square, 1e-5.
+const OF_FIRST_ORDER: f64 = 1e-3;
+
+/// Relative distance of zeros up to which an answer is the same: a threefold zero is found to 1e-5, the third root of
+/// rounding.
+const SAME_ANSWER: f64 = 2e-5;
+
 /// Robot whose modes are followed.
 pub(super) struct FollowedMode<'a> {
     pub(super) dynamics: &'a Dynamics,
@@ -104,6 +115,7 @@ impl FollowedMode<'_> {
                 }
             }
         }
+        let unclear = exchangeable(modes, &found, &unclear);
         let modes = found.into_iter().zip(zeros).map(|(found, own)| found.unwrap_or(*own)).collect();
         let others = places.iter().flat_map(|place| std::iter::repeat_n(place.zero, place.free)).collect();
         Pairs { modes, unclear, others }
@@ -158,6 +170,21 @@ impl FollowedMode<'_> {
         }
         None
     }
+}
+
+/// Modes of those without a clear zero for which it matters which one they have: their zero is not that of their
+/// damping of first order, or a mode beside them has another one. Zeros of modes of one frequency are one, except for
+/// rounding.
+fn exchangeable(modes: &[Mode], found: &[Option<DampedMode>], unclear: &[usize]) -> Vec<usize> {
+    let apart = |a: Complex, b: Complex, part: f64| (a - b).norm() > part * a.norm();
+    let of_first_order = |k: usize| modes[k].frequency_hz * TAU * Complex::new(1.0, modes[k].damping_ratio);
+    let matters = |k: usize| {
+        let Some(zero) = found[k] else { return true };
+        let beside = unclear.iter().filter(|j| **j != k && !apart(of_first_order(k), of_first_order(**j), BESIDE));
+        apart(zero.omega, of_first_order(k), OF_FIRST_ORDER)
+            || beside.into_iter().any(|j| found[*j].is_none_or(|other| apart(zero.omega, other.omega, SAME_ANSWER)))
+    };
+    unclear.iter().copied().filter(|k| matters(*k)).collect()
 }
 
 /// Distinct places of zeros.

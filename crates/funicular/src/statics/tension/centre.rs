@@ -285,7 +285,8 @@ impl<'a> CentreSearch<'a> {
         self.cables.iter().any(|cable| cable.curve.has_moving_exit())
     }
 
-    /// Newton's step (40b6); `None` if its matrix is singular. `follows` lets the exit points follow in the derivatives.
+    /// Newton's step (40b6); `None` if its matrix is singular. `follows` lets the exit points follow in the
+    /// derivatives.
     fn step(&self, follows: bool) -> Option<CentreStep> {
         let y = &self.multipliers;
         let (mut balance, mut matrix, mut right) = (self.load, Mat6::zeros(), Vec6::zeros());
@@ -308,8 +309,8 @@ impl<'a> CentreSearch<'a> {
         Some(CentreStep { tau: tau.collect(), multipliers })
     }
 
-    /// Solution of `S Δy = right`; `None` if there is none. If the cables do not span the degrees of freedom, that in the
-    /// wrenches which they span.
+    /// Solution of `S Δy = right`; `None` if there is none. If the cables do not span the degrees of freedom, that in
+    /// the wrenches which they span.
     fn solved(&self, matrix: &Mat6, right: &Vec6, rows: &[(Vec6, f64, f64)]) -> Option<Vec6> {
         let n = self.coordinates.count();
         if let Some(solution) = solved_if_regular(matrix, right, n) {

@@ -181,8 +181,8 @@ fn tensions_over_pulleys_follow_their_rule_with_every_number_of_the_robot() {
     assert!(by_rule.iter().all(|count| *count > 80) && refused < 10, "{by_rule:?} {refused}");
 }
 
-/// Centre of the tensions, which the same robots over pulleys have within given limits and above a default minimum; many
-/// of their ropes sag so deeply that the exit points move with the tensions.
+/// Centre of the tensions, which the same robots over pulleys have within given limits and above a default minimum;
+/// many of their ropes sag so deeply that the exit points move with the tensions.
 #[test]
 fn the_centre_over_pulleys_follows_every_number_of_the_robot() {
     let (mut compared, mut worst) = (0, 0.0_f64);
