@@ -620,7 +620,7 @@ mod tests {
             let mut values: Vec<f64> = (0..length)
                 .map(|_| {
                     state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-                    1.0 + (state >> 40) as f64 / (1 << 24) as f64
+                    1.0 + (state >> 40) as f64 / f64::from(1 << 24)
                 })
                 .collect();
             values.sort_by(f64::total_cmp);

@@ -1,6 +1,8 @@
 //! Words of the user in messages: the known name nearest to a mistyped one ("did you mean", with one measure and one
 //! limit for all messages), and text of any length and content made fit for a terminal.
 
+use std::fmt::Write;
+
 /// Minimum similarity (Jaro-Winkler, 0 to 1) at which a known name is suggested: `mas` has 0.87 with `mass_kg`, which
 /// is meant; `mass_kg_per_m` has 0.66 with `name`, which is not.
 const MIN_SIMILARITY: f64 = 0.8;
@@ -128,7 +130,9 @@ fn with_exponents(word: &str) -> String {
         let number = digits[..until].trim_end_matches('.');
         out.push_str(before);
         match number.parse::<f64>() {
-            Ok(value) if number.len() > NUMBER && value.is_finite() => out.push_str(&format!("{value:e}")),
+            Ok(value) if number.len() > NUMBER && value.is_finite() => {
+                let _ = write!(out, "{value:e}");
+            }
             _ => out.push_str(number),
         }
         rest = &digits[number.len()..];

@@ -510,13 +510,15 @@ fn of_diameters(robot: &Robot) -> Vec<Warning> {
     let (mut none, mut metal): (Vec<String>, Vec<(String, f64)>) = Default::default();
     for cable in &robot.cables {
         let (rope, name) = (&cable.material.dimensions, &cable.material.name);
-        match (rope.drag_diameter, rope.section) {
-            (Some(_), _) | (None, Some(RopeSection::Diameter(_))) => {}
-            (None, Some(RopeSection::Area(_))) if !metal.iter().any(|(known, _)| known == name) => {
+        if rope.drag_diameter.is_some() {
+            continue;
+        }
+        match rope.section {
+            Some(RopeSection::Area(_)) if !metal.iter().any(|(known, _)| known == name) => {
                 metal.push((name.clone(), 2.0 * cable.radius()));
             }
-            (None, None) if !none.contains(name) => none.push(name.clone()),
-            (None, _) => {}
+            None if !none.contains(name) => none.push(name.clone()),
+            _ => {}
         }
     }
     let none = (!none.is_empty()).then_some(Warning::NoDiameter { ropes: none });

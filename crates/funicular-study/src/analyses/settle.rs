@@ -35,7 +35,7 @@ use funicular::modes::damped::DampedModes;
 use funicular::modes::{self, CommandedMotions, Decay, DecayingMotion, LengthCommand, Modes, Release};
 use funicular::robot::Robot;
 use funicular::statics::{Equilibrium, Stability, StaticModel};
-use history::History;
+use history::SwingHistory;
 use motion::MotionKind;
 use release::UnderWrench;
 use serde::Serialize;
@@ -217,7 +217,7 @@ pub fn about(at_rest: &AtRest, request: &SettleRequest) -> Result<Settled> {
     let surely_settled = decay.surely_settled(tolerance);
     let without = moved.without.as_ref().map(|decay| decay.surely_settled(tolerance));
     let shown_until = without.filter(|time| time.is_finite()).map_or(surely_settled, |time| surely_settled.max(time));
-    let History { rows: history, up_to_hz, peak } = History::of(decay, shown_until);
+    let SwingHistory { rows: history, up_to_hz, peak } = SwingHistory::of(decay, shown_until);
     warnings.extend(up_to_hz.map(history::caveat));
     let held = moved.held.as_ref().map_or(0.0, |held| Vec3::from(held.held_m).norm());
     let during = moved.commanded.as_ref().map_or(&[][..], |commanded| &commanded.during);

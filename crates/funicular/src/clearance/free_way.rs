@@ -31,12 +31,11 @@ impl Surroundings<'_> {
         let mut station = |fraction: f64, of: Option<&[usize]>| {
             let rest = rest_at(&straight.pose(fraction)).ok()?;
             let all: Vec<usize>;
-            let of = match of {
-                Some(of) => of,
-                None => {
-                    all = (0..self.at(&rest).pairs().len()).collect();
-                    &all
-                }
+            let of = if let Some(of) = of {
+                of
+            } else {
+                all = (0..self.at(&rest).pairs().len()).collect();
+                &all
             };
             let station = self.station(fraction, &rest, of);
             let is_free = station.clearances.iter().flatten().all(Clearance::is_kept);

@@ -220,7 +220,9 @@ impl Surroundings<'_> {
         let ways: Vec<f64> = pairs.iter().map(|pair| self.way_of(*pair, straight)).collect();
 
         let mut found: Vec<Option<OnTheWay>> = vec![None; pairs.len()];
-        ends.iter().for_each(|station| keep_least(&mut found, station));
+        for station in &ends {
+            keep_least(&mut found, station);
+        }
         let mut sided: Vec<(usize, [Rc<Station>; 2])> = Vec::new();
 
         // Parts of the way, the nearest one last. Each is divided for those pairs alone that may be nearer in it than
@@ -270,7 +272,9 @@ impl Surroundings<'_> {
         let at = self.at(rest);
         let pairs = at.pairs();
         let mut clearances: Vec<Option<Clearance>> = vec![None; pairs.len()];
-        of.iter().for_each(|k| clearances[*k] = at.clearance(pairs[*k], f64::INFINITY));
+        for k in of {
+            clearances[*k] = at.clearance(pairs[*k], f64::INFINITY);
+        }
         let sides = clearances.iter().map(|found| found.map_or(0.0, |found| at.side(&found))).collect();
         let sagittas = at.spans.iter().map(|span| span.arc([0.0, span.length]).sagitta).collect();
         Station { fraction, clearances, sides, sagittas }

@@ -69,7 +69,7 @@ impl Dynamics {
         }
         let motion = at.motion(0);
         let slope = at.product(&at.left(&motion), &motion);
-        Some(at.damped_motion(motion, slope))
+        Some(at.damped_motion(&motion, slope))
     }
 
     /// Motions at zeros that lie so near to each other that one ω [rad/s] stands for all: at least `count`, independent
@@ -104,7 +104,7 @@ impl Dynamics {
             let sum = |i: usize| -> Complex { all.iter().enumerate().map(|(j, of)| of[i] * vectors[(j, k)]).sum() };
             let motion: Vec<Complex> = (0..all[0].len()).map(sum).collect();
             // D(ω) + (ω_k − ω) D'(ω) is zero along the motion.
-            (-places[k], at.damped_motion(motion, Complex::new(1.0, 0.0)))
+            (-places[k], at.damped_motion(&motion, Complex::new(1.0, 0.0)))
         });
         Some(found.collect())
     }
@@ -242,7 +242,7 @@ impl<'d> ZeroVectors<'d> {
     }
 
     /// Parts of a motion with the derivative of its quadratic form.
-    fn damped_motion(&self, motion: Vec<Complex>, slope: Complex) -> DampedMotion {
+    fn damped_motion(&self, motion: &[Complex], slope: Complex) -> DampedMotion {
         let dof = self.dynamics.dof();
         let near = self.near.iter().enumerate();
         let near: Vec<_> = near.map(|(k, (t, family, index))| (*t, *family, *index, motion[dof + k])).collect();

@@ -39,14 +39,15 @@ impl BoundaryMesh {
         // The set lies above a face in the plane that looks down, so the section passes just above its vertices;
         // elsewhere just below those in the plane.
         let height = |vertex: usize| self.vertices()[vertex][axis];
+        let is_in_plane = |vertex: usize| height(vertex).total_cmp(&at).is_eq();
         let mut passes_above: BTreeSet<usize> = BTreeSet::new();
-        for triangle in self.triangles().iter().filter(|triangle| triangle.iter().all(|i| height(*i) == at)) {
+        for triangle in self.triangles().iter().filter(|triangle| triangle.iter().all(|i| is_in_plane(*i))) {
             let [a, b, c] = triangle.map(|i| self.vertices()[i]);
             if (b - a).cross(&(c - a))[axis] < 0.0 {
                 passes_above.extend(triangle);
             }
         }
-        let is_above = |vertex: usize| height(vertex) > at || height(vertex) == at && !passes_above.contains(&vertex);
+        let is_above = |vertex: usize| height(vertex) > at || is_in_plane(vertex) && !passes_above.contains(&vertex);
         let cut = |[a, b]: [usize; 2]| {
             let [from, to] = [a, b].map(|vertex| self.vertices()[vertex]);
             let rise = to[axis] - from[axis];

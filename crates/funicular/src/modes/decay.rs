@@ -282,7 +282,9 @@ fn groups(zeros: &[(Option<usize>, Complex)]) -> Vec<Vec<usize>> {
             None => groups.push(vec![k]),
         }
     }
-    groups.iter_mut().for_each(|group| group.sort_unstable());
+    for group in &mut groups {
+        group.sort_unstable();
+    }
     groups.sort_by_key(|group| group[0]);
     groups
 }

@@ -37,7 +37,7 @@ pub(super) fn signal_at(dynamics: &Dynamics, free: &PoleMotion, i: usize, signal
     if signal == DriveSignal::Length && dynamics.is_at_rest(i) {
         return None;
     }
-    let moved = CableMotion::of(dynamics, free, i)?;
+    let moved = CableSignal::of(dynamics, free, i)?;
     let near = moved.near_poles(dynamics, free, i);
     if near.iter().any(|pole| pole.gap <= MAX_GAP) {
         return moved.on_circle(signal, free.omega, near);
@@ -46,7 +46,7 @@ pub(super) fn signal_at(dynamics: &Dynamics, free: &PoleMotion, i: usize, signal
 }
 
 /// Motion of the ends of a cable.
-struct CableMotion<'a> {
+struct CableSignal<'a> {
     form: &'a CatenaryDynamicEnd,
     /// Motion of the platform end in the axes (e, n, b) of the cable.
     end: [Complex; 3],
@@ -66,7 +66,7 @@ struct Near {
     gap: f64,
 }
 
-impl<'a> CableMotion<'a> {
+impl<'a> CableSignal<'a> {
     fn of(dynamics: &'a Dynamics, free: &PoleMotion, i: usize) -> Option<Self> {
         let t = dynamics.terms().iter().position(|term| term.cable() == i)?;
         let term = &dynamics.terms()[t];
@@ -189,7 +189,7 @@ mod tests {
             let mut compared = 0;
             for free in pole_motions(&dynamics, &found, &damped).unwrap() {
                 for (i, signal) in (0..4).flat_map(|i| [DriveSignal::Length, DriveSignal::Tension].map(|of| (i, of))) {
-                    let moved = CableMotion::of(&dynamics, &free, i).unwrap();
+                    let moved = CableSignal::of(&dynamics, &free, i).unwrap();
                     assert!(signal_at(&dynamics, &free, i, signal).unwrap().norm().is_finite());
                     let near = moved.near_poles(&dynamics, &free, i);
                     if near.is_empty() || near.iter().any(|pole| pole.gap <= MAX_GAP) {

@@ -35,10 +35,8 @@ pub fn length_accelerations(
 ) -> Vec<Vec<f64>> {
     assert!(times.len() == lengths.len() && times.len() == rates.len(), "as many rows of each");
     let row = |k: usize| {
-        let smooth = [
-            neighbour(k, (0..k).rev(), times, |j| belongs(j)),
-            neighbour(k, k + 1..times.len(), times, |j| belongs(j - 1)),
-        ];
+        let smooth =
+            [neighbour(k, (0..k).rev(), times, &belongs), neighbour(k, k + 1..times.len(), times, |j| belongs(j - 1))];
         let any = [neighbour(k, (0..k).rev(), times, |_| true), neighbour(k, k + 1..times.len(), times, |_| true)];
         let used = if smooth == [None, None] { any } else { smooth };
 

@@ -9,7 +9,7 @@ use std::f64::consts::TAU;
 const PERIODS: f64 = 20.0;
 
 /// History of a decay.
-pub(super) struct History {
+pub(super) struct SwingHistory {
     pub(super) rows: Vec<HistoryRow>,
     /// Frequency up to which modes are in the rows; `None` if all are.
     pub(super) up_to_hz: Option<f64>,
@@ -17,7 +17,7 @@ pub(super) struct History {
     pub(super) peak: f64,
 }
 
-impl History {
+impl SwingHistory {
     /// Motion up to a time [s], or for some periods if it never settles, with enough points per period of every mode
     /// that counts. If these are too many, the fastest modes are left out, because too few points would show them as
     /// slow ones.

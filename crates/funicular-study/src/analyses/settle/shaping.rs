@@ -1,6 +1,6 @@
 //! Shaper of a command: the modes that it cancels, its impulses, and what it leaves if the frequencies are others.
 
-use super::history::History;
+use super::history::SwingHistory;
 use super::{HistoryRow, finite};
 use crate::request::SettleRequest;
 use anyhow::{Result, anyhow, bail};
@@ -166,7 +166,7 @@ impl Shaping {
             robustness: FACTORS.map(robustness).to_vec(),
             settled_without_s: finite(without.settled(tolerance)),
             surely_settled_without_s: finite(surely),
-            history_without: History::of(without, surely).rows,
+            history_without: SwingHistory::of(without, surely).rows,
         }
     }
 }

@@ -34,6 +34,16 @@ impl CarrierMotion {
 }
 
 impl CatenaryDynamicEnd {
+    /// Amplitudes of clamped modes for a motion of the carrier of the far end at ω [rad/s], the platform end held.
+    pub(crate) fn amplitudes_by_carrier(
+        &self,
+        motion: &CarrierMotion,
+        omega: Complex,
+        modes: &[(Family, usize)],
+    ) -> Vec<Complex> {
+        self.motion_by_carrier(&self.cable, motion, omega).of_modes(modes)
+    }
+
     /// Forces on the motions of the drive that a motion of the carrier brings about, those of the chain and then that
     /// sideways if there is one: constant part [N], and part per ω_c² [kg m].
     ///

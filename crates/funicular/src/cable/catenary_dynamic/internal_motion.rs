@@ -1,6 +1,6 @@
 //! Motion of the points along a cable, from the motion of its ends and the amplitudes of its clamped modes.
 
-use super::{CarrierMotion, CatenaryDynamic, CatenaryDynamicEnd, Family, PoleResidue};
+use super::{CatenaryDynamic, CatenaryDynamicEnd, Family, PoleResidue};
 use crate::math::{Complex, DMat};
 use std::array::from_fn;
 
@@ -180,7 +180,7 @@ impl InternalMotion {
     }
 
     /// Amplitudes of some clamped modes, by family and index [m √kg].
-    fn of_modes(mut self, modes: &[(Family, usize)]) -> Vec<Complex> {
+    pub(super) fn of_modes(mut self, modes: &[(Family, usize)]) -> Vec<Complex> {
         modes.iter().map(|(family, index)| self.amplitudes(*family)[*index]).collect()
     }
 
@@ -206,16 +206,6 @@ impl CatenaryDynamicEnd {
         let (square, losses) = (self.square(omega), self.beyond_undamped(omega, 1.0));
         let moved = InternalMotion::new(&self.cable, start, square);
         moved.with_drive(&self.cable, &losses, square).of_modes(modes)
-    }
-
-    /// Amplitudes of clamped modes for a motion of the carrier of the far end at ω [rad/s], the platform end held.
-    pub(crate) fn amplitudes_by_carrier(
-        &self,
-        motion: &CarrierMotion,
-        omega: Complex,
-        modes: &[(Family, usize)],
-    ) -> Vec<Complex> {
-        self.motion_by_carrier(&self.cable, motion, omega).of_modes(modes)
     }
 
     /// Mass of the cable at its held platform end, the sum over all directions [kg].

@@ -96,7 +96,9 @@ impl FollowedMode<'_> {
                 _ => outside.push((k, zero)),
             }
         }
-        outside.into_iter().for_each(|(k, zero)| found[k] = Some(zero));
+        for (k, zero) in outside {
+            found[k] = Some(zero);
+        }
 
         // What is left goes to its own start, or to the nearest zero that is left.
         let unclear: Vec<usize> = (0..modes.len()).filter(|k| found[*k].is_none()).collect();

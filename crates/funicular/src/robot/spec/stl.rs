@@ -98,7 +98,7 @@ impl Word<'_> {
 
 /// Words of a text in their order.
 struct Words<'a> {
-    words: std::iter::Peekable<std::vec::IntoIter<Word<'a>>>,
+    ahead: std::iter::Peekable<std::vec::IntoIter<Word<'a>>>,
     /// Line of the word that was read last.
     line: usize,
     /// Line at which the solid begins.
@@ -118,13 +118,13 @@ fn read_text(bytes: &[u8]) -> Result<Vec<Corners>, StlError> {
             words.take(if is_named { 1 } else { usize::MAX })
         })
         .collect();
-    let mut words = Words { words: words.into_iter().peekable(), line: 1, begins: 1 };
+    let mut words = Words { ahead: words.into_iter().peekable(), line: 1, begins: 1 };
 
     let mut corners = Vec::new();
-    while words.words.peek().is_some() {
+    while words.ahead.peek().is_some() {
         words.expect(SOLID)?;
         words.begins = words.line;
-        while words.words.peek().is_some_and(|word| word.is(FACET)) {
+        while words.ahead.peek().is_some_and(|word| word.is(FACET)) {
             corners.push(words.facet()?);
         }
         words.expect(END_OF_SOLID)?;
@@ -134,7 +134,7 @@ fn read_text(bytes: &[u8]) -> Result<Vec<Corners>, StlError> {
 
 impl<'a> Words<'a> {
     fn next(&mut self, expected: &'static str) -> Result<Word<'a>, StlError> {
-        let Self { words, line, begins } = self;
+        let Self { ahead: words, line, begins } = self;
         let word = words.next().ok_or(StlError::CutOff { line: *line, expected, begins: *begins })?;
         *line = word.line;
         Ok(word)
