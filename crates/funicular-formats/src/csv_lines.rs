@@ -54,7 +54,7 @@ impl TableForm {
             all.filter(|line| !line.is_empty() && line[0] != b'#')
         };
         let first = lines().next();
-        let count = |delimiter: u8| first.map_or(0, |line| line.iter().filter(|byte| **byte == delimiter).count());
+        let count = |delimiter: u8| first.map_or(0, |line| line.split(|byte| *byte == delimiter).count() - 1);
         // Of equal counts the comma is taken.
         let frequent = [b';', b'\t', b','].into_iter().max_by_key(|delimiter| count(*delimiter)).unwrap_or(b',');
         let delimiter = stated.unwrap_or(frequent);

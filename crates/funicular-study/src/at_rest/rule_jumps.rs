@@ -139,9 +139,9 @@ fn jump_between(
         let middle = 0.5 * (from.0 + to.0);
         let at = tensions(middle)?;
         if change(&from.1, &at).1 > change(&at, &to.1).1 {
-            to = (middle, at)
+            to = (middle, at);
         } else {
-            from = (middle, at)
+            from = (middle, at);
         }
         if change(&from.1, &to.1).1 < LEFT * initial {
             return None;

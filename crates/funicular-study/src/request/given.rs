@@ -455,8 +455,9 @@ mod tests {
         match kind {
             Kind::Number(_) | Kind::Written(ProgramForm::Positive | ProgramForm::NotNegative) => Some(json!(number)),
             Kind::Count(_) if number.fract() == 0.0 => Some(json!(number as i64)),
-            Kind::PerCable(_) | Kind::OneOrPerCable(_) => Some(json!([number])),
-            Kind::List(ProgramForm::Positive | ProgramForm::NotNegative)
+            Kind::PerCable(_)
+            | Kind::OneOrPerCable(_)
+            | Kind::List(ProgramForm::Positive | ProgramForm::NotNegative)
             | Kind::Commas(ProgramForm::Positive | ProgramForm::NotNegative) => Some(json!([number])),
             Kind::Vector => Some(json!([0, number, 0])),
             Kind::Pose | Kind::Tensor => Some(json!([0, 0, number, 0, 0, 0])),

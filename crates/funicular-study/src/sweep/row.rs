@@ -33,7 +33,9 @@ pub(super) fn cells(
                 && let State::Pose(pose) = &**state
                 && point.holder.is_none()
             {
-                quantities.iter().for_each(|quantity| quantity.values_without_rest(robot, pose, out));
+                for quantity in quantities {
+                    quantity.values_without_rest(robot, pose, out);
+                }
             }
             out.resize(begin + width, Value::Nothing);
         }

@@ -67,11 +67,14 @@ fn a_ball_has_its_volume_area_and_centroid() {
     assert!(before < 2e-3 * volume);
 }
 
+/// Function whose values that are not negative are a set.
+type SetFunction = Box<dyn Fn(&Vec3) -> Option<f64>>;
+
 /// Set of a known volume within a cube of half side 1.
 struct KnownSet {
     name: &'static str,
     volume: f64,
-    value: Box<dyn Fn(&Vec3) -> Option<f64>>,
+    value: SetFunction,
 }
 
 /// Sets that are smooth, have edges, tips or a plateau at zero, or are thin, moved and turned a little.
@@ -145,7 +148,7 @@ fn a_plateau_at_zero_loses_nothing() {
     let half = Vec3::new(0.731, 0.577, 0.413);
     let distance = move |point: &Vec3| (0..3).map(|k| half[k] - point[k].abs()).fold(f64::INFINITY, f64::min);
     let rounding = |point: &Vec3| 1e-16 * (1.0 + (1e3 * point.x).sin());
-    let kinds: [Box<dyn Fn(&Vec3) -> Option<f64>>; 4] = [
+    let kinds: [SetFunction; 4] = [
         Box::new(move |point| Some(distance(point).min(0.0))),
         Box::new(move |point| Some(if distance(point) >= 0.0 { rounding(point) } else { -1e3 })),
         Box::new(move |point| (distance(point) >= 0.0).then(|| rounding(point))),

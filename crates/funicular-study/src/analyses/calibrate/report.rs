@@ -286,7 +286,9 @@ impl<'a> CalibrationReport<'a> {
 
         // A wrong row drags the fit, whose linearisation blames others: what fits without it say counts.
         if !self.wrong.rows.is_empty() {
-            rows.iter_mut().for_each(|row| row.outlier = false);
+            for row in &mut rows {
+                row.outlier = false;
+            }
         }
         for wrong in &self.wrong.rows {
             let moved: Vec<f64> = self.fit().values.iter().zip(&wrong.values).map(|(a, b)| a - b).collect();

@@ -29,17 +29,13 @@ pub(super) fn counts(
     arm_w: &Vec3,
 ) -> bool {
     let most = COUNTS * request.tolerance_m;
-    match command {
-        Some(command) => {
-            let linearisation = at_rest::linearisation(&request.model, at_rest.equilibrium.model);
-            let bounds = bounds(at_rest, linearisation, &found.modes, arm_w, &command.lengths());
-            bounds.is_some_and(|of| of.distance > most)
-        }
-        None => {
-            let wrench = wrench(at_rest, request);
-            Release::omitted_by(&found.dynamics, &found.modes, &wrench, arm_w) > most
-        }
-    }
+    let Some(command) = command else {
+        let wrench = wrench(at_rest, request);
+        return Release::omitted_by(&found.dynamics, &found.modes, &wrench, arm_w) > most;
+    };
+    let linearisation = at_rest::linearisation(&request.model, at_rest.equilibrium.model);
+    let bounds = bounds(at_rest, linearisation, &found.modes, arm_w, &command.lengths());
+    bounds.is_some_and(|of| of.distance > most)
 }
 
 /// Released wrench about the platform origin.

@@ -12,7 +12,8 @@ pub(super) fn in_motion(along: &mut AlongPath, planned: &Planned, time: f64, sid
     along.at(&planned.path.beside(time, side)).map_err(|error| {
         let mut text = format!("{} s after the start of the path: {error}", significant(time, 4));
         if let Some(rounded) = &planned.rounded {
-            text.push_str(&format!("; {}", rounded.advice()));
+            text.push_str("; ");
+            text.push_str(&rounded.advice());
         }
         if error.is_no_solution() { NoSolution(text).into() } else { anyhow!(text) }
     })

@@ -265,9 +265,9 @@ fn of_rule(
         let time = 0.5 * (from.0.time + to.0.time);
         let at = (Instant { time, is_row: false, ..from.0 }, in_motion(along, planned, time, Side::After)?);
         if changes(&from, &at) > changes(&at, &to) {
-            to = at
+            to = at;
         } else {
-            from = at
+            from = at;
         }
         if changes(&from, &to) < LEFT * initial {
             return Ok(Vec::new());

@@ -144,6 +144,11 @@ impl RoundedRows {
     }
 }
 
+/// True if all values of a column are one.
+fn is_constant(values: &[f64]) -> bool {
+    values.iter().all(|value| value.total_cmp(&values[0]).is_eq())
+}
+
 /// Error of the values of a column.
 #[derive(Debug, Clone, Copy)]
 struct RowRounding {
@@ -156,7 +161,7 @@ struct RowRounding {
 impl RowRounding {
     fn of(rows: &TimedRows, columns: &NumberColumns, k: usize) -> Self {
         // A constant is as exact as it is written.
-        let varying = columns.get(POSE[k]).filter(|values| values.iter().any(|value| *value != values[0]));
+        let varying = columns.get(POSE[k]).filter(|values| !is_constant(values));
         let Some(values) = varying else { return Self { unit: None, deviation: 0.0 } };
         let places = values.iter().map(|value| decimal_places(*value)).max().unwrap_or(0);
         let unit = 10.0_f64.powi(-i32::try_from(places).unwrap_or(i32::MAX));
@@ -227,8 +232,7 @@ pub(super) fn smooth(rows: &mut TimedRows, tolerance: f64, length: f64) {
     for k in 0..COUNT {
         let bound = if k < 3 { tolerance } else { (tolerance / length).to_degrees() };
         let values = unwrapped(rows, k);
-        let is_constant = values.iter().all(|value| *value == values[0]);
-        if is_constant || !bound.is_finite() {
+        if is_constant(&values) || !bound.is_finite() {
             continue;
         }
         for (row, value) in smoothed_within(&rows.times, &values, bound).into_iter().enumerate() {

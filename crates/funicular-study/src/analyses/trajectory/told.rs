@@ -110,7 +110,8 @@ fn fast_cable(planned: &Planned, samples: &MotionSamples, extremes: &[Extreme]) 
     let speed = fastest.value?;
     let i = planned.robot.cables.iter().position(|cable| cable.name == fastest.cable)?;
     let k = (0..samples.times.len())
-        .find(|k| samples.times[*k] == fastest.t_s && samples.winch(planned.robot, *k, i).speed.abs() == speed)?;
+        .filter(|k| samples.times[*k].total_cmp(&fastest.t_s).is_eq())
+        .find(|k| samples.winch(planned.robot, *k, i).speed.abs().total_cmp(&speed).is_eq())?;
 
     let point = &samples.motions[k].point;
     let [velocity, omega]: [Vec3; 2] = point.twist();

@@ -23,7 +23,7 @@ fn forbidden_openings(source: &str) -> Vec<&str> {
             let is_first = before != Some(mark);
             let begins =
                 |word: &&str| text.strip_prefix(*word).is_some_and(|rest| !rest.starts_with(char::is_alphanumeric));
-            found.extend(Some(text).filter(|_| is_first && FORBIDDEN.iter().any(|word| begins(word))));
+            found.extend(Some(text).filter(|_| is_first && FORBIDDEN.iter().any(begins)));
         }
         before = of.map(|(mark, _)| mark);
     }

@@ -119,7 +119,9 @@ fn mirror_images_of_anchors_are_found_and_a_row_tells_them_apart() {
             })
             .collect();
         let mut in_plane = camera_poses(24, &mut draws);
-        in_plane.iter_mut().for_each(|pose| pose.position_w.z = 2.0);
+        for pose in &mut in_plane {
+            pose.position_w.z = 2.0;
+        }
 
         for (truth, poses) in [(plane, on_line), (camera(), in_plane)] {
             let mut rows = readings(&truth, &poses, &vec![0.0; truth.cables.len()], 0.5e-3, &mut draws);

@@ -107,7 +107,7 @@ fn what_does_not_decay_keeps_its_amplitude() {
 
 /// Robot with four equal sides: its motions along both level axes share their frequencies.
 fn symmetric() -> Robot {
-    let cables: String = (0..8)
+    let cables: Vec<String> = (0..8)
         .map(|k| {
             let side = f64::from(k / 2);
             let (anchor, other) = (std::f64::consts::FRAC_PI_2 * (side + 0.5), if k % 2 == 0 { -0.5 } else { 1.5 });
@@ -124,7 +124,8 @@ fn symmetric() -> Robot {
         .collect();
     Robot::from_toml(&format!(
         "name = \"symmetric\"\n[platform]\nmass_kg = 60.0\ninertia_kg_m2 = [9.0, 9.0, 12.0]\n[materials.rope]\n\
-         axial_stiffness_n = 4e5\nmass_kg_per_m = 0.05\ndamping_ratio = 0.004\naxial_damping_time_s = 2e-4\n{cables}"
+         axial_stiffness_n = 4e5\nmass_kg_per_m = 0.05\ndamping_ratio = 0.004\naxial_damping_time_s = 2e-4\n{}",
+        cables.concat()
     ))
     .unwrap()
 }

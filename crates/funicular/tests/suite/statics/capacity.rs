@@ -137,7 +137,7 @@ fn random_with_six_cables(draw: &mut Draw) -> Robot {
     for k in 0..6 {
         let (around, out) = (f64::from(k) * 1.05 + draw.between(-0.3, 0.3), draw.between(1.5, 2.5));
         let on_platform = around + if k % 2 == 0 { 0.9 } else { -0.9 };
-        text += &format!(
+        let cable = format!(
             "[[cables]]\nname = \"{k}\"\nmaterial = \"rope\"\nanchor_m = [{}, {}, {}]\nattachment_m = [{}, {}, {}]\n",
             out * around.cos(),
             out * around.sin(),
@@ -146,6 +146,7 @@ fn random_with_six_cables(draw: &mut Draw) -> Robot {
             0.15 * on_platform.sin(),
             draw.between(-0.05, 0.08),
         );
+        text.push_str(&cable);
     }
     Robot::from_toml(&text).unwrap()
 }
@@ -168,6 +169,16 @@ fn six_sagging_cables_hold_the_binding_load_just_inside_the_load_factor_and_not_
         let held = |multiple: f64, load: &Vec6| {
             let loaded = bearing(&robot, load, multiple);
             let rest = statics::inverse(&loaded, &pose, StaticModel::Catenary);
+            if std::env::var("SHOW").is_ok() {
+                eprintln!(
+                    "{multiple} {:?}",
+                    rest.as_ref().map(|rest| rest
+                        .cables
+                        .iter()
+                        .map(|c| (c.tension_platform, c.tension_anchor))
+                        .collect::<Vec<_>>())
+                );
+            }
             rest.is_ok_and(|rest| {
                 let margin = |(i, cable): (usize, &statics::CableState)| {
                     statics::TensionRange::of(&loaded, i, &cable.chord_w()).margin(cable).distance()
