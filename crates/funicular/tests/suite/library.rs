@@ -35,11 +35,13 @@ pub(crate) fn library() -> Vec<(String, Robot, Equilibrium)> {
 #[test]
 fn jumps_of_the_first_platform_mode_are_explained_by_the_modes_that_share_its_motion() {
     let mut jumps = 0;
-    for (text, height, limit) in [(funicular_robots::COGIRO, 1.5, 9.0), (funicular_robots::IPANEMA2, 1.0, 40.0)] {
+    // Farther out the frequencies of the second robot fall by a fifth in each step, up to its border.
+    let robots = [(funicular_robots::COGIRO, 1.5, 9.0, 14), (funicular_robots::IPANEMA2, 1.0, 40.0, 8)];
+    for (text, height, limit, steps) in robots {
         let robot = Robot::from_toml(text).unwrap();
         let mut last: Option<(f64, bool)> = None;
         let mut before: [Vec<f64>; 2] = Default::default();
-        for step in 0..=14 {
+        for step in 0..=steps {
             let pose = funicular::robot::Pose::new([2.0 + 0.1 * f64::from(step), 0.0, height], [0.0; 3]);
             let rest = statics::distribute_tensions(&robot, &pose, StaticModel::Catenary, &TensionRule::default());
             let Ok(rest) = rest else { continue };
@@ -55,8 +57,7 @@ fn jumps_of_the_first_platform_mode_are_explained_by_the_modes_that_share_its_mo
             let (hz, told) = (found.modes[first].frequency_hz, !sharing.is_empty());
             let [earlier, previous] = &before;
             let straight = previous.iter().flat_map(|of| earlier.iter().map(move |older| 2.0 * of - older));
-            // Near the border the steepest fall is a fifth of a frequency in a step, and bends by a third of that.
-            let is_passing = straight.into_iter().any(|expected| (hz / expected - 1.0).abs() < 0.08);
+            let is_passing = straight.into_iter().any(|expected| (hz / expected - 1.0).abs() < 0.02);
             if let Some((last_hz, was_told)) = last
                 && (hz / last_hz - 1.0).abs() > 0.05
                 && !is_passing

@@ -213,7 +213,7 @@ fn not_reached(of: &CalibrationReport, results: &Calibrated) -> Option<String> {
 
 /// Warning of an encoder whose readings fall while its cable pays out.
 fn other_sign(of: &CalibrationReport) -> Option<String> {
-    if !misses(of) || of.wrong.columns.is_some() || !of.wrong.rows.is_empty() {
+    if !misses(&of.judged()) || of.wrong.columns.is_some() || !of.wrong.rows.is_empty() {
         return None;
     }
     let (cable, chi2) = encoder_of_other_sign(of.of, &of.found.best, &of.frame)?;

@@ -5,7 +5,7 @@ use super::rows::{
     CableResidual, CalibratedValue, DistanceRow, LeftOut, MinimumRow, ProposalRow, Reachable, ReadingRow, Walk, WeakRow,
 };
 
-use super::wrong::{self, Wrong};
+use super::wrong::{self, FoundFit, Wrong};
 use super::{Calibrated, in_mm, words};
 use crate::Watch;
 use crate::analyses::candidate_poses::Candidates;
@@ -25,9 +25,6 @@ use funicular::robot::Pose;
 
 /// Number of weak combinations that are reported.
 const WEAK: usize = 3;
-
-/// Probability that the limit of a row allows for any of the rows.
-pub(super) const OUTLIER: f64 = 0.05;
 
 /// Minimum factor of the deviations with which the walk along the weakest combination is more than rounding.
 const MIN_FACTOR: f64 = 1e-6;
@@ -105,8 +102,20 @@ impl<'a> CalibrationReport<'a> {
             frame,
             precision,
         };
-        report.wrong = wrong::found(&report);
+        report.wrong = wrong::found(&report.judged());
         Ok(report)
+    }
+
+    /// Best fit with what judges its rows.
+    pub(super) fn judged(&self) -> FoundFit<'_> {
+        FoundFit {
+            of: self.of,
+            fit: &self.found.best,
+            frame: &self.frame,
+            precision: &self.precision,
+            is_noise_known: self.request.length_std_m.is_some(),
+            variance: self.variance(),
+        }
     }
 
     fn fit(&self) -> &CalibrationFit {
@@ -269,7 +278,7 @@ impl<'a> CalibrationReport<'a> {
             let residuals = read
                 .zip(&residuals[j])
                 .map(|((cable, _), residual)| CableResidual { cable: cable.name.clone(), residual_m: *residual });
-            let limit = chi2_above(OUTLIER / count as f64, left_out.degrees.max(1));
+            let limit = chi2_above(wrong::OUTLIER / count as f64, left_out.degrees.max(1));
             let drop = left_out.chi2_drop.map(|drop| drop / scale);
             ReadingRow {
                 row: self.numbers[j],
@@ -294,8 +303,8 @@ impl<'a> CalibrationReport<'a> {
             let moved: Vec<f64> = self.fit().values.iter().zip(&wrong.values).map(|(a, b)| a - b).collect();
             let row = &mut rows[wrong.row];
             row.outlier = true;
-            row.chi2_drop = Some(wrong.chi2_drop / wrong::variance(self, wrong));
-            row.chi2_limit = wrong::limit_of(self, wrong);
+            row.chi2_drop = Some(wrong.chi2_drop / wrong::variance(&self.judged(), wrong));
+            row.chi2_limit = wrong::limit_of(&self.judged(), wrong);
             row.shift_m = Some(self.largest_length(&moved));
         }
         rows

@@ -169,19 +169,11 @@ fn six_sagging_cables_hold_the_binding_load_just_inside_the_load_factor_and_not_
         let held = |multiple: f64, load: &Vec6| {
             let loaded = bearing(&robot, load, multiple);
             let rest = statics::inverse(&loaded, &pose, StaticModel::Catenary);
-            if std::env::var("SHOW").is_ok() {
-                eprintln!(
-                    "{multiple} {:?}",
-                    rest.as_ref().map(|rest| rest
-                        .cables
-                        .iter()
-                        .map(|c| (c.tension_platform, c.tension_anchor))
-                        .collect::<Vec<_>>())
-                );
-            }
             rest.is_ok_and(|rest| {
                 let margin = |(i, cable): (usize, &statics::CableState)| {
-                    statics::TensionRange::of(&loaded, i, &cable.chord_w()).margin(cable).distance()
+                    let margin = statics::TensionRange::of(&loaded, i, &cable.chord_w()).margin(cable);
+                    if margin.distance() < 0.0 { eprintln!("{multiple} {margin:?}"); }
+                    margin.distance()
                 };
                 rest.cables.iter().enumerate().map(margin).fold(f64::INFINITY, f64::min) >= 0.0
             })
