@@ -247,6 +247,19 @@ impl Request {
     }
 }
 
+impl IdentifyRequest {
+    /// Reads a list of experiments from JSON, with the checks of a request.
+    ///
+    /// # Errors
+    /// Bytes that are not JSON, a key that is there twice, no list, an unknown key, or a value of the wrong type.
+    pub fn experiments_from_json(bytes: &[u8]) -> anyhow::Result<Vec<Experiment>> {
+        let given = json_text::value(bytes)
+            .map_err(|error| anyhow::anyhow!("it is not valid JSON: {}", library_words::of_form(&error.to_string())))?;
+        given::check_experiments(&given)?;
+        given::read(given)
+    }
+}
+
 /// Keys of a request, or of a group of them, as JSON; those that are not given are absent.
 ///
 /// # Errors

@@ -79,7 +79,7 @@ fn slack_is_marked_in_page_figure_and_animation() {
     let text = succeed(&[&line[..], &more].concat());
     assert!(text.contains("is slack from"), "{text}");
     let page = fs::read_to_string(&page).unwrap();
-    assert!(page.contains("The error is not known") && page.contains("ropes go slack"));
+    assert!(page.contains("The error is not known") && page.contains("ropes with mass go slack"));
     assert!(page.contains("\"text\":\"slack\"") && page.contains("0.1 to 0.15 s: push."));
     assert!(fs::read_to_string(&figure).unwrap().contains(">slack<"));
     assert!(fs::read_to_string(&animation).unwrap().contains("attributeName=\"stroke\" calcMode=\"discrete\""));

@@ -689,8 +689,8 @@ class Equilibrium(Analyses):
     @property
     def free_motions(self, /) -> list[str]:
         """
-        Motions of the platform that no cable opposes by its tension, in words; empty unless the directions of the cables
-        are dependent or the equilibrium is indifferent.
+        Motions of the platform that no cable opposes by its tension, in words; empty unless the directions of the
+        cables are dependent or the equilibrium is indifferent.
         """
     @property
     def held_pose(self, /) -> Pose | None:
@@ -740,7 +740,7 @@ class Equilibrium(Analyses):
     @property
     def static_model(self, /) -> str:
         """
-        How cables carry their static load: `ideal`, `spring` or `catenary`.
+        Static model of the cables: `ideal`, `spring` or `catenary`.
         """
     @property
     def stiffness_min_n_per_m(self, /) -> float | None:
@@ -1056,7 +1056,8 @@ class Robot(Analyses):
             Rule that chooses the tensions at a pose if there are more cables than degrees of freedom: `lowest` (minimum
             sum of squares of the tensions above their minimum); `closest` (minimum sum of squares of the differences
             from `target_tension_n`); `middle` (maximum distance from the limits, relative to the distance between
-            them); `stiffest` (maximum of the minimum eigenvalue of the scaled stiffness); if not given: lowest.
+            them); `centre` (centre of the tensions within the limits, which changes smoothly: for paths and
+            controllers); `stiffest` (maximum of the minimum eigenvalue of the scaled stiffness); if not given: lowest.
         target_tension_n
             Target tensions [N], one for all cables or one per cable in the order of the file; the rule is then closest.
         min_tension_n
@@ -1202,7 +1203,8 @@ class Robot(Analyses):
             Rule that chooses the tensions at a pose if there are more cables than degrees of freedom: `lowest` (minimum
             sum of squares of the tensions above their minimum); `closest` (minimum sum of squares of the differences
             from `target_tension_n`); `middle` (maximum distance from the limits, relative to the distance between
-            them); `stiffest` (maximum of the minimum eigenvalue of the scaled stiffness); if not given: lowest.
+            them); `centre` (centre of the tensions within the limits, which changes smoothly: for paths and
+            controllers); `stiffest` (maximum of the minimum eigenvalue of the scaled stiffness); if not given: lowest.
         hold_lengths_of_pose
             Hold the unstrained lengths with which the robot, as it was read and before `with_`, rests at the pose. All
             changes, those of `with_` and those of this call, then act at these lengths and move the platform.
@@ -1264,9 +1266,9 @@ class Robot(Analyses):
         poses
             Poses of a proposal instead of a grid: position [m] and roll, pitch, yaw [degrees].
         propose_measuring
-            What can be measured at each of these poses, separated by commas: frequencies (the lowest ones), tensions,
-            lengths, pose (at the lengths of the file's robot there). Other loads are those of the first experiment;
-            frequencies if not given.
+            Quantities that can be measured at each of these poses, separated by commas: frequencies (the lowest ones),
+            tensions, lengths, pose (at the lengths of the file's robot there). Other loads are those of the first
+            experiment; frequencies if not given.
         propose_modes
             Number of the lowest natural frequencies that are measured at each pose of a proposal; 6 if not given.
         propose_payloads_kg
@@ -1506,7 +1508,7 @@ class Robot(Analyses):
             Run once, without the finer run that shows the error.
         damping_frequency_hz
             Frequency at which the damping ratio of the ropes and their loss factor hold [Hz]; if not given: the first
-            natural frequency at the start.
+            natural frequency at the start, for a loss factor that of the mode with most stretch.
         stretch_damping_time_s
             Damping time of the stretch of all ropes [s] in place of that of the robot file; if not given:
             `axial_damping_time_s` of each rope.
@@ -1542,7 +1544,8 @@ class Robot(Analyses):
             Rule that chooses the tensions at a pose if there are more cables than degrees of freedom: `lowest` (minimum
             sum of squares of the tensions above their minimum); `closest` (minimum sum of squares of the differences
             from `target_tension_n`); `middle` (maximum distance from the limits, relative to the distance between
-            them); `stiffest` (maximum of the minimum eigenvalue of the scaled stiffness); if not given: lowest.
+            them); `centre` (centre of the tensions within the limits, which changes smoothly: for paths and
+            controllers); `stiffest` (maximum of the minimum eigenvalue of the scaled stiffness); if not given: lowest.
         target_tension_n
             Target tensions [N], one for all cables or one per cable in the order of the file; the rule is then closest.
         min_tension_n
@@ -1650,7 +1653,7 @@ class Robot(Analyses):
 
         The other parameters are those of `map`.
         """
-    def trajectory(self, /, path: str | PathLike[str] | Mapping[str, ArrayLike] | Callable[[float], ArrayLike] | None = None, move_to: Pose | ArrayLike | None = None, pose: Pose | ArrayLike | None = None, *, via: ArrayLike | None = None, lift_m: SupportsFloat | SupportsIndex | None = None, blend: SupportsFloat | SupportsIndex | None = None, circle_center_m: ArrayLike | None = None, circle_axis: ArrayLike | None = None, turns: SupportsFloat | SupportsIndex | None = None, course: Literal['jerk-limited', 'quintic'] = "jerk-limited", speed_m_s: SupportsFloat | SupportsIndex | None = None, acceleration_m_s2: SupportsFloat | SupportsIndex | None = None, jerk_m_s3: SupportsFloat | SupportsIndex | None = None, angular_speed_rad_s: SupportsFloat | SupportsIndex | None = None, angular_acceleration_rad_s2: SupportsFloat | SupportsIndex | None = None, angular_jerk_rad_s3: SupportsFloat | SupportsIndex | None = None, duration_s: SupportsFloat | SupportsIndex | None = None, fastest: bool = False, rope_inertia: bool = False, sample_time_s: SupportsFloat | SupportsIndex | None = None, station_time_s: SupportsFloat | SupportsIndex | None = None, length_tolerance_m: SupportsFloat | SupportsIndex | None = None, lengths_m: ArrayLike | None = None, hold_lengths_of_pose: bool = False, mass_kg: SupportsFloat | SupportsIndex | None = None, static_model: StaticModel = "catenary", force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, wind_m_s: ArrayLike | None = None, cable_load_n_per_m: ArrayLike | None = None, tension_rule: TensionRule | None = None, target_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, page: str | PathLike[str] | None = None) -> Results:
+    def trajectory(self, /, path: str | PathLike[str] | Mapping[str, ArrayLike] | Callable[[float], ArrayLike] | None = None, move_to: Pose | ArrayLike | None = None, pose: Pose | ArrayLike | None = None, *, row_tolerance_m: SupportsFloat | SupportsIndex | None = None, via: ArrayLike | None = None, lift_m: SupportsFloat | SupportsIndex | None = None, blend: SupportsFloat | SupportsIndex | None = None, circle_center_m: ArrayLike | None = None, circle_axis: ArrayLike | None = None, turns: SupportsFloat | SupportsIndex | None = None, course: Literal['continuous-jerk', 'jerk-limited', 'quintic', 'septic'] = "continuous-jerk", speed_m_s: SupportsFloat | SupportsIndex | None = None, acceleration_m_s2: SupportsFloat | SupportsIndex | None = None, jerk_m_s3: SupportsFloat | SupportsIndex | None = None, angular_speed_rad_s: SupportsFloat | SupportsIndex | None = None, angular_acceleration_rad_s2: SupportsFloat | SupportsIndex | None = None, angular_jerk_rad_s3: SupportsFloat | SupportsIndex | None = None, duration_s: SupportsFloat | SupportsIndex | None = None, fastest: bool = False, rope_inertia: bool = False, sample_time_s: SupportsFloat | SupportsIndex | None = None, station_time_s: SupportsFloat | SupportsIndex | None = None, length_tolerance_m: SupportsFloat | SupportsIndex | None = None, lengths_m: ArrayLike | None = None, hold_lengths_of_pose: bool = False, mass_kg: SupportsFloat | SupportsIndex | None = None, static_model: StaticModel = "catenary", force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, wind_m_s: ArrayLike | None = None, cable_load_n_per_m: ArrayLike | None = None, tension_rule: TensionRule | None = None, target_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, page: str | PathLike[str] | None = None) -> Results:
         """
         Computes the motion along a path: lengths with their rates, tensions with the inertia, winches, and what limits them.
 
@@ -1664,6 +1667,10 @@ class Robot(Analyses):
         move_to
             Pose x,y,z[,roll,pitch,yaw] [m, degrees] to which the platform moves from the pose of the state, from rest
             to rest.
+        row_tolerance_m
+            Smooth the rows of `path` by less than this distance [m]: half a unit of their last digit takes their
+            rounding out. Angles change by less than what moves the attachments as far; if not given: the path passes
+            its rows.
         via
             Poses on the way to `move_to`: position [m] and roll, pitch, yaw [degrees].
         lift_m
@@ -1679,8 +1686,10 @@ class Robot(Analyses):
         turns
             Number of turns on the circle; negative turns go the other way; 1 if not given.
         course
-            Form of the course of every move: `jerk-limited` (seven phases of constant jerk: the fastest course within
-            the limits); `quintic` (polynomial of the fifth degree).
+            Form of the course of every move: `continuous-jerk` (fifteen phases: the jerk rises and falls in straight
+            lines, so that the rates of the lengths do not jump); `jerk-limited` (seven phases of constant jerk: the
+            fastest course within the limits); `quintic` (polynomial of the fifth degree; the jerk jumps at both ends);
+            `septic` (polynomial of the seventh degree, without jerk at both ends).
         speed_m_s
             Largest speed of the platform origin [m/s]; if not given: none.
         acceleration_m_s2
@@ -1694,15 +1703,16 @@ class Robot(Analyses):
         angular_jerk_rad_s3
             Largest rate of the angular acceleration [rad/s³]; if not given: none.
         duration_s
-            Duration of the whole path [s]: all its times are multiplied by one factor; if not given: that of the limits
-            or of the table.
+            Duration of the whole path [s]: all its times are multiplied by one factor. With the course `quintic` or
+            `septic` it needs no limits: moves in a row then get times by their length, 1 rad like 1 m; if not given:
+            that of the limits or of the table.
         fastest
             Find the shortest duration that keeps all limits of tensions and winches, by one factor of all times.
         rope_inertia
             Add the inertia of the ropes across them, as of taut strings, to that of the platform.
         sample_time_s
-            Time between the rows of the result [s]; if not given: the rows of the table, or a two-hundredth of the
-            duration.
+            Time between the rows of the result [s]; the last step may be shorter. Largest values do not depend on it;
+            if not given: the rows of the table, or a two-hundredth of the duration.
         station_time_s
             Time between the lengths that a controller gets [s]; between them it changes the lengths in straight lines;
             if not given: that between the rows.
@@ -2145,6 +2155,6 @@ def write_file(path: str | PathLike[str], text: str) -> None:
 def write_unit(path: str | PathLike[str], limits: tuple[SupportsFloat | SupportsIndex, SupportsFloat | SupportsIndex], signals: SupportsLenAndGetItem[SupportsGetItem[int, tuple[str, str]]], matrices: SupportsLenAndGetItem[tuple[SupportsIndex, SupportsGetItem[int, SupportsFloat | SupportsIndex]]], robot_file: str, description: str) -> list[str]:
     """
     Writes a state space of the robot of a file as a Functional Mock-up Unit, and returns the caveats. `limits` are the
-    highest frequency [Hz] and the error, `signals` names and units of inputs and outputs, `matrices` A, B, C, D with their
-    numbers of rows and entries by columns.
+    highest frequency [Hz] and the error, `signals` names and units of inputs and outputs, `matrices` A, B, C, D with
+    their numbers of rows and entries by columns.
     """

@@ -1,9 +1,7 @@
 //! Request of `identify`: measurements in one or several states, and the values to find.
 
-use super::json_text;
 use super::key::declared;
 use super::parts::{Axis, Model, Pose, RobotText, State, Tensions};
-use super::{given, library_words};
 use crate::measurements::{MeasuredFrequency, MeasuredResponse};
 use funicular::math::chosen_rows::RowCriterion;
 use serde::{Deserialize, Serialize};
@@ -93,19 +91,6 @@ declared! {
         "funicular identify robot.toml --measured test.uff --node 2=0.1,0.08,0.02 --node 1=0.03,-0.02,0.05 \\\n    --fit platform.mass_kg --fit platform.center_of_mass_m --prior platform.center_of_mass_m=0±0.03 -o fitted.toml",
         "funicular identify docs/quick-start/hall.toml --hold-lengths-of-pose \\\n    --measured docs/identification/hall-modes.csv --fit platform.mass_kg --fit materials.rope.youngs_modulus_pa \\\n    --propose 3 --grid x=-2:2:5 --propose-measuring frequencies,tensions",
         "funicular identify robot.toml --experiments poses.json --rigid-cables --fit platform.center_of_mass_m \\\n    --fit platform.inertia_kg_m2 -o result.json --page result.html",
-    }
-}
-
-impl IdentifyRequest {
-    /// Reads a list of experiments from JSON, with the checks of a request.
-    ///
-    /// # Errors
-    /// Bytes that are not JSON, a key that is there twice, no list, an unknown key, or a value of the wrong type.
-    pub fn experiments_from_json(bytes: &[u8]) -> anyhow::Result<Vec<Experiment>> {
-        let given = json_text::value(bytes)
-            .map_err(|error| anyhow::anyhow!("it is not valid JSON: {}", library_words::of_form(&error.to_string())))?;
-        given::check_experiments(&given)?;
-        given::read(given)
     }
 }
 

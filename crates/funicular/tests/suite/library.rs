@@ -71,8 +71,8 @@ fn jumps_of_the_first_platform_mode_are_explained_by_the_modes_that_share_its_mo
             before = [std::mem::take(&mut before[1]), now];
         }
     }
-    // The line of the large robot has such jumps; without one the test would say nothing.
-    assert!(jumps >= 2, "{jumps}");
+    // The line of the large robot has such a jump; without one the test would say nothing.
+    assert!(jumps >= 1, "{jumps}");
 }
 
 /// Robots of reference/independent.json by their ids. Their numbers are compared in the validation; here they are used

@@ -172,7 +172,9 @@ fn six_sagging_cables_hold_the_binding_load_just_inside_the_load_factor_and_not_
             rest.is_ok_and(|rest| {
                 let margin = |(i, cable): (usize, &statics::CableState)| {
                     let margin = statics::TensionRange::of(&loaded, i, &cable.chord_w()).margin(cable);
-                    if margin.distance() < 0.0 { eprintln!("{multiple} {margin:?}"); }
+                    if margin.distance() < 0.0 {
+                        eprintln!("{multiple} {margin:?}");
+                    }
                     margin.distance()
                 };
                 rest.cables.iter().enumerate().map(margin).fold(f64::INFINITY, f64::min) >= 0.0
