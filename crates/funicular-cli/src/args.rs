@@ -5,9 +5,10 @@ mod declared;
 mod files;
 pub(crate) mod values;
 
-use crate::shell;
 use anyhow::{Context, Result, anyhow};
-use clap::{Arg, ArgAction, ArgMatches, Args, Command, FromArgMatches};
+use clap::builder::PossibleValuesParser;
+use clap::{Arg, ArgAction, ArgMatches, Args, Command, FromArgMatches, value_parser};
+use clap_complete::Shell;
 pub(crate) use files::{
     CalibrateArgs, ChangeArgs, DesignArgs, DrawArgs, DrawModesArgs, ExportArgs, FigureArgs, FileArgs, Format, GustArgs,
     IdentifyArgs, ImportArgs, MapArgs, MergeArgs, NewArgs, OutputArgs, PageArgs, PlotArgs, ReduceArgs, ReducedTo,
@@ -82,8 +83,24 @@ impl Cli {
 
 const PRINT_REQUEST: &str = "print_request";
 
+/// Commands that only the program has, for shells and for the manual.
+pub(crate) const COMPLETIONS: &str = "completions";
+pub(crate) const MAN: &str = "man";
+
 fn command_of(name: &str) -> Option<&'static CommandInfo> {
     request::commands().iter().find(|command| command.name == name)
+}
+
+/// Command `completions` with its arguments, without help.
+fn completions() -> Command {
+    let shell = Arg::new("shell").value_name("SHELL").required(true).value_parser(value_parser!(Shell));
+    Command::new(COMPLETIONS).arg(shell.help("Shell that reads the completions"))
+}
+
+/// Command `man` with its arguments, without help. Its values are the other commands.
+fn man(commands: &[&'static str]) -> Command {
+    let of = Arg::new("of").value_name("COMMAND").value_parser(PossibleValuesParser::new(commands.to_vec()));
+    Command::new(MAN).arg(of.hide_possible_values(true).help("Command of the page [default: the whole program]"))
 }
 
 /// The program with all its commands.
@@ -101,14 +118,14 @@ pub(crate) fn program() -> Command {
         &["funicular statics robots/cogiro.toml --pose 1,2,1.5 --print-request > request.json\n  \
            funicular request request.json --format json"],
     );
-    let completions = declared::described(
-        shell::completions(),
+    let with_completions = declared::described(
+        completions(),
         "Completions of commands and options for a shell\n\nThe shell reads the text from a file of its own folder.",
         &["funicular completions bash > ~/.local/share/bash-completion/completions/funicular"],
     );
     let names: Vec<&str> = request::commands().iter().map(|command| command.name).collect();
-    let man = declared::described(
-        shell::man(&names),
+    let with_man = declared::described(
+        man(&names),
         "Page of the manual, of the program or of one command, in the format of `man`",
         &["funicular man modes > funicular-modes.1"],
     );
@@ -129,7 +146,7 @@ pub(crate) fn program() -> Command {
         .arg_required_else_help(true)
         .arg(print_request)
         .subcommands(request::commands().iter().map(subcommand))
-        .subcommands([run_request, completions, man])
+        .subcommands([run_request, with_completions, with_man])
 }
 
 /// Command with its robot file, the options of its request, and its files.

@@ -1,31 +1,14 @@
 //! `completions` and `man`: names and help of the program for shells and for the manual, from its arguments.
 
-use crate::args::{self, Cli};
+use crate::args::{self, COMPLETIONS, Cli, MAN};
 use crate::output;
 use anyhow::{Result, bail};
-use clap::builder::PossibleValuesParser;
-use clap::{Arg, Command, value_parser};
 use clap_complete::Shell;
 use clap_mangen::Man;
 use std::io::{self, Write};
 
-pub(crate) const COMPLETIONS: &str = "completions";
-pub(crate) const MAN: &str = "man";
-
 /// Name of the program in shells and in the manual.
 const PROGRAM: &str = "funicular";
-
-/// Command `completions` with its arguments, without help.
-pub(crate) fn completions() -> Command {
-    let shell = Arg::new("shell").value_name("SHELL").required(true).value_parser(value_parser!(Shell));
-    Command::new(COMPLETIONS).arg(shell.help("Shell that reads the completions"))
-}
-
-/// Command `man` with its arguments, without help. Its values are the other commands.
-pub(crate) fn man(commands: &[&'static str]) -> Command {
-    let of = Arg::new("of").value_name("COMMAND").value_parser(PossibleValuesParser::new(commands.to_vec()));
-    Command::new(MAN).arg(of.hide_possible_values(true).help("Command of the page [default: the whole program]"))
-}
 
 /// Prints the completions of a shell or a page of the manual, if the command line asks for one of them.
 ///

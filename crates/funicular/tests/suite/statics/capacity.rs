@@ -171,11 +171,7 @@ fn six_sagging_cables_hold_the_binding_load_just_inside_the_load_factor_and_not_
             let rest = statics::inverse(&loaded, &pose, StaticModel::Catenary);
             rest.is_ok_and(|rest| {
                 let margin = |(i, cable): (usize, &statics::CableState)| {
-                    let margin = statics::TensionRange::of(&loaded, i, &cable.chord_w()).margin(cable);
-                    if margin.distance() < 0.0 {
-                        eprintln!("{multiple} {margin:?}");
-                    }
-                    margin.distance()
+                    statics::TensionRange::of(&loaded, i, &cable.chord_w()).margin(cable).distance()
                 };
                 rest.cables.iter().enumerate().map(margin).fold(f64::INFINITY, f64::min) >= 0.0
             })
@@ -194,8 +190,9 @@ fn six_sagging_cables_hold_the_binding_load_just_inside_the_load_factor_and_not_
         }
         checked += 1;
         slacker += usize::from(capacity.counts_slacker_cables(&factor));
-        assert!(held(0.9999 * factor.value, &factor.load), "{}", factor.value);
-        assert!(!held(1.0001 * factor.value, &factor.load), "{}", factor.value);
+        // A tension at the lowest point of a steep cable is a hundredth of those at its ends, which are found to 1e-6.
+        assert!(held(0.999 * factor.value, &factor.load), "{}", factor.value);
+        assert!(!held(1.001 * factor.value, &factor.load), "{}", factor.value);
         for beyond in [1.0, 1.001, 1.1, 1.5, 2.0] {
             let proved = beyond * factor.upper_bound * (1.0 + 1e-6);
             assert!(proved.is_infinite() || !held(proved, &factor.load), "{} {proved}", factor.value);
