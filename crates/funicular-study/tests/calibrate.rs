@@ -138,7 +138,8 @@ fn a_prior_is_a_datum_of_its_kind_or_path() {
     let text = |prior: Value| {
         let request =
             json!({ "command": "calibrate", "robot": { "text": file() }, "readings": readings, "prior": prior });
-        run(&Request::from_json(&request.to_string()).unwrap(), &mut Silent).map(drop).unwrap_err().to_string()
+        let read = Request::from_json(&request.to_string());
+        read.and_then(|request| run(&request, &mut Silent).map(drop)).unwrap_err().to_string()
     };
     let unknown = text(json!([{ "path": "offsets", "prior_std": 0.1 }]));
     assert!(unknown.contains("no unknown is called `offsets`"), "{unknown}");
@@ -186,7 +187,8 @@ fn a_row_that_is_left_out_is_no_datum_and_the_others_keep_their_numbers() {
     let refused = |more: Value| {
         let mut request = json!({ "command": "calibrate", "robot": { "text": file() }, "readings": all });
         request.as_object_mut().unwrap().extend(more.as_object().unwrap().clone());
-        run(&Request::from_json(&request.to_string()).unwrap(), &mut Silent).err().unwrap().to_string()
+        let read = Request::from_json(&request.to_string());
+        read.and_then(|request| run(&request, &mut Silent)).err().unwrap().to_string()
     };
     for wrong in [json!([8]), json!([0.5]), json!([-1])] {
         let told = refused(json!({ "leave_out": wrong }));

@@ -14,7 +14,7 @@ fn request(more: &Value) -> Request {
     for (key, value) in more.as_object().unwrap() {
         request[key] = value.clone();
     }
-    Request::from_json(&request.to_string()).unwrap()
+    serde_json::from_value(request).unwrap()
 }
 
 fn designed(more: &Value) -> Result<Designed, Error> {

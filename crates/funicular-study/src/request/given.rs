@@ -488,7 +488,7 @@ mod tests {
                     if let (Err(program), Err(request)) = (program, request) {
                         let reason = request.rsplit_once(": ").map_or(&*request, |(_, reason)| reason);
                         assert!(
-                            program.contains(reason) || matches!(key.kind, Kind::Count(_)),
+                            program.replace("e+", "e").contains(reason) || matches!(key.kind, Kind::Count(_)),
                             "{place}: {program} {request}"
                         );
                     }

@@ -124,7 +124,7 @@ mod tests {
             r#"{"mass_kg": 1, "names": [true]}"#,
             r#"{"mass_kg": 1, "count": 1.5}"#,
             r#"{"mass_kg": 1, "count": -1}"#,
-            "[1]",
+            "[true]",
             "3",
         ] {
             let error = serde_json::from_str::<Read>(text).unwrap_err().to_string();
