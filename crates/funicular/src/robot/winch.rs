@@ -161,10 +161,12 @@ impl Winch {
     /// ```
     /// use funicular::robot::Winch;
     ///
-    /// let winch = Winch { drum_radius: Some(0.1), gear_ratio: 5.0, gear_efficiency: 0.8, ..Winch::rigid("drum", 0.0)
-    /// }; let motor = winch.motor(400.0, -2.0, 0.0); // winds in 2 m/s assert!((motor.power - 1000.0).abs() < 1e-9); //
-    /// W assert!((motor.torque.unwrap() - 10.0).abs() < 1e-12); // N m assert!((motor.speed.unwrap() - 100.0).abs() <
-    /// 1e-12); // rad/s
+    /// let rigid = Winch::rigid("drum", 0.0);
+    /// let winch = Winch { drum_radius: Some(0.1), gear_ratio: 5.0, gear_efficiency: 0.8, ..rigid };
+    /// let motor = winch.motor(400.0, -2.0, 0.0); // winds in 2 m/s
+    /// assert!((motor.power - 1000.0).abs() < 1e-9); // W
+    /// assert!((motor.torque.unwrap() - 10.0).abs() < 1e-12); // N m
+    /// assert!((motor.speed.unwrap() - 100.0).abs() < 1e-12); // rad/s
     /// ```
     pub fn motor(&self, tension: f64, speed: f64, acceleration: f64) -> MotorLoad {
         let (inwards, inwards_rate) = (-speed, -acceleration);
