@@ -89,10 +89,14 @@ mod tests {
     use super::*;
     use funicular_study::Request;
 
-    fn request(more: &Value) -> LiveRequest {
+    fn value(more: &Value) -> Value {
         let mut value = json!({ "command": "live", "robot": { "name": "a.toml", "text": funicular_robots::COGIRO } });
         value.as_object_mut().unwrap().extend(more.as_object().unwrap().clone());
-        let Request::Live(request) = Request::from_value(value).unwrap() else { panic!("live was requested") };
+        value
+    }
+
+    fn request(more: &Value) -> LiveRequest {
+        let Request::Live(request) = Request::from_value(value(more)).unwrap() else { panic!("live was requested") };
         request
     }
 
@@ -123,9 +127,15 @@ mod tests {
     fn what_the_page_cannot_show_is_refused() {
         for (page, more, message) in [
             ("", json!({}), "this build does not contain the page: in the sources of funicular, `scripts/install`"),
-            (START, json!({ "lengths_m": [1.0] }), "lengths"),
+            (START, json!({ "mass_kg": -1.0 }), "⟪mass_kg⟫"),
+            (START, json!({ "pose": [0.0, 0.0, 1.0], "lengths_m": [1.0] }), "not both"),
         ] {
-            let error = page_with(page, &request(&more)).unwrap_err().to_string();
+            // Ranges are refused where the request is read, before there is a page.
+            let read = Request::from_value(value(&more)).map(|read| match read {
+                Request::Live(request) => page_with(page, &request),
+                _ => panic!("live was requested"),
+            });
+            let error = read.map_or_else(|error| error.to_string(), |page| page.unwrap_err().to_string());
             assert!(error.contains(message), "{error}");
         }
     }
