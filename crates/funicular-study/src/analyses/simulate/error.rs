@@ -8,7 +8,7 @@ use funicular::math::Vec3;
 use funicular::simulation::ElementMesh;
 use serde::Serialize;
 
-/// Bound of the error of one column: its difference from a finer run times [`error_per_difference`].
+/// Bound of the error of one column: its difference from a finer run times a factor of the mesh (97k2).
 #[derive(Serialize)]
 pub struct ColumnError {
     /// `position_m`, `velocity_m_s`, `clearance_margin_m`, or `tension_platform_NAME_n` and `tension_anchor_NAME_n`.
