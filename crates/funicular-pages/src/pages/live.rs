@@ -127,7 +127,7 @@ mod tests {
     fn what_the_page_cannot_show_is_refused() {
         for (page, more, message) in [
             ("", json!({}), "this build does not contain the page: in the sources of funicular, `scripts/install`"),
-            (START, json!({ "mass_kg": -1.0 }), "⟪mass_kg⟫"),
+            (START, json!({ "mass_kg": -1.0 }), "`mass_kg`: -1 is not positive"),
             (START, json!({ "pose": [0.0, 0.0, 1.0], "lengths_m": [1.0] }), "not both"),
         ] {
             // Ranges are refused where the request is read, before there is a page.

@@ -243,7 +243,15 @@ fn with_lightest_payload<'a>(robot: &'a Robot, pose: &Pose) -> Cow<'a, Robot> {
     }
 }
 
-/// Equilibrium whose tensions are within their limits.
+/// True if no tension of an equilibrium is beyond its limits, for a search that ends at one.
+fn keeps_limits(robot: &Robot, rest: &Equilibrium) -> bool {
+    rest.cables
+        .iter()
+        .enumerate()
+        .all(|(i, cable)| TensionRange::of(robot, i, &cable.chord_w()).margin(cable).distance() >= 0.0)
+}
+
+/// Equilibrium whose tensions are within their limits, but for [`BEYOND`].
 ///
 /// # Errors
 /// [`StaticsError::BeyondLimits`].

@@ -1,7 +1,7 @@
 //! Load factor: the largest multiple of the required loads that the cables hold in every combination.
 
 use super::required_set::{LoadCoefficients, RequiredSet};
-use super::{LoadCapacity, wind_loads_cables, with_lightest_payload, within_limits};
+use super::{LoadCapacity, keeps_limits, wind_loads_cables, with_lightest_payload};
 use crate::math::{Mat6, Vec3, Vec6, order};
 use crate::platform::{Coordinates, load_size, load_wrench};
 use crate::robot::{Pose, Robot};
@@ -27,8 +27,8 @@ const OPEN_GAP: f64 = 1e-7;
 /// been met.
 const GAPS: [(f64, usize); 3] = [(OPEN_GAP, 1), (1e-5, 5), (0.02, 12)];
 
-/// Maximum number of directions tried for a set without vertices. Each step to the worst load of the last direction
-/// gains about two digits; robots of the library take 2 to 5.
+/// Maximum number of directions tried from one start in a set without vertices. Each step to the worst load of the last
+/// direction gains about two digits; robots of the library take 2 to 5.
 const MAX_DIRECTIONS: usize = 30;
 
 /// Change of the worst load, over its size, at which the search for a set without vertices ends.
@@ -211,33 +211,58 @@ impl LoadCapacity<'_> {
         Ok((self.required.vertex(at), held))
     }
 
-    /// Load with the smallest multiple of a set without vertices: the direction in which the cables reach no farther
-    /// gives the next load.
+    /// Load with the smallest multiple of a set without vertices. Sagging cables end the multiples in bent surfaces, so
+    /// a descent may stop in a hollow that is not the deepest: each facet whose lower bound is below the smallest
+    /// multiple so far starts another.
     fn worst_of_ball(&self, available: &AvailableWrenches) -> Result<(LoadCoefficients, HeldMultiple), StaticsError> {
-        let ratio = |facet: &Facet| facet.reach / self.required.reach(&-facet.normal);
-        let facets = available.facets().iter().filter(|facet| self.required.reach(&-facet.normal) > 0.0);
-        let first = facets.min_by(|a, b| ratio(a).total_cmp(&ratio(b))).map(|facet| -facet.normal);
-        let down = Coordinates::of(self.robot()).reduce(&load_wrench(self.robot(), &self.pose));
-        let mut at = self.required.farthest(&first.unwrap_or(down));
+        let is_bounded = self.smallest(available, |facet| facet.inner).is_some();
+        let start_of = |facet: &Facet| {
+            let reach = self.required.reach(&-facet.normal);
+            let bound = if is_bounded { facet.inner / reach } else { 0.0 };
+            (reach > 0.0).then_some((bound, -facet.normal))
+        };
+        let mut starts: Vec<(f64, Vec6)> = available.facets().iter().filter_map(start_of).collect();
+        order::sort_ascending(&mut starts, |(bound, _)| *bound);
+        if starts.is_empty() {
+            starts.push((0.0, Coordinates::of(self.robot()).reduce(&load_wrench(self.robot(), &self.pose))));
+        }
 
         let mut worst: Option<(LoadCoefficients, HeldMultiple)> = None;
-        for _ in 0..MAX_DIRECTIONS {
-            let load = self.required.load(&at);
-            if load.norm() == 0.0 {
-                return Ok((at, HeldMultiple::unlimited()));
+        for (bound, direction) in starts {
+            if worst.as_ref().is_some_and(|(_, least)| bound >= least.multiple) {
+                break;
             }
-            let held = self.largest_multiple(&load)?;
-            let next_at = self.required.farthest(&-held.direction);
-            let next = self.required.load(&next_at);
+            let (at, held) = self.lowest_near(self.required.farthest(&direction))?;
             if worst.as_ref().is_none_or(|(_, least)| held.multiple < least.multiple) {
                 worst = Some((at, held));
             }
-            if (next - load).norm() <= SAME_LOAD * next.norm() {
-                break;
-            }
-            at = next_at;
         }
         worst.ok_or(StaticsError::NothingRequired)
+    }
+
+    /// Load with the smallest multiple near a load of the set: the direction in which the cables reach no farther gives
+    /// the next load; a step that does not lower the multiple is halved.
+    fn lowest_near(&self, mut at: LoadCoefficients) -> Result<(LoadCoefficients, HeldMultiple), StaticsError> {
+        let mut load = self.required.load(&at);
+        if load.norm() == 0.0 {
+            return Ok((at, HeldMultiple::unlimited()));
+        }
+        let mut held = self.largest_multiple(&load)?;
+        let mut share = 1.0;
+        for _ in 0..MAX_DIRECTIONS {
+            let next_at = self.required.between(&at, &self.required.farthest(&-held.direction), share);
+            let next = self.required.load(&next_at);
+            if next.norm() == 0.0 || (next - load).norm() <= SAME_LOAD * load.norm() {
+                break;
+            }
+            let found = self.largest_multiple(&next)?;
+            if found.multiple < held.multiple {
+                (at, load, held, share) = (next_at, next, found, f64::min(2.0 * share, 1.0));
+            } else {
+                share /= 2.0;
+            }
+        }
+        Ok((at, held))
     }
 
     /// Largest multiple of one reduced load that the cables hold in addition to the dead load.
@@ -310,7 +335,7 @@ impl LoadCapacity<'_> {
         let robot = self.robot();
         let held = |multiple: f64| {
             let loaded = self.with_extra(robot, &(load * multiple));
-            inverse(&loaded, &self.pose, self.model).and_then(|rest| within_limits(&loaded, rest)).ok()
+            inverse(&loaded, &self.pose, self.model).ok().filter(|rest| keeps_limits(&loaded, rest))
         };
         let mut step = FIRST_STEP * best.multiple.max(load_size(robot) / load.norm());
         let (mut at, mut beyond) = (best.multiple, None);

@@ -161,6 +161,19 @@ impl RequiredSet {
         LoadCoefficients(self.parts.iter().map(|part| part.farthest(n)).collect())
     }
 
+    /// Coefficients of the load at a share of the way from one load to another. A ball is followed along its surface.
+    pub(super) fn between(&self, from: &LoadCoefficients, to: &LoadCoefficients, share: f64) -> LoadCoefficients {
+        let blend = |((part, from), to): ((&LoadPart, &Vec<f64>), &Vec<f64>)| {
+            let mut blended: Vec<f64> = from.iter().zip(to).map(|(a, b)| a + share * (b - a)).collect();
+            let size = blended.iter().map(|of| of * of).sum::<f64>().sqrt();
+            if matches!(part, LoadPart::Ball(_)) && size > 0.0 {
+                blended.iter_mut().for_each(|of| *of /= size);
+            }
+            blended
+        };
+        LoadCoefficients(self.parts.iter().zip(&from.0).zip(&to.0).map(blend).collect())
+    }
+
     /// Load with these coefficients.
     pub(super) fn load(&self, coefficients: &LoadCoefficients) -> Vec6 {
         let parts = self.parts.iter().zip(&coefficients.0);

@@ -44,8 +44,6 @@ pub(in crate::statics) struct AvailableWrenches {
 pub(in crate::statics) struct Facet {
     /// Outward unit normal.
     pub normal: Vec6,
-    /// Reach of the chords [N].
-    pub reach: f64,
     /// Reach that no wrench of the curves exceeds [N].
     pub outer: f64,
     /// Reach of the chords between tightened limits [N].
@@ -91,18 +89,17 @@ impl AvailableWrenches {
 
     fn facet(&self, normal: &Vec6, load: &Vec6, tightening: &[f64]) -> Facet {
         let own = normal.dot(load);
-        let (mut reach, mut outer, mut inner) = (own, own, own);
+        let [mut outer, mut inner] = [own; 2];
         let cables = self.chords.iter().zip(&self.unlimited).zip(self.bulges.iter().zip(tightening));
         for (([from, change], unlimited), ((upward, [above, below]), tight)) in cables {
             let (at_minimum, along) = (normal.dot(from), normal.dot(change));
             let is_endless = *unlimited && along > IN_FACET * change.norm();
             let farthest = if is_endless { f64::INFINITY } else { at_minimum + along.max(0.0) };
             let up = normal.dot(upward);
-            reach += farthest;
             outer += farthest + (up * above).max(-up * below).max(0.0);
             inner += farthest - tight * along.abs();
         }
-        Facet { normal: *normal, reach, outer, inner }
+        Facet { normal: *normal, outer, inner }
     }
 
     /// Part of every chord by which its limits are tightened, so that a Newton step from a point of the chords to one
