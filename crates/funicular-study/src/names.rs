@@ -43,14 +43,66 @@ pub trait Named: Copy + PartialEq + Sized + 'static {
     }
 }
 
-/// Which orientations of a set have to be possible at a position of the workspace.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum OrientationRule {
-    /// All of them.
-    #[default]
-    All,
-    /// At least one.
-    Some,
+/// Closed sets with a line for every choice, in the order of lists and messages: its name, unless the type has names
+/// of its own, and its meaning. A set that begins with `enum` is defined too, and the meanings document its choices.
+macro_rules! named {
+    ($(#[$meta:meta])* enum $set:ident, $what:literal {
+        $($(#[$of_choice:meta])* $choice:ident $name:literal $(or $also:literal)?, $about:literal;)*
+    }) => {
+        $(#[$meta])*
+        #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+        pub enum $set {
+            $(#[doc = concat!($about, ".")] $(#[$of_choice])* $choice,)*
+        }
+
+        named! { $set, $what { $($choice $name $(or $also)?, $about;)* } }
+    };
+    ($set:ident, $what:literal { $($choice:ident $name:literal $(or $also:literal)?, $about:literal;)* }) => {
+        impl Named for $set {
+            const WHAT: &'static str = $what;
+            const ALL: &'static [Self] = &[$(Self::$choice),*];
+
+            fn name(self) -> &'static str {
+                match self {
+                    $(Self::$choice => $name,)*
+                }
+            }
+
+            fn about(self) -> &'static str {
+                match self {
+                    $(Self::$choice => $about,)*
+                }
+            }
+
+            fn also(self) -> Option<&'static str> {
+                match self {
+                    $(Self::$choice => named!(@also $($also)?),)*
+                }
+            }
+        }
+    };
+    ($set:ident, $what:literal, named $name:path { $($choice:ident, $about:literal;)* }) => {
+        impl Named for $set {
+            const WHAT: &'static str = $what;
+            const ALL: &'static [Self] = &[$(Self::$choice),*];
+
+            fn name(self) -> &'static str {
+                $name(self)
+            }
+
+            fn about(self) -> &'static str {
+                match self {
+                    $(Self::$choice => $about,)*
+                }
+            }
+        }
+    };
+    (@also $also:literal) => {
+        Some($also)
+    };
+    (@also) => {
+        None
+    };
 }
 
 /// Message about a name that no thing of a kind has.
@@ -115,112 +167,54 @@ pub(crate) fn listed(names: &[String]) -> String {
     )
 }
 
-impl Named for OrientationRule {
-    const WHAT: &'static str = "rule of orientations";
-    const ALL: &'static [Self] = &[Self::All, Self::Some];
-
-    fn name(self) -> &'static str {
-        match self {
-            Self::All => "all",
-            Self::Some => "some",
-        }
-    }
-
-    fn about(self) -> &'static str {
-        match self {
-            Self::All => "positions at which every orientation of the grid is possible (total orientation workspace)",
-            Self::Some => "positions at which one of them is possible (inclusive orientation workspace)",
-        }
+named! {
+    /// Which orientations of a set have to be possible at a position of the workspace.
+    #[derive(Default)]
+    enum OrientationRule, "rule of orientations" {
+        #[default]
+        All "all", "positions at which every orientation of the grid is possible (total orientation workspace)";
+        Some "some", "positions at which one of them is possible (inclusive orientation workspace)";
     }
 }
 
-impl Named for TurbulenceSpectrum {
-    const WHAT: &'static str = "spectrum of turbulence";
-    const ALL: &'static [Self] = &[Self::Kaimal, Self::VonKarman];
-
-    fn name(self) -> &'static str {
-        self.word()
-    }
-
-    fn about(self) -> &'static str {
-        match self {
-            Self::Kaimal => "Kaimal, as in IEC 61400-1",
-            Self::VonKarman => "Von Kármán",
-        }
+named! {
+    TurbulenceSpectrum, "spectrum of turbulence", named TurbulenceSpectrum::word {
+        Kaimal, "Kaimal, as in IEC 61400-1";
+        VonKarman, "Von Kármán";
     }
 }
 
-impl Named for WinchMode {
-    const WHAT: &'static str = "mode of winches";
-    const ALL: &'static [Self] = &WinchMode::ALL;
-
-    fn name(self) -> &'static str {
-        self.name()
-    }
-
-    fn about(self) -> &'static str {
-        match self {
-            Self::AsGiven => "As the robot file describes them",
-            Self::Clamped => "Motors held at their angle",
-            Self::Torque => "Motors with constant torque",
-            Self::Stuck => "Cables that stick to their pulleys",
-        }
+named! {
+    WinchMode, "mode of winches", named WinchMode::name {
+        AsGiven, "As the robot file describes them";
+        Clamped, "Motors held at their angle";
+        Torque, "Motors with constant torque";
+        Stuck, "Cables that stick to their pulleys";
     }
 }
 
-impl Named for LoadShape {
-    const WHAT: &'static str = "shape";
-    const ALL: &'static [Self] = &[Self::Box, Self::Ellipsoid];
-
-    fn name(self) -> &'static str {
-        match self {
-            Self::Box => "box",
-            Self::Ellipsoid => "ellipsoid",
-        }
-    }
-
-    fn about(self) -> &'static str {
-        match self {
-            Self::Box => "Every component varies by itself",
-            Self::Ellipsoid => "Ellipsoid with these half axes; a ball if they are equal",
-        }
+named! {
+    LoadShape, "shape" {
+        Box "box", "Every component varies by itself";
+        Ellipsoid "ellipsoid", "Ellipsoid with these half axes; a ball if they are equal";
     }
 }
 
-impl Named for StaticModel {
-    const WHAT: &'static str = "static model";
-    const ALL: &'static [Self] = &StaticModel::ALL;
-
-    fn name(self) -> &'static str {
-        StaticModel::name(self)
-    }
-
-    fn about(self) -> &'static str {
-        match self {
-            Self::Ideal => "Straight, massless, rigid",
-            Self::Spring => "Straight, massless, elastic",
-            Self::Catenary => "Elastic, sagging under its own weight",
-        }
+named! {
+    StaticModel, "static model", named StaticModel::name {
+        Ideal, "Straight, massless, rigid";
+        Spring, "Straight, massless, elastic";
+        Catenary, "Elastic, sagging under its own weight";
     }
 }
 
-impl Named for CourseForm {
-    const WHAT: &'static str = "course";
-    const ALL: &'static [Self] = &CourseForm::ALL;
-
-    fn name(self) -> &'static str {
-        CourseForm::name(self)
-    }
-
-    fn about(self) -> &'static str {
-        match self {
-            Self::ContinuousJerk => {
-                "Fifteen phases: the jerk rises and falls in straight lines, so that the rates of the lengths do not jump"
-            }
-            Self::JerkLimited => "Seven phases of constant jerk: the fastest course within the limits",
-            Self::Quintic => "Polynomial of the fifth degree; the jerk jumps at both ends",
-            Self::Septic => "Polynomial of the seventh degree, without jerk at both ends",
-        }
+named! {
+    CourseForm, "course", named CourseForm::name {
+        ContinuousJerk,
+            "Fifteen phases: the jerk rises and falls in straight lines, so that the rates of the lengths do not jump";
+        JerkLimited, "Seven phases of constant jerk: the fastest course within the limits";
+        Quintic, "Polynomial of the fifth degree; the jerk jumps at both ends";
+        Septic, "Polynomial of the seventh degree, without jerk at both ends";
     }
 }
 
@@ -237,21 +231,10 @@ impl Named for CableModel {
     }
 }
 
-impl Named for Assembly {
-    const WHAT: &'static str = "assembly";
-    const ALL: &'static [Self] = &Assembly::ALL;
-
-    fn name(self) -> &'static str {
-        Assembly::name(self)
-    }
-
-    fn about(self) -> &'static str {
-        match self {
-            Self::Consistent => {
-                "All terms: end stiffness of the cables, and rotation of their forces on their lever arms"
-            }
-            Self::WithoutGeometricStiffness => "End stiffness of the cables only, as in Yuan et al. 2014",
-        }
+named! {
+    Assembly, "assembly", named Assembly::name {
+        Consistent, "All terms: end stiffness of the cables, and rotation of their forces on their lever arms";
+        WithoutGeometricStiffness, "End stiffness of the cables only, as in Yuan et al. 2014";
     }
 }
 
@@ -309,87 +292,30 @@ impl From<&TensionRule> for TensionRuleName {
     }
 }
 
-impl Named for RowCriterion {
-    const WHAT: &'static str = "criterion";
-    const ALL: &'static [Self] = &[Self::Variances, Self::Determinant];
-
-    fn name(self) -> &'static str {
-        match self {
-            Self::Variances => "variances",
-            Self::Determinant => "determinant",
-        }
-    }
-
-    fn about(self) -> &'static str {
-        match self {
-            Self::Variances => "Least sum of the variances of the chosen values",
-            Self::Determinant => "Least determinant of the covariance of all values, whatever their units",
-        }
+named! {
+    RowCriterion, "criterion" {
+        Variances "variances", "Least sum of the variances of the chosen values";
+        Determinant "determinant", "Least determinant of the covariance of all values, whatever their units";
     }
 }
 
-/// Form of a reduced model.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum ModelForm {
-    /// State space of the modes that inputs and outputs see.
-    #[default]
-    StateSpace,
-    /// Matrices M, C, K of all clamped modes, and their state space.
-    SecondOrder,
-}
-
-impl Named for ModelForm {
-    const WHAT: &'static str = "form";
-    const ALL: &'static [Self] = &[Self::StateSpace, Self::SecondOrder];
-
-    fn name(self) -> &'static str {
-        match self {
-            Self::StateSpace => "state-space",
-            Self::SecondOrder => "second-order",
-        }
-    }
-
-    fn about(self) -> &'static str {
-        match self {
-            Self::StateSpace => "State space of the modes that inputs and outputs see",
-            Self::SecondOrder => {
-                "M, C, K of the platform and all modes of the cables with fixed ends, and their state space"
-            }
-        }
+named! {
+    /// Form of a reduced model.
+    #[derive(Default)]
+    enum ModelForm, "form" {
+        #[default]
+        StateSpace "state-space", "State space of the modes that inputs and outputs see";
+        SecondOrder "second-order",
+            "M, C, K of the platform and all modes of the cables with fixed ends, and their state space";
     }
 }
 
-impl Named for Hold {
-    const WHAT: &'static str = "choice of what is held";
-    const ALL: &'static [Self] = &Hold::ALL;
-
-    fn name(self) -> &'static str {
-        Hold::name(self)
+named! {
+    Hold, "choice of what is held", named Hold::name {
+        Lengths, "The unstrained lengths; the pose follows";
+        Pose, "The pose; the unstrained lengths follow";
+        Rule, "The pose and the rule of ⟪tension_rule⟫; the unstrained lengths follow";
     }
-
-    fn about(self) -> &'static str {
-        match self {
-            Self::Lengths => "The unstrained lengths; the pose follows",
-            Self::Pose => "The pose; the unstrained lengths follow",
-            Self::Rule => "The pose and the rule of ⟪tension_rule⟫; the unstrained lengths follow",
-        }
-    }
-}
-
-/// Number that a design improves.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum DesignGoal {
-    /// Highest first natural frequency.
-    #[default]
-    First,
-    /// Highest first natural frequency of the platform on the static stiffness of its cables.
-    Platform,
-    /// Highest minimum stiffness.
-    Stiffness,
-    /// Least mass of all ropes.
-    RopeMass,
-    /// Least length of all ropes.
-    RopeLength,
 }
 
 impl DesignGoal {
@@ -423,138 +349,50 @@ impl DesignGoal {
     }
 }
 
-impl Named for DesignGoal {
-    const WHAT: &'static str = "goal of a design";
-    const ALL: &'static [Self] = &[Self::First, Self::Platform, Self::Stiffness, Self::RopeMass, Self::RopeLength];
-
-    fn name(self) -> &'static str {
-        match self {
-            Self::First => "first-frequency",
-            Self::Platform => "platform",
-            Self::Stiffness => "stiffness-min",
-            Self::RopeMass => "rope-mass",
-            Self::RopeLength => "rope-length",
-        }
-    }
-
-    fn about(self) -> &'static str {
-        match self {
-            Self::First => "Highest first natural frequency, cables included",
-            Self::Platform => "Highest first natural frequency of the platform on the static stiffness of its cables",
-            Self::Stiffness => "Highest minimum stiffness, as `statics` prints it",
-            Self::RopeMass => "Least mass of all ropes",
-            Self::RopeLength => "Least length of all ropes",
-        }
+named! {
+    /// Number that a design improves.
+    #[derive(Default)]
+    enum DesignGoal, "goal of a design" {
+        #[default]
+        First "first-frequency", "Highest first natural frequency, cables included";
+        Platform "platform", "Highest first natural frequency of the platform on the static stiffness of its cables";
+        Stiffness "stiffness-min", "Highest minimum stiffness, as `statics` prints it";
+        RopeMass "rope-mass", "Least mass of all ropes";
+        RopeLength "rope-length", "Least length of all ropes";
     }
 }
 
-/// Step of a number that derivatives are for.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Per {
-    /// Unit of the number.
-    #[default]
-    Unit,
-    /// Percent of its value.
-    Percent,
-    /// Tolerance of the number.
-    Tolerance,
-}
-
-impl Named for Per {
-    const WHAT: &'static str = "step of derivatives";
-    const ALL: &'static [Self] = &[Self::Unit, Self::Percent, Self::Tolerance];
-
-    fn name(self) -> &'static str {
-        match self {
-            Self::Unit => "unit",
-            Self::Percent => "percent",
-            Self::Tolerance => "tolerance",
-        }
-    }
-
-    fn about(self) -> &'static str {
-        match self {
-            Self::Unit => "Unit of the number",
-            Self::Percent => "Percent of its value",
-            Self::Tolerance => "Tolerance of the number",
-        }
+named! {
+    /// Step of a number that derivatives are for.
+    #[derive(Default)]
+    enum Per, "step of derivatives" {
+        #[default]
+        Unit "unit", "Unit of the number";
+        Percent "percent", "Percent of its value";
+        Tolerance "tolerance", "Tolerance of the number";
     }
 }
 
-/// Method for the deviations of results.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum UncertaintyMethod {
-    /// Linear where that holds, otherwise sampled.
-    #[default]
-    Automatic,
-    /// Linear for every result.
-    Linear,
-    /// Sampled for every result.
-    Sampled,
-}
-
-impl Named for UncertaintyMethod {
-    const WHAT: &'static str = "method";
-    const ALL: &'static [Self] = &[Self::Automatic, Self::Linear, Self::Sampled];
-
-    fn name(self) -> &'static str {
-        match self {
-            Self::Automatic => "automatic",
-            Self::Linear => "linear",
-            Self::Sampled => "sampled",
-        }
-    }
-
-    fn about(self) -> &'static str {
-        match self {
-            Self::Automatic => "Linear where tensions and frequencies allow it, otherwise sampled",
-            Self::Linear => "Linear for every result",
-            Self::Sampled => "Sampled for every result",
-        }
+named! {
+    /// Method for the deviations of results.
+    #[derive(Default)]
+    enum UncertaintyMethod, "method" {
+        #[default]
+        Automatic "automatic", "Linear where tensions and frequencies allow it, otherwise sampled";
+        Linear "linear", "Linear for every result";
+        Sampled "sampled", "Sampled for every result";
     }
 }
 
-/// Programs that robots can be exported to.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum ExportFormat {
-    /// Python script for OpenSeesPy.
-    Opensees,
-    /// MoorDyn input file of version 2.
-    Moordyn,
-    /// MuJoCo model (MJCF).
-    Mujoco,
-    /// World of Gazebo (SDF).
-    Sdf,
-    /// Robot for viewers (URDF).
-    Urdf,
-    /// VTK XML of polylines and polygons (.vtp), for ParaView.
-    Vtk,
-}
-
-impl Named for ExportFormat {
-    const WHAT: &'static str = "format of export";
-    const ALL: &'static [Self] = &[Self::Opensees, Self::Moordyn, Self::Mujoco, Self::Sdf, Self::Urdf, Self::Vtk];
-
-    fn name(self) -> &'static str {
-        match self {
-            Self::Opensees => "opensees",
-            Self::Moordyn => "moordyn",
-            Self::Mujoco => "mujoco",
-            Self::Sdf => "sdf",
-            Self::Urdf => "urdf",
-            Self::Vtk => "vtk",
-        }
-    }
-
-    fn about(self) -> &'static str {
-        match self {
-            Self::Opensees => "Python script for OpenSeesPy",
-            Self::Moordyn => "Input file of version 2",
-            Self::Mujoco => "Model in MJCF, with winches as actuators",
-            Self::Sdf => "World of Gazebo, whose cables Drake reads as springs",
-            Self::Urdf => "Frame and platform for viewers",
-            Self::Vtk => "VTK XML of polylines and polygons (.vtp), for ParaView",
-        }
+named! {
+    /// Programs that robots can be exported to.
+    enum ExportFormat, "format of export" {
+        Opensees "opensees", "Python script for OpenSeesPy";
+        Moordyn "moordyn", "Input file of version 2";
+        Mujoco "mujoco", "Model in MJCF, with winches as actuators";
+        Sdf "sdf", "World of Gazebo, whose cables Drake reads as springs";
+        Urdf "urdf", "Frame and platform for viewers";
+        Vtk "vtk", "VTK XML of polylines and polygons (.vtp), for ParaView";
     }
 }
 
@@ -582,54 +420,15 @@ impl ExportFormat {
     }
 }
 
-/// Motions of the platforms of new robots.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub enum NewMotion {
-    /// Three translations and three rotations.
-    #[default]
-    Rigid,
-    /// Three translations.
-    PointMass,
-    /// Translations along x and z, rotation about y.
-    PlanarXz,
-}
-
-impl Named for NewMotion {
-    const WHAT: &'static str = "motion of a new robot";
-    const ALL: &'static [Self] = &[Self::Rigid, Self::PointMass, Self::PlanarXz];
-
-    fn name(self) -> &'static str {
-        match self {
-            Self::Rigid => "rigid",
-            Self::PointMass => "point-mass",
-            Self::PlanarXz => "planar-xz",
-        }
+named! {
+    /// Motions of the platforms of new robots.
+    #[derive(Default)]
+    enum NewMotion, "motion of a new robot" {
+        #[default]
+        Rigid "rigid" or "spatial", "Three translations and three rotations";
+        PointMass "point-mass" or "point", "Three translations";
+        PlanarXz "planar-xz" or "planar", "Translations along x and z, rotation about y";
     }
-
-    fn about(self) -> &'static str {
-        match self {
-            Self::Rigid => "Three translations and three rotations",
-            Self::PointMass => "Three translations",
-            Self::PlanarXz => "Translations along x and z, rotation about y",
-        }
-    }
-
-    fn also(self) -> Option<&'static str> {
-        match self {
-            Self::Rigid => Some("spatial"),
-            Self::PointMass => Some("point"),
-            Self::PlanarXz => Some("planar"),
-        }
-    }
-}
-
-/// Units of lengths in a table of points.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum LengthUnit {
-    /// Metres.
-    Metre,
-    /// Millimetres.
-    Millimetre,
 }
 
 impl LengthUnit {
@@ -642,93 +441,34 @@ impl LengthUnit {
     }
 }
 
-impl Named for LengthUnit {
-    const WHAT: &'static str = "unit of length";
-    const ALL: &'static [Self] = &[Self::Metre, Self::Millimetre];
-
-    fn name(self) -> &'static str {
-        match self {
-            Self::Metre => "m",
-            Self::Millimetre => "mm",
-        }
-    }
-
-    fn about(self) -> &'static str {
-        match self {
-            Self::Metre => "Metres",
-            Self::Millimetre => "Millimetres",
-        }
+named! {
+    /// Units of lengths in a table of points.
+    enum LengthUnit, "unit of length" {
+        Metre "m", "Metres";
+        Millimetre "mm", "Millimetres";
     }
 }
 
-/// Types of rope whose numbers follow from a diameter: wire ropes with factors in EN 12385 (Feyrer, Wire Ropes, 2nd
-/// edition 2015, table of factors for stranded ropes), and a fibre rope.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub enum RopeType {
-    /// Six strands of 19 wires on a steel core.
-    #[default]
-    SixTimes19,
-    /// Seven strands of seven wires: six strands of 7 wires on a steel strand.
-    SevenTimes7,
-    /// Braided rope of high-modulus polyethylene, as Dyneema or Spectra.
-    Hmpe,
-}
-
-impl Named for RopeType {
-    const WHAT: &'static str = "type of rope";
-    const ALL: &'static [Self] = &[Self::SixTimes19, Self::SevenTimes7, Self::Hmpe];
-
-    fn name(self) -> &'static str {
-        match self {
-            Self::SixTimes19 => "6x19",
-            Self::SevenTimes7 => "7x7",
-            Self::Hmpe => "hmpe",
-        }
-    }
-
-    fn about(self) -> &'static str {
-        match self {
-            Self::SixTimes19 => "Six strands of 19 wires on a steel core",
-            Self::SevenTimes7 => "Seven strands of seven wires",
-            Self::Hmpe => "Braided rope of HMPE fibre, as Dyneema or Spectra",
-        }
-    }
-
-    fn also(self) -> Option<&'static str> {
-        (self == Self::Hmpe).then_some("dyneema")
+named! {
+    /// Types of rope whose numbers follow from a diameter: wire ropes with factors in EN 12385 (Feyrer, Wire Ropes, 2nd
+    /// edition 2015, table of factors for stranded ropes), and a fibre rope.
+    #[derive(Default)]
+    enum RopeType, "type of rope" {
+        #[default]
+        SixTimes19 "6x19", "Six strands of 19 wires on a steel core";
+        SevenTimes7 "7x7", "Seven strands of seven wires";
+        Hmpe "hmpe" or "dyneema", "Braided rope of HMPE fibre, as Dyneema or Spectra";
     }
 }
 
-/// Subjects of the JSON Schemas that the program writes.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub enum SchemaSubject {
-    /// Robot file.
-    #[default]
-    RobotFile,
-    /// Request of any command.
-    Request,
-    /// Columns of the results of any command.
-    Columns,
-}
-
-impl Named for SchemaSubject {
-    const WHAT: &'static str = "subject of a schema";
-    const ALL: &'static [Self] = &[Self::RobotFile, Self::Request, Self::Columns];
-
-    fn name(self) -> &'static str {
-        match self {
-            Self::RobotFile => "robot-file",
-            Self::Request => "request",
-            Self::Columns => "columns",
-        }
-    }
-
-    fn about(self) -> &'static str {
-        match self {
-            Self::RobotFile => "Robot files (TOML), for editors",
-            Self::Request => "Requests (JSON) of all commands, for programs that write them",
-            Self::Columns => "Columns (CSV) of results with units and meanings, for programs that read them",
-        }
+named! {
+    /// Subjects of the JSON Schemas that the program writes.
+    #[derive(Default)]
+    enum SchemaSubject, "subject of a schema" {
+        #[default]
+        RobotFile "robot-file", "Robot files (TOML), for editors";
+        Request "request", "Requests (JSON) of all commands, for programs that write them";
+        Columns "columns", "Columns (CSV) of results with units and meanings, for programs that read them";
     }
 }
 
