@@ -104,7 +104,7 @@ MORE = [
     f"funicular map robots/cogiro-winches.toml --grid x=0:1:2 --grid z=1.5 --quantity speed-factor,speed-max:rz {VELOCITIES}",
     f"funicular sweep robots/cogiro-winches.toml --vary platform.mass_kg=90,95 --quantity motor-power {VELOCITIES}",
     f"funicular trajectory robots/cogiro.toml {TENSIONS} {STATE} --move-to 1.5,1,1.5,0,0,10 --via trajectory.csv --blend 0.5 {COURSE}",
-    "funicular trajectory robots/cogiro.toml --path path.csv --duration-s 3 --rope-inertia",
+    "funicular trajectory robots/cogiro.toml --path path.csv --row-tolerance-m 0.00005 --duration-s 3 --rope-inertia",
     f"funicular trajectory robots/cogiro-winches.toml --pose 1,0,1.5 --circle-center-m 0,0,1.5 --circle-axis 0,0.1,1 --turns 0.5 {CIRCLE}",
     f"funicular trajectory robots/cogiro.toml --pose 1,2,1.5 --hold-lengths-of-pose --mass-kg 250 --move-to 1.5,1,1.5 --lift-m 0.2 {CIRCLE} --max-tension-n 1500 --fastest",
     f"funicular clearance robots/cogiro.toml {TENSIONS} {STATE}",
