@@ -186,6 +186,17 @@ test("rows without which nothing is determined are told in the program's words",
   assert.equal(await page.getAttribute("#calibrate", "data-shown"), "search");
 });
 
+/** Waits for an alert of the calibration: the one before may still be there while the next answer is computed. */
+async function alerted(message) {
+  await page.waitForFunction(
+    ({ source, flags }) => {
+      const alert = document.querySelector("#calibrate [role=alert]");
+      return alert && new RegExp(source, flags).test(document.getElementById("calibrate").textContent);
+    },
+    { source: message.source, flags: message.flags },
+  );
+}
+
 test("a wrong table, field or choice is told at its place", async () => {
   await page.fill("#calibrate-deviation", "wide");
   await page.click("#calibrate-form button:not([type])");
@@ -199,8 +210,7 @@ test("a wrong table, field or choice is told at its place", async () => {
   ]) {
     writeFileSync(join(folder, "wrong.csv"), table);
     await page.setInputFiles("#calibrate-file", join(folder, "wrong.csv"));
-    await page.waitForFunction(() => document.querySelector("#calibrate [role=alert]"));
-    assert.match(await text("#calibrate"), message);
+    await alerted(message);
     assert.deepEqual(await placesOf("calibrated"), []);
   }
 
@@ -211,8 +221,7 @@ test("a wrong table, field or choice is told at its place", async () => {
   await page.waitForFunction(() => /pasted table: 6 rows/.test(document.getElementById("calibrate-name").textContent));
   await page.uncheck("[data-unknown='anchors']");
   await page.click("#calibrate-form button:not([type])");
-  await page.waitForFunction(() => document.querySelector("#calibrate [role=alert]"));
-  assert.match(await text("#calibrate"), /`unknowns` is empty: name at least one of anchors, attachments/);
+  await alerted(/`unknowns` is empty: name at least one of anchors, attachments/);
   await page.check("[data-unknown='anchors']");
 });
 
