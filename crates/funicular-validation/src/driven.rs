@@ -69,6 +69,16 @@ fn equip(robot: &mut Robot, parts: &DriveParts) {
 }
 
 /// Comparisons of one robot whose drives move.
+/// Weight on wheels that turn with the base, at most this part of the tensions that turn: the reference leaves it out,
+/// theory (83a).
+fn weight_on_wheels(robot: &Robot, rest: &Equilibrium) -> f64 {
+    let on_wheel = |(cable, state): (&Cable, &CableState)| {
+        let radius = cable.anchor.pulley.as_ref().map_or(0.0, |pulley| pulley.radius);
+        2.0 * radius * cable.material.mass_per_length * robot.gravity_w.norm() / state.tension_anchor
+    };
+    robot.cables.iter().zip(&rest.cables).map(on_wheel).fold(0.0, f64::max)
+}
+
 fn driven(row: &DrivenRobot, mut robot: Robot, source: &str) -> Result<Vec<Comparison>> {
     equip(&mut robot, &row.parts);
     let State::Lengths(lengths) = &robot.state else { return Err(anyhow!("the lengths are given")) };
@@ -103,15 +113,8 @@ fn driven(row: &DrivenRobot, mut robot: Robot, source: &str) -> Result<Vec<Compa
     let base = axes.map(FrameInput::BaseAlong).into_iter().chain(axes.map(FrameInput::BaseAbout));
     let base: Vec<Signal> = base.map(Signal::Frame).collect();
     let base = Port::all(&robot, &rest, &dynamics, &base, false)?;
-    // The reference leaves out the weight on wheels that turn with the base, theory (83a): at most this part of the
-    // tensions that turn.
-    let on_wheel = |(cable, state): (&Cable, &CableState)| {
-        let radius = cable.anchor.pulley.as_ref().map_or(0.0, |pulley| pulley.radius);
-        2.0 * radius * cable.material.mass_per_length * robot.gravity_w.norm() / state.tension_anchor
-    };
-    let weight = robot.cables.iter().zip(&rest.cables).map(on_wheel).fold(0.0, f64::max);
     let exact = (AT_CONSTANT_TORQUE, Bound::Rounding);
-    let turned = (weight, Bound::Model("weight on turned wheels"));
+    let turned = (weight_on_wheels(&robot, &rest), Bound::Model("weight on turned wheels"));
     for (what, inputs, columns, responses, (tolerance, bound)) in [
         (what, &inputs, 0..inputs.len(), &row.responses, exact),
         ("motion per translation of the base", &base, 0..3, &row.base, exact),

@@ -48,6 +48,22 @@ fn pose(of: &MovingRobot, t: f64) -> Pose {
     Pose::new([position[0], position[1], position[2] + of.lift_m], angles)
 }
 
+/// Tensions at the platform, then those at the anchors.
+fn tensions(motion: &InMotion) -> Vec<f64> {
+    let cables = &motion.equilibrium.cables;
+    cables.iter().map(|cable| cable.tension_platform).chain(cables.iter().map(|cable| cable.tension_anchor)).collect()
+}
+
+/// Powers at the anchors: tension times the rate of the stretched rope.
+fn powers(robot: &Robot, motion: &InMotion) -> Vec<f64> {
+    let each = motion.equilibrium.cables.iter().zip(&robot.cables).zip(&motion.length_rates);
+    each.map(|((state, cable), rate)| {
+        let stretched = 1.0 + state.tension_anchor / cable.material.axial_stiffness;
+        -state.tension_anchor * rate * stretched
+    })
+    .collect()
+}
+
 fn along_path(case: &Case, robot: &Robot, of: &MovingRobot) -> Result<[Comparison; 4]> {
     let step = (PERIOD + 2.0 * BESIDE) / (ROWS - 1) as f64;
     let times: Vec<f64> = (0..ROWS).map(|k| k as f64 * step - BESIDE).collect();
@@ -80,27 +96,11 @@ fn along_path(case: &Case, robot: &Robot, of: &MovingRobot) -> Result<[Compariso
             let (their, our) = pairs[0];
             case.row(what, (&[their], &[our]), (worst, kind), limit, Bound::Digits("digits of the reference"))
         };
-    let cables = |motion: &InMotion| motion.equilibrium.cables.clone();
-    let tensions = |motion: &InMotion| -> Vec<f64> {
-        cables(motion)
-            .iter()
-            .map(|cable| cable.tension_platform)
-            .chain(cables(motion).iter().map(|cable| cable.tension_anchor))
-            .collect()
-    };
-    let powers = |motion: &InMotion| -> Vec<f64> {
-        let each = cables(motion).into_iter().zip(&robot.cables).zip(&motion.length_rates);
-        each.map(|((state, cable), rate)| {
-            let stretched = 1.0 + state.tension_anchor / cable.material.axial_stiffness;
-            -state.tension_anchor * rate * stretched
-        })
-        .collect()
-    };
     Ok([
         compared(
             "unstrained lengths; the first is shown [m]",
             |row| row.lengths_m.clone(),
-            &|motion| cables(motion).iter().map(|cable| cable.unstrained_length).collect(),
+            &|motion| motion.equilibrium.cables.iter().map(|cable| cable.unstrained_length).collect(),
             (LENGTHS, DifferenceKind::Absolute),
         ),
         compared(
@@ -118,7 +118,7 @@ fn along_path(case: &Case, robot: &Robot, of: &MovingRobot) -> Result<[Compariso
         compared(
             "powers at the anchors over the largest; the first is shown [W]",
             |row| row.powers_w.clone(),
-            &powers,
+            &|motion| powers(robot, motion),
             (POWERS, DifferenceKind::Relative),
         ),
     ])

@@ -6,10 +6,12 @@
 //! cables that go down. There is one file per model.
 
 pub mod catenary_dynamic;
+mod catenary_static;
 mod damping;
 mod model;
 pub mod shallow_dynamic;
 pub mod shallow_static;
+mod situation;
 mod spring;
 
 pub use model::{CableModel, CableShape, MODELS, ModelEntry};
@@ -17,12 +19,11 @@ pub use model::{CableModel, CableShape, MODELS, ModelEntry};
 use crate::catenary::space::HangingCable;
 use crate::drive::DriveChain;
 use crate::math::{Complex, Mat3, Vec3, any_normal};
-use crate::robot::{Damping, Robot, StretchLoss, WinchMode};
+use crate::robot::{Robot, WinchMode};
 use crate::statics::CableState;
-use catenary_dynamic::{
-    CarrierMotion, CatenaryDynamicEnd, EndDirections, MovingEnd, NearPole, Shapes, SpanAtRest, has_tension,
-};
+use catenary_dynamic::{CarrierMotion, CatenaryDynamicEnd, MovingEnd, NearPole, Shapes};
 use shallow_dynamic::ShallowDynamic;
+use situation::CableSituation;
 use std::f64::consts::TAU;
 use thiserror::Error;
 
@@ -347,110 +348,19 @@ impl EndStiffness {
         shapes: Shapes,
     ) -> Result<Self, NoStiffness> {
         let axes = LocalAxes::of_cable(robot, i, state);
-        let sag = Sag::of(robot, i, state);
-        let material = &robot.cables[i].material;
-        let shallow_damping = material.damping.per_length_over(stretch_of(robot, i, state));
-
-        if sag.tension <= 0.0 && model.entry().needs_tension {
+        let of = CableSituation { robot, i, state, axes, in_plane_only, winches, limit: up_to_hz * TAU, shapes };
+        let entry = model.entry();
+        if entry.needs_tension && of.sag().tension <= 0.0 {
             return Err(NoStiffness::NoTension);
         }
-        // A rope whose stretch has a loss, or whose strains are wanted, has motions beside its stiffness.
-        let loss = material.stretch_loss;
-        let has_strains = shapes.has_strains(loss);
-
-        let without_b =
-            |k: Mat3| if in_plane_only { k - axes.b * axes.b.transpose() * axes.b.dot(&(k * axes.b)) } else { k };
-
-        // A cable over a pulley or to a winch is in series with its anchor end.
-        let drive = state.drive.as_deref();
-        let in_series = |held: Mat3| drive.map_or(held, |drive| drive.end.in_series_with(&held));
-
-        let at_rest = |span: SpanAtRest| -> Result<Self, NoStiffness> {
-            let end = CatenaryDynamicEnd::at_rest(span, drive.map(|drive| &drive.end), loss, in_plane_only)?;
-            Ok(Self::Dynamic(DynamicCable::CatenaryDynamic(Box::new(end))))
-        };
-        let shallow_at_rest = || -> Result<Self, NoStiffness> {
-            let held = shallow_static::stiffness(&sag);
-            if has_strains {
-                return at_rest(SpanAtRest::along_chord(axes, held, sag.axial_stiffness / sag.effective_length));
-            }
-            Ok(Self::Constant(without_b(in_series(held.in_world(&axes)))))
-        };
-        let hanging_at_rest = |hanging: &HangingCable| -> Result<Self, NoStiffness> {
-            if has_strains && has_tension(&hanging.catenary) {
-                return at_rest(SpanAtRest::hanging(LocalAxes::of_hanging(hanging), &hanging.catenary));
-            }
-            Ok(Self::Constant(without_b(in_series(hanging.tangent_w()))))
-        };
-
-        let limit = up_to_hz * TAU;
-        Ok(match model {
-            CableModel::Spring if state.is_slack() => Self::Constant(Mat3::zeros()),
-            CableModel::Spring => {
-                let held = spring::stiffness(robot, i, state);
-                if has_strains {
-                    return at_rest(SpanAtRest::along_chord(axes, held, held.axial));
-                }
-                Self::Constant(in_series(held.in_world(&axes)))
-            }
-            CableModel::ShallowStatic => shallow_at_rest()?,
-            CableModel::CatenaryStatic => hanging_at_rest(state.hanging.as_ref().ok_or(NoStiffness::Rigid)?)?,
-            // One cable by poles and residues makes all of them such cables.
-            CableModel::ShallowDynamic if robot.has_moving_ends() || robot.has_stretch_loss() => {
-                let end = moving_end(robot, i, state, &axes, winches, limit);
-                let of_rope = (shallow_damping, loss, has_strains);
-                match shallow_span(state, (&sag, axes), end, of_rope, in_plane_only, limit)? {
-                    Some(cable) => Self::Dynamic(DynamicCable::CatenaryDynamic(Box::new(cable))),
-                    None => shallow_at_rest()?,
-                }
-            }
-            CableModel::ShallowDynamic => {
-                let cable = ShallowDynamic::new(sag, axes, shallow_damping, in_plane_only);
-                Self::Dynamic(DynamicCable::ShallowDynamic(cable))
-            }
-            CableModel::CatenaryDynamic => {
-                let hanging = state.hanging.as_ref().ok_or(NoStiffness::Rigid)?;
-                let (m, damping) = (material.mass_per_length, material.damping);
-                let end = moving_end(robot, i, state, &LocalAxes::of_hanging(hanging), winches, limit);
-                // Without any mass the cable and its drive are springs.
-                if m == 0.0 && !end.as_ref().is_some_and(MovingEnd::has_dynamics) {
-                    return hanging_at_rest(hanging);
-                }
-                let cable = CatenaryDynamicEnd::new(hanging, end, (m, damping, loss), in_plane_only, limit, shapes)?;
-                Self::Dynamic(DynamicCable::CatenaryDynamic(Box::new(cable)))
-            }
-        })
+        (entry.end)(&of)
     }
-}
-
-/// Shallow span whose far end may move, by poles and residues; `None` if cable and drive have no mass and are springs.
-fn shallow_span(
-    state: &CableState,
-    (sag, axes): (&Sag, LocalAxes),
-    end: Option<MovingEnd>,
-    of_rope: (Damping, StretchLoss, bool),
-    in_plane_only: bool,
-    limit: f64,
-) -> Result<Option<CatenaryDynamicEnd>, NoStiffness> {
-    let hanging = state.hanging.as_ref().ok_or(NoStiffness::Rigid)?;
-    if sag.mass_per_length == 0.0 && !end.as_ref().is_some_and(MovingEnd::has_dynamics) {
-        return Ok(None);
-    }
-    let directions = EndDirections::in_axes(hanging, &axes);
-    let cable = CatenaryDynamicEnd::of_shallow_span(sag, (axes, directions), end, of_rope, in_plane_only, limit)?;
-    Ok(Some(cable))
 }
 
 /// Static stiffness of the free span of cable `i` in a model, its far end held; 3×3, world axes [N/m]. `None` for a
 /// rigid cable in a catenary model.
 pub(crate) fn span_stiffness(robot: &Robot, i: usize, state: &CableState, model: CableModel) -> Option<Mat3> {
-    let straight = |of: LocalStiffness<f64>| of.in_world(&LocalAxes::of_cable(robot, i, state));
-    match model {
-        CableModel::Spring if state.is_slack() => Some(Mat3::zeros()),
-        CableModel::Spring => Some(straight(spring::stiffness(robot, i, state))),
-        CableModel::ShallowStatic => Some(straight(shallow_static::stiffness(&Sag::of(robot, i, state)))),
-        _ => state.hanging.as_ref().map(HangingCable::tangent_w),
-    }
+    (model.entry().span)(robot, i, state)
 }
 
 /// End of cable `i` of a robot at its pulley or winch, with the drive behind it, in the `axes` of the cable's model and

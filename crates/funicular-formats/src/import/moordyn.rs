@@ -72,17 +72,7 @@ pub(crate) fn read(file: &SourceFile) -> Result<Draft> {
         }
     };
     if let PlatformObject::Coupled(_) = on_platform {
-        let coupled = || model.points.iter().filter(|point| point.holder == Holder::Coupled);
-        let count = counted(coupled().count(), "coupled point");
-        model.assumed.push(format!("the platform is the {count}, and is free; in the source another program moves it"));
-        if platform.motion == DraftMotion::Rigid {
-            model.assumed.push(
-                "the centre of mass is the centre of the coupled points, unless ⟪center_of_mass_m⟫ is given".to_owned(),
-            );
-        }
-        if coupled().any(|point| point.mass > 0.0) {
-            lost.push("the masses of coupled points: the mass of the platform has to contain them".to_owned());
-        }
+        note_coupled_points(&mut model, platform.motion, &mut lost);
     }
     Ok(Draft {
         name: file.stem(),
@@ -96,6 +86,22 @@ pub(crate) fn read(file: &SourceFile) -> Result<Draft> {
         assumed: model.assumed,
         lost,
     })
+}
+
+/// Notes what a platform of coupled points assumes and loses.
+fn note_coupled_points(model: &mut MoorDynModel, motion: DraftMotion, lost: &mut Vec<String>) {
+    let coupled = || model.points.iter().filter(|point| point.holder == Holder::Coupled);
+    let count = counted(coupled().count(), "coupled point");
+    let has_mass = coupled().any(|point| point.mass > 0.0);
+    model.assumed.push(format!("the platform is the {count}, and is free; in the source another program moves it"));
+    if motion == DraftMotion::Rigid {
+        model.assumed.push(
+            "the centre of mass is the centre of the coupled points, unless ⟪center_of_mass_m⟫ is given".to_owned(),
+        );
+    }
+    if has_mass {
+        lost.push("the masses of coupled points: the mass of the platform has to contain them".to_owned());
+    }
 }
 
 /// Object of the file that is the platform: a body or a point.

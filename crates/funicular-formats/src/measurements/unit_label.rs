@@ -284,8 +284,11 @@ fn words(label: &str) -> Option<Vec<Token>> {
         };
         tokens.push(token);
     }
+    Some(without_idle_blanks(&tokens))
+}
 
-    // A blank counts only between two factors.
+/// Tokens without the blanks that do not stand between two factors.
+fn without_idle_blanks(tokens: &[Token]) -> Vec<Token> {
     let is_factor_end = |token: Option<&Token>| !matches!(token, None | Some(Token::Sign('*' | '/' | '^' | '(' | ' ')));
     let begins_factor = |token: Option<&Token>| matches!(token, Some(Token::Word(_) | Token::Sign('(')));
     let mut spaced: Vec<Token> = Vec::with_capacity(tokens.len());
@@ -295,7 +298,7 @@ fn words(label: &str) -> Option<Vec<Token>> {
             spaced.push(token.clone());
         }
     }
-    Some(spaced)
+    spaced
 }
 
 /// Label with `^-2` in place of `⁻²`.

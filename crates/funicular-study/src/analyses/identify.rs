@@ -42,10 +42,10 @@ use funicular::math::least_squares::{LeastSquaresEnding, Minimum};
 use funicular::robot::parameters::Parameters;
 use model::IdentifiedModel;
 use observations::{Observation, Subject};
-use precision::judge;
+use precision::{Judged, judge};
 use resolution::unresolved_peaks;
 use ridge::{Profiled, profiles};
-use search::search;
+use search::{Searched, search};
 use serde::Serialize;
 use starts::StartRow;
 use std::cell::RefCell;
@@ -253,7 +253,7 @@ pub fn run(request: &IdentifyRequest, watch: &mut dyn Watch) -> Result<Identifie
     let file = request.robot.read()?;
     let parameters = Parameters::from_toml(&file.text)?;
     let unknowns = unknowns(&parameters, &request.fit)?;
-    let profiled = named(("profile", &request.profile), &parameters, &unknowns)?;
+    let mut profiled = named(("profile", &request.profile), &parameters, &unknowns)?;
     let wanted = candidates(request, &parameters)?;
     let proposed_for = named(("propose_for", &request.propose_for), &parameters, &unknowns)?;
 
@@ -269,18 +269,13 @@ pub fn run(request: &IdentifyRequest, watch: &mut dyn Watch) -> Result<Identifie
 
     // How well the measurements determine the values.
     let mut judged = judge(&model, best, is_noise_given(request));
-    let mut profiled = profiled;
-    let mut doubts = Vec::new();
-    if let Some(assigning) = &searched.assigning {
-        doubts = assigning.doubts(&model, best, &judged, is_noise_given(request));
-        if !doubts.is_empty() {
-            // Intervals hold for this assignment alone.
-            judged.deviations.fill(None);
-            profiled.clear();
-        }
-    }
+    let assigning = searched.assigning.as_ref();
+    let doubts = assigning.map(|of| of.doubts(&model, best, &judged, is_noise_given(request))).unwrap_or_default();
     if searched.apart.is_some() {
         "the search has not arrived: its starts ended apart".clone_into(&mut judged.verdict);
+    }
+    // Intervals hold for one assignment and one minimum.
+    if !doubts.is_empty() || searched.apart.is_some() {
         judged.deviations.fill(None);
         profiled.clear();
     }
@@ -288,18 +283,7 @@ pub fn run(request: &IdentifyRequest, watch: &mut dyn Watch) -> Result<Identifie
     let profiled = profiles(&mut model, best, &profiled, &judged.deviations, judged.factor, &progress)?;
     let rows = value_rows(&model, &best.x, &judged.deviations, profiled);
 
-    // Doubts about the fit.
-    let mut warnings = warnings(&model, request, best, &rows)?;
-    warnings.splice(0..0, caveats::unexplained(judged.chi2_per_degree));
-    warnings.extend(searched.apart.clone());
-    warnings.extend(searched.assigning.as_ref().and_then(|assigning| assigning.warning(&doubts)));
-    warnings.extend(caveats::damping_in_per_cent(request));
-    let fitted = model.robot(&best.x)?;
-    warnings
-        .extend(funicular::warnings::of_robot(&fitted).iter().map(|warning| format!("identified robot: {warning}")));
-    warnings.extend(judged.weak.iter().cloned());
-    warnings.extend(rows.iter().filter_map(caveats::moves));
-    warnings.extend(rows.iter().filter_map(|row| caveats::missed_minimum(row, best.chi2(), judged.factor)));
+    let mut warnings = all_warnings(&model, request, &searched, &judged, &doubts, &rows)?;
 
     // What to measure next.
     let (mut proposed, mut measurements_needed) = (Vec::new(), None);
@@ -311,7 +295,6 @@ pub fn run(request: &IdentifyRequest, watch: &mut dyn Watch) -> Result<Identifie
         (proposed, measurements_needed) =
             proposals::proposals(&model, request, (best, judged.factor), &poses, &chosen, &watch)?;
     }
-
     if let (Some(wanted), None) = (request.wanted_percent, measurements_needed) {
         warnings.push(proposals::not_reached(wanted));
     }
@@ -345,6 +328,29 @@ pub fn run(request: &IdentifyRequest, watch: &mut dyn Watch) -> Result<Identifie
         measurements_needed,
         warnings,
     })
+}
+
+/// Warnings about the fit and the robot that it found.
+fn all_warnings(
+    model: &IdentifiedModel<'_>,
+    request: &IdentifyRequest,
+    searched: &Searched,
+    judged: &Judged,
+    doubts: &[String],
+    rows: &[ValueRow],
+) -> Result<Vec<String>> {
+    let best = &searched.best;
+    let mut all = Vec::from_iter(caveats::unexplained(judged.chi2_per_degree));
+    all.extend(warnings(model, request, best, rows)?);
+    all.extend(searched.apart.clone());
+    all.extend(searched.assigning.as_ref().and_then(|assigning| assigning.warning(doubts)));
+    all.extend(caveats::damping_in_per_cent(request));
+    let fitted = model.robot(&best.x)?;
+    all.extend(funicular::warnings::of_robot(&fitted).iter().map(|warning| format!("identified robot: {warning}")));
+    all.extend(judged.weak.iter().cloned());
+    all.extend(rows.iter().filter_map(caveats::moves));
+    all.extend(rows.iter().filter_map(|row| caveats::missed_minimum(row, best.chi2(), judged.factor)));
+    Ok(all)
 }
 
 /// Warnings about a minimum: measurements that the model misses, peaks that are not resolved, values at bounds, and a

@@ -1,6 +1,10 @@
 //! Models of a cable, each with what other rooms ask about it.
 
-use crate::statics::StaticModel;
+use super::situation::CableSituation;
+use super::{EndStiffness, NoStiffness, catenary_dynamic, catenary_static, shallow_dynamic, shallow_static, spring};
+use crate::math::Mat3;
+use crate::robot::Robot;
+use crate::statics::{CableState, StaticModel};
 use std::fmt;
 
 /// Model of the stiffness of a cable at its platform end.
@@ -31,7 +35,7 @@ pub enum CableShape {
 }
 
 /// Properties of a cable model.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy)]
 pub struct ModelEntry {
     /// The model.
     pub model: CableModel,
@@ -47,6 +51,11 @@ pub struct ModelEntry {
     pub needs_tension: bool,
     /// True if axial waves along the cable are part of the model.
     pub has_axial_waves: bool,
+    /// End stiffness of a cable.
+    pub(super) end: fn(&CableSituation<'_>) -> Result<EndStiffness, NoStiffness>,
+    /// Static stiffness of the free span of a cable, its far end held [N/m]; `None` for a rigid cable in a model that
+    /// needs its curve.
+    pub(super) span: fn(&Robot, usize, &CableState) -> Option<Mat3>,
 }
 
 /// All cable models, the simplest first, in the order of [`CableModel`].
@@ -59,6 +68,8 @@ pub const MODELS: [ModelEntry; 5] = [
         is_dynamic: false,
         needs_tension: false,
         has_axial_waves: false,
+        end: spring::end,
+        span: spring::span,
     },
     ModelEntry {
         model: CableModel::ShallowStatic,
@@ -68,6 +79,8 @@ pub const MODELS: [ModelEntry; 5] = [
         is_dynamic: false,
         needs_tension: true,
         has_axial_waves: false,
+        end: shallow_static::end,
+        span: shallow_static::span,
     },
     ModelEntry {
         model: CableModel::CatenaryStatic,
@@ -77,6 +90,8 @@ pub const MODELS: [ModelEntry; 5] = [
         is_dynamic: false,
         needs_tension: false,
         has_axial_waves: false,
+        end: catenary_static::end,
+        span: catenary_static::span,
     },
     ModelEntry {
         model: CableModel::ShallowDynamic,
@@ -86,6 +101,8 @@ pub const MODELS: [ModelEntry; 5] = [
         is_dynamic: true,
         needs_tension: true,
         has_axial_waves: false,
+        end: shallow_dynamic::end,
+        span: catenary_static::span,
     },
     ModelEntry {
         model: CableModel::CatenaryDynamic,
@@ -95,6 +112,8 @@ pub const MODELS: [ModelEntry; 5] = [
         is_dynamic: true,
         needs_tension: true,
         has_axial_waves: true,
+        end: catenary_dynamic::end,
+        span: catenary_static::span,
     },
 ];
 
@@ -167,7 +186,7 @@ mod tests {
     #[test]
     fn the_table_has_one_row_per_model_in_their_order() {
         for (i, entry) in MODELS.iter().enumerate() {
-            assert_eq!((entry.model as usize, entry.model.entry()), (i, entry));
+            assert_eq!((entry.model as usize, entry.model.entry().name), (i, entry.name));
         }
         assert_eq!(CableModel::ALL.map(CableModel::name), MODELS.map(|entry| entry.name));
     }

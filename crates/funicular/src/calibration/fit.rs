@@ -59,6 +59,43 @@ struct DampedStep {
     predicted: f64,
 }
 
+/// Values and states before the first iteration.
+fn unfitted(values: &[f64], states: &[RowState]) -> CalibrationFit {
+    CalibrationFit {
+        values: values.to_vec(),
+        poses: states.iter().map(|state| state.pose).collect(),
+        lengths: states.iter().map(|state| state.lengths.clone()).collect(),
+        chi2: f64::INFINITY,
+        iterations: 0,
+        converged: false,
+    }
+}
+
+/// Damping of the steps of a fit.
+struct Damping {
+    value: f64,
+    /// Factor of the next failure.
+    growth: f64,
+}
+
+impl Damping {
+    fn new() -> Self {
+        Self { value: FIRST_DAMPING, growth: 2.0 }
+    }
+
+    /// Less damping, the nearer the decrease of χ² was to the predicted one.
+    fn after_success(&mut self, share_of_predicted: f64) {
+        self.value *= (1.0 - (2.0 * share_of_predicted - 1.0).powi(3)).clamp(1.0 / 3.0, 2.0);
+        self.value = self.value.max(LAST_DAMPING * 1e-3);
+        self.growth = 2.0;
+    }
+
+    fn after_failure(&mut self) {
+        self.value *= self.growth;
+        self.growth *= 2.0;
+    }
+}
+
 impl Calibration {
     /// Minimises χ² from a point, over values that move along the columns of `free`.
     ///
@@ -82,30 +119,23 @@ impl Calibration {
         mut states: Vec<RowState>,
         free: &DMat,
     ) -> CalibrationFit {
-        let mut fit = CalibrationFit {
-            values: values.to_vec(),
-            poses: states.iter().map(|state| state.pose).collect(),
-            lengths: states.iter().map(|state| state.lengths.clone()).collect(),
-            chi2: f64::INFINITY,
-            iterations: 0,
-            converged: false,
-        };
+        let mut fit = unfitted(values, &states);
         let priors = self.prior_rows(free);
         let Some(mut at) = self.linearised(&fit.values, &states) else { return fit };
         fit.chi2 = at.chi2;
         let mut scale = Scales::new(free.ncols(), self.rows.len(), self.row_unknown_count());
-        let (mut damping, mut growth) = (FIRST_DAMPING, 2.0);
+        let mut damping = Damping::new();
 
         while fit.iterations < max_iterations && fit.chi2.is_finite() {
             fit.iterations += 1;
             scale.grow(&at.rows, free, &priors);
-            let step = scale.step(&at, free, &priors, damping);
+            let step = scale.step(&at, free, &priors, damping.value);
             if step.predicted <= MIN_DECREASE + MIN_RELATIVE_DECREASE * fit.chi2 {
-                if damping <= LAST_DAMPING {
+                if damping.value <= LAST_DAMPING {
                     fit.converged = true;
                     break;
                 }
-                damping *= LAST_DAMPING.sqrt();
+                damping.value *= LAST_DAMPING.sqrt();
                 continue;
             }
 
@@ -123,18 +153,15 @@ impl Calibration {
                 states = next_states;
                 at = linearised;
                 fit.chi2 = at.chi2;
-                damping *= (1.0 - (2.0 * decrease / step.predicted - 1.0).powi(3)).clamp(1.0 / 3.0, 2.0);
-                damping = damping.max(LAST_DAMPING * 1e-3);
-                growth = 2.0;
+                damping.after_success(decrease / step.predicted);
             } else {
                 // Rounding of χ² hides what is left to gain.
                 if step.predicted <= ROUNDING * fit.chi2.max(1.0) {
                     fit.converged = true;
                     break;
                 }
-                damping *= growth;
-                growth *= 2.0;
-                if damping > MAX_DAMPING {
+                damping.after_failure();
+                if damping.value > MAX_DAMPING {
                     break;
                 }
             }

@@ -67,34 +67,38 @@ pub struct AnchorDistance {
 }
 
 impl Calibration {
-    /// Precision of a fit.
-    pub fn precision(&self, fit: &CalibrationFit, frame: &CalibrationFrame) -> CalibrationPrecision {
+    /// Rows without their poses, and the numbers of those that do not fix theirs.
+    fn net_rows(&self, fit: &CalibrationFit, frame: &CalibrationFrame) -> (Vec<NetRow>, Vec<usize>) {
+        let mut open_rows = Vec::new();
         let terms = self.terms_at(fit);
-        let (mut net, mut open_rows) = (Vec::with_capacity(terms.len()), Vec::new());
-        for (j, terms) in terms.iter().enumerate() {
+        let net = terms.iter().enumerate().map(|(j, terms)| {
             let row = EliminatedRow::with_directions(terms, &frame.free);
             if row.fixes_pose() {
                 let directions = row.directions.unwrap_or_else(|| DMat::zeros(0, 0));
-                net.push(NetRow { by_free: row.net, residuals: row.residuals, directions });
-            } else {
-                open_rows.push(j);
-                net.push(NetRow {
-                    by_free: DMat::zeros(0, frame.free.ncols()),
-                    residuals: DVec::zeros(0),
-                    directions: DMat::zeros(terms.residuals.len(), 0),
-                });
+                return NetRow { by_free: row.net, residuals: row.residuals, directions };
             }
-        }
+            open_rows.push(j);
+            NetRow {
+                by_free: DMat::zeros(0, frame.free.ncols()),
+                residuals: DVec::zeros(0),
+                directions: DMat::zeros(terms.residuals.len(), 0),
+            }
+        });
+        (net.collect(), open_rows)
+    }
+
+    /// Precision of a fit.
+    pub fn precision(&self, fit: &CalibrationFit, frame: &CalibrationFrame) -> CalibrationPrecision {
+        let (net, open_rows) = self.net_rows(fit, frame);
         let count = frame.free.ncols();
         let priors = self.prior_rows(&frame.free);
         let height = net.iter().map(|row| row.by_free.nrows()).sum::<usize>() + priors.nrows();
         let mut all = DMat::zeros(height.max(count), count);
         let mut first = 0;
-        for row in &net {
-            all.view_mut((first, 0), row.by_free.shape()).copy_from(&row.by_free);
-            first += row.by_free.nrows();
+        for rows in net.iter().map(|row| &row.by_free).chain([&priors]) {
+            all.view_mut((first, 0), rows.shape()).copy_from(rows);
+            first += rows.nrows();
         }
-        all.view_mut((first, 0), priors.shape()).copy_from(&priors);
         let information = all.transpose() * &all;
         let scales: Vec<f64> = all.column_iter().map(|column| column.norm()).collect();
         let largest = scales.iter().copied().fold(0.0, f64::max).max(f64::MIN_POSITIVE);

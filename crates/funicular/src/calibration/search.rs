@@ -87,17 +87,7 @@ pub fn search(
         if !found.chi2.is_finite() {
             continue;
         }
-        let found = of.canonical(found, frame);
-        match minima.iter_mut().find(|(other, _)| of.is_same(other, &found)) {
-            Some((other, arrivals)) => {
-                *arrivals += 1;
-                if found.chi2 < other.chi2 {
-                    *other = found;
-                }
-            }
-            None => minima.push((found, 1)),
-        }
-        minima.sort_by(|a, b| a.0.chi2.total_cmp(&b.0.chi2));
+        of.add_arrival(&mut minima, of.canonical(found, frame));
         let enough = |(best, arrivals): &(CalibrationFit, usize)| {
             *arrivals >= if best.chi2 <= noise { ENOUGH_OF_NOISE } else { ENOUGH_ARRIVALS }
         };
@@ -116,29 +106,22 @@ pub fn search(
     frame.hold(&mut best.values, &of.start());
     let variance = (best.chi2 / of.degrees(frame).max(1) as f64).max(1.0);
     let largest = best.chi2 + FITS_AS_WELL * variance;
-    let mut others: Vec<OtherMinimum> = minima
-        .map(|(fit, _)| OtherMinimum { fit, mirrored: Vec::new() })
-        .filter(|other| other.fit.converged && other.fit.chi2 < largest)
-        .collect();
-    for image in of.mirror_images(&best, frame, largest) {
-        match others.iter_mut().find(|other| of.is_same(&other.fit, &image.fit)) {
-            Some(other) => other.mirrored = image.mirrored,
-            None => others.push(image),
-        }
+    let minima = minima.map(|(fit, _)| fit).filter(|fit| fit.converged && fit.chi2 < largest);
+    let mut others = of.with_mirror_images(minima.collect(), &best, frame, largest);
+    choose_nearest_to_file(&mut best, &mut others, CHOSEN * variance);
+    Some(CalibrationSearch { best, others, starts: done, arrivals, from_nothing })
+}
+
+/// Exchanges the best minimum for the first other one, if that is lower by more than a difference of χ² between which
+/// the readings do not choose: what the starts found is more like the file.
+fn choose_nearest_to_file(best: &mut CalibrationFit, others: &mut [OtherMinimum], indifferent: f64) {
+    let Some(first) = others.first_mut().filter(|first| first.fit.chi2 < best.chi2 - indifferent) else { return };
+    std::mem::swap(&mut first.fit, best);
+    let turned = first.mirrored.clone();
+    for other in others.iter_mut().skip(1).filter(|other| !other.mirrored.is_empty()) {
+        other.mirrored = symmetric_difference(&other.mirrored, &turned);
     }
     others.sort_by(|a, b| a.fit.chi2.total_cmp(&b.fit.chi2));
-    // Of minima between which the readings do not choose, the one that the starts found is more like the file.
-    if let Some(first) = others.first_mut()
-        && first.fit.chi2 < best.chi2 - CHOSEN * variance
-    {
-        std::mem::swap(&mut first.fit, &mut best);
-        let turned = first.mirrored.clone();
-        for other in others.iter_mut().skip(1).filter(|other| !other.mirrored.is_empty()) {
-            other.mirrored = symmetric_difference(&other.mirrored, &turned);
-        }
-        others.sort_by(|a, b| a.fit.chi2.total_cmp(&b.fit.chi2));
-    }
-    Some(CalibrationSearch { best, others, starts: done, arrivals, from_nothing })
 }
 
 /// Members of one of two sets.
@@ -150,6 +133,40 @@ fn symmetric_difference(a: &[usize], b: &[usize]) -> Vec<usize> {
 }
 
 impl Calibration {
+    /// Counts the arrival of a start at a minimum, and keeps the minima in the order of their χ².
+    fn add_arrival(&self, minima: &mut Vec<(CalibrationFit, usize)>, found: CalibrationFit) {
+        match minima.iter_mut().find(|(other, _)| self.is_same(other, &found)) {
+            Some((other, arrivals)) => {
+                *arrivals += 1;
+                if found.chi2 < other.chi2 {
+                    *other = found;
+                }
+            }
+            None => minima.push((found, 1)),
+        }
+        minima.sort_by(|a, b| a.0.chi2.total_cmp(&b.0.chi2));
+    }
+
+    /// Other minima up to a χ², those among them that are mirror images of the best one marked.
+    fn with_mirror_images(
+        &self,
+        minima: Vec<CalibrationFit>,
+        best: &CalibrationFit,
+        frame: &CalibrationFrame,
+        largest: f64,
+    ) -> Vec<OtherMinimum> {
+        let mut others: Vec<OtherMinimum> =
+            minima.into_iter().map(|fit| OtherMinimum { fit, mirrored: Vec::new() }).collect();
+        for image in self.mirror_images(best, frame, largest) {
+            match others.iter_mut().find(|other| self.is_same(&other.fit, &image.fit)) {
+                Some(other) => other.mirrored = image.mirrored,
+                None => others.push(image),
+            }
+        }
+        others.sort_by(|a, b| a.fit.chi2.total_cmp(&b.fit.chi2));
+        others
+    }
+
     /// True if two fits are one minimum.
     pub(super) fn is_same(&self, a: &CalibrationFit, b: &CalibrationFit) -> bool {
         let apart = a.values.iter().zip(&b.values).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);

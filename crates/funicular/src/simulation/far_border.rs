@@ -105,15 +105,7 @@ impl FarBorder {
         if let Some(at) = places.integral {
             own[(at, at)] += of.mass.max(1.0);
         }
-        if let (Some(feed), Some(at), Some(delayed)) = (&far.feed, places.feed, places.delayed)
-            && let Some((delay, gains)) = feed.delayed_servo()
-        {
-            let last = at + feed.count() - 1;
-            let [after, before] = delayed_weights(delay, [of.stiffness, of.damping, of.mass]);
-            own[(delayed, delayed)] += after;
-            own[(delayed, last)] -= before;
-            own[(last, delayed)] += gains[0] * of.stiffness + gains[1] * of.damping;
-        }
+        add_delayed_servo(&mut own, far, of);
         if let Some((at, sideways_w)) = self.swivel {
             own[(at, at)] += sideways_w.dot(&(end * sideways_w))
                 + forces.swivel_mass * of.mass
@@ -265,5 +257,19 @@ impl FarBorder {
             // The correction is minus what the rows give.
             rows.iter_mut().zip(column).for_each(|(row, entry)| *row += by * entry);
         }
+    }
+}
+
+/// Adds the delay of a servo between its angle and its torque.
+fn add_delayed_servo(own: &mut DMat, far: &FarEnd, of: Newton) {
+    let places = far.places();
+    if let (Some(feed), Some(at), Some(delayed)) = (&far.feed, places.feed, places.delayed)
+        && let Some((delay, gains)) = feed.delayed_servo()
+    {
+        let last = at + feed.count() - 1;
+        let [after, before] = delayed_weights(delay, [of.stiffness, of.damping, of.mass]);
+        own[(delayed, delayed)] += after;
+        own[(delayed, last)] -= before;
+        own[(last, delayed)] += gains[0] * of.stiffness + gains[1] * of.damping;
     }
 }

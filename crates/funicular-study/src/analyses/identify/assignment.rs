@@ -283,6 +283,13 @@ fn assigning(
     })
 }
 
+/// Values of the unknowns at a point, in words.
+fn in_words(model: &IdentifiedModel<'_>, x: &[f64]) -> String {
+    let values = model.unknowns.iter().zip(model.values(x));
+    let values = values.map(|(unknown, value)| format!("{} = {}", unknown.path, significant(value, 4)));
+    values.collect::<Vec<_>>().join(", ")
+}
+
 impl Assigning {
     /// Number of random lists that fit at least as well as the measured one.
     pub(crate) fn as_good(&self) -> usize {
@@ -316,11 +323,7 @@ impl Assigning {
                 deviation.is_some_and(|deviation| (x - best).abs() > NORMAL_95 * deviation)
             })
         };
-        let told = |x: &[f64]| {
-            let values = model.unknowns.iter().zip(model.values(x));
-            let values = values.map(|(unknown, value)| format!("{} = {}", unknown.path, significant(value, 4)));
-            values.collect::<Vec<_>>().join(", ")
-        };
+        let told = |x: &[f64]| in_words(model, x);
         let is_possible = |chi2: f64, best: f64, degrees: usize| {
             if is_noise_given {
                 (best - chi2) / (2.0 * judged.factor * judged.factor) > POSSIBLE.ln()

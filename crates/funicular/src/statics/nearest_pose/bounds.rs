@@ -45,6 +45,14 @@ fn given(robot: &Robot, i: usize, state: &CableState) -> TensionMargin {
     range.margin(state)
 }
 
+/// Rates of a cable along a direction: of its chord, its length and the forces at its ends.
+struct CableRates {
+    chord: f64,
+    length: f64,
+    force_w: Vec3,
+    anchor_force_w: Vec3,
+}
+
 /// Limits of all cables about an equilibrium, for the directions of a surface and the changes of length in each.
 pub(super) fn about(robot: &Robot, here: &Equilibrium, directions: &[Vec6], lengths: &[Vec<f64>]) -> Vec<Bound> {
     let coordinates = Coordinates::of(robot);
@@ -60,22 +68,18 @@ pub(super) fn about(robot: &Robot, here: &Equilibrium, directions: &[Vec6], leng
         let (force_w, free) = (state.force_on_platform_w, state.free_length());
         let anchor_w = force_w - weight_w * free;
 
-        // Rates of chord, length and forces at both ends.
-        let rates: Vec<(f64, f64, Vec3, Vec3)> = directions
-            .iter()
-            .zip(lengths)
-            .map(|(direction, lengths)| {
-                let motion = coordinates.expand(direction);
-                let turn: Vec3 = Vec3::new(motion[3], motion[4], motion[5]) / coordinates.ell();
-                let moved = Vec3::new(motion[0], motion[1], motion[2]) + turn.cross(&state.lever_w);
-                let force = by_length_w * lengths[i] - tangent_w * moved;
-                let chord = -chord_w.dot(&moved) / chord_w.norm();
-                (chord, lengths[i], force, force - weight_w * lengths[i])
-            })
-            .collect();
+        let rates_along = |(direction, lengths): (&Vec6, &Vec<f64>)| {
+            let motion = coordinates.expand(direction);
+            let turn: Vec3 = Vec3::new(motion[3], motion[4], motion[5]) / coordinates.ell();
+            let moved = Vec3::new(motion[0], motion[1], motion[2]) + turn.cross(&state.lever_w);
+            let force_w = by_length_w * lengths[i] - tangent_w * moved;
+            let chord = -chord_w.dot(&moved) / chord_w.norm();
+            CableRates { chord, length: lengths[i], force_w, anchor_force_w: force_w - weight_w * lengths[i] }
+        };
+        let rates: Vec<CableRates> = directions.iter().zip(lengths).map(rates_along).collect();
         let of_end = |end_w: &Vec3, at_anchor: bool, factor: f64| -> Vec<f64> {
             let unit = end_w.try_normalize(0.0).unwrap_or_else(Vec3::zeros) * factor;
-            rates.iter().map(|(_, _, force, anchor)| unit.dot(if at_anchor { anchor } else { force })).collect()
+            rates.iter().map(|of| unit.dot(if at_anchor { &of.anchor_force_w } else { &of.force_w })).collect()
         };
 
         // Where the tension is lowest and highest; the drum follows the anchor.
@@ -107,7 +111,7 @@ pub(super) fn about(robot: &Robot, here: &Equilibrium, directions: &[Vec6], leng
         }
         if weight_w != Vec3::zeros() {
             let chord = chord_w.norm();
-            let slope = rates.iter().map(|(by, length, ..)| (WANTED_LENGTH_RATIO * by - length) / chord).collect();
+            let slope = rates.iter().map(|of| (WANTED_LENGTH_RATIO * of.chord - of.length) / chord).collect();
             bounds.push(Bound { value: WANTED_LENGTH_RATIO - free / chord, slope });
         }
     }
