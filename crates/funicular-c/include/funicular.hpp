@@ -5,14 +5,13 @@
 #include "funicular.h"
 
 #include <array>
-#include <cstring>
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace funicular {
-
 inline std::string text(std::int32_t status) {
   std::array<char, 200> to{};
   fn_status_text(status, to.data(), to.size());
@@ -97,5 +96,4 @@ class Loop {
 };
 
 }  // namespace funicular
-
 #endif
