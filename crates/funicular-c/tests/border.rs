@@ -17,6 +17,7 @@ use funicular_c::{
 use std::ffi::c_void;
 use std::mem::{offset_of, size_of};
 use std::ptr::{null, null_mut};
+use std::time::Instant;
 
 /// Size of a struct as its member has it.
 fn size<T>() -> u32 {
@@ -185,12 +186,14 @@ fn a_long_run_of_random_poses_reserves_nothing_and_equals_the_program() {
         let robot = Robot::from_toml(toml).unwrap();
         let mut random = Random(7);
         let (mut rows, mut counts, mut most) = (Rows::new(), [0_usize; 6], 0);
-        let mut worst = 0.0_f64;
+        let (mut worst, mut times) = (0.0_f64, Vec::with_capacity(poses));
         for k in 0..poses {
             let is_hostile = random.next() < 0.01;
             let input = if is_hostile { random.hostile() } else { random.pose() };
             let before = rows.numbers.clone();
+            let begin = Instant::now();
             let (status, reserved) = reserved(|| session.inverse(&input, &mut rows));
+            times.push(begin.elapsed().as_secs_f64() * 1e6);
             assert_eq!(reserved, 0, "pose {k}");
             if is_hostile {
                 assert_eq!(status, BAD_INPUT, "pose {k}: {input:?}");
@@ -211,6 +214,9 @@ fn a_long_run_of_random_poses_reserves_nothing_and_equals_the_program() {
             }
         }
         println!("certified, accepted, beyond, held, -, negative: {counts:?}; most steps {most}; difference {worst:e}");
+        times.sort_by(f64::total_cmp);
+        let part = |part: f64| times[((poses - 1) as f64 * part) as usize];
+        println!("µs, with rates: median {:.1}, 99.9 % {:.1}, worst {:.1}", part(0.5), part(0.999), part(1.0));
         assert!(worst < 1e-10, "{worst:e}");
         assert!(counts[0] > poses / 2 && counts[2] > 0, "{counts:?}");
     }

@@ -43,6 +43,7 @@ mod input;
 mod inverse;
 mod model;
 mod rates;
+mod solved;
 mod state;
 mod wrench;
 
@@ -53,7 +54,7 @@ pub use wrench::LoadOnPlatform;
 
 use crate::robot::Pose;
 use forward::NearForward;
-use inverse::NearInverse;
+use solved::NearInverse;
 
 /// Memory of a control loop: the last states, from which the next searches start. Plain numbers without pointers.
 ///

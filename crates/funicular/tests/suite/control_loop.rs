@@ -8,7 +8,7 @@ use funicular::control_loop::{
 use funicular::math::{Vec3, Vec6};
 use funicular::path::PathPoint;
 use funicular::robot::{Constraint, PlatformMotion, Pose, Robot, TensionLimits};
-use funicular::statics::{self, Equilibrium, StaticModel, TensionRule, tension_centre};
+use funicular::statics::{self, Equilibrium, StaticModel, StaticsError, TensionRule, tension_centre};
 use funicular::trajectory::AlongPath;
 
 /// Numbers between −1 and 1 that repeat with their seed.
@@ -363,4 +363,43 @@ fn the_same_calls_give_the_same_digits_after_a_reset_and_in_other_threads() {
         let threads: Vec<_> = (0..8).map(|_| scope.spawn(|| run(&mut ControlLoop::new()))).collect();
         assert!(threads.into_iter().all(|thread| thread.join().unwrap() == first));
     });
+}
+
+/// Outside of its workspace CoGiRo has no tensions within the limits. The least violation is that of the rule `middle`.
+#[test]
+fn beyond_the_limits_the_violation_is_little_more_than_the_least() {
+    let robot = Robot::from_toml(funicular_robots::COGIRO).unwrap();
+    let robot = robot.with_tension_limits(TensionLimits { minimum: Some(100.0), maximum: Some(5000.0) });
+    let model = LoopModel::new(robot.clone()).unwrap();
+    let mut control = ControlLoop::new();
+    for x in [5.335, 5.35, 5.4, 5.5, 5.7, 6.0] {
+        let pose = Pose::new([x, 0.0, 1.0], [0.0; 3]);
+        let input = LoopInput::at_rest(&pose);
+        let [cold, warm] = [ControlLoop::new().inverse(&model, &input, true), control.inverse(&model, &input, true)];
+        let (cold, warm) = (cold.unwrap(), warm.unwrap());
+        let none = statics::distribute_tensions(&robot, &pose, StaticModel::Catenary, &TensionRule::Middle);
+        let Err(StaticsError::BeyondLimits(least)) = none else { panic!("{x}: {none:?}") };
+        println!(
+            "{x} m: {:.3} N, least {:.3} N; {} and {} steps",
+            -cold.least_margin, least.by, cold.iterations, warm.iterations
+        );
+        assert!(cold.status == LoopStatus::BeyondLimits && warm.status == LoopStatus::BeyondLimits);
+        assert!((cold.least_margin - warm.least_margin).abs() < 1e-6, "{} {}", cold.least_margin, warm.least_margin);
+        // The parabolas pull back with a width of 4.9 N.
+        assert!(-cold.least_margin > least.by * (1.0 - 1e-6) && -cold.least_margin < 1.4 * least.by + 2.0, "{x}");
+    }
+}
+
+/// The default minimum grows with the cable, so that it meets a low maximum at some poses only.
+#[test]
+fn limits_that_contradict_at_a_pose_have_a_fault() {
+    let mut robot = Robot::from_toml(funicular_robots::COGIRO).unwrap();
+    for cable in &mut robot.cables {
+        cable.tension_limits = TensionLimits { minimum: None, maximum: Some(20.0) };
+        cable.material.tension_limits.minimum = None;
+    }
+    let model = LoopModel::new(robot).unwrap();
+    let far = LoopInput::at_rest(&Pose::new([40.0, 0.0, 1.0], [0.0; 3]));
+    let found = ControlLoop::new().inverse(&model, &far, true);
+    assert!(matches!(found, Err(LoopFault::LimitsContradict { .. })), "{found:?}");
 }
