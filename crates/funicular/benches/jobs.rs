@@ -5,10 +5,11 @@ use criterion::{Criterion, criterion_group, criterion_main};
 use funicular::cable::CableModel;
 use funicular::catenary::{Catenary, Rope};
 use funicular::clearance::{ClearanceKind, Surroundings};
+use funicular::control_loop::{ControlLoop, LoopInput, LoopModel, LoopState};
 use funicular::dynamics::{Dynamics, Linearisation};
 use funicular::gradient::{Gradients, Hold};
 use funicular::math::Vec3;
-use funicular::path::{CourseForm, MotionLimits, PlatformPath};
+use funicular::path::{CourseForm, MotionLimits, PathPoint, PlatformPath};
 use funicular::response::{self, Quantity, Signal};
 use funicular::robot::parameters::Parameters;
 use funicular::robot::{Robot, RobotChange, State, TensionLimits};
@@ -305,6 +306,50 @@ fn distances(c: &mut Criterion) {
     });
 }
 
+/// Calls of a control loop at 1 kHz: CoGiRo with fixed anchors and over pulleys, 1 mm on per call.
+fn control_loops(c: &mut Criterion) {
+    for (name, text) in [("", funicular_robots::COGIRO), (", pulleys", funicular_robots::COGIRO_WINCHES)] {
+        let model = LoopModel::new(Robot::from_toml(text).expect("the library's robot")).expect("limited");
+        let input = |tick: u32| {
+            let x = f64::from(tick.min(4000 - tick)) * 1e-3 - 1.0;
+            let mut motion = PathPoint::at_rest(&Pose::new([x, -0.5 * x, 1.5 + 0.2 * x], [0.0, 0.0, 5.0]));
+            motion.velocity_w[0] = 1.0;
+            LoopInput::moving(motion)
+        };
+        let (mut control, mut tick) = (ControlLoop::new(), 0);
+        for (job, with_rates, is_cold) in
+            [("cold", false, true), ("warm", false, false), ("warm, with rates", true, false)]
+        {
+            c.bench_function(&format!("control loop: pose to lengths, {job}{name}"), |b| {
+                b.iter(|| {
+                    tick = (tick + 1) % 4000;
+                    if is_cold {
+                        control.reset();
+                    }
+                    control.inverse(&model, black_box(&input(tick)), with_rates).expect("held")
+                });
+            });
+        }
+
+        let found: Vec<LoopState> =
+            (0..4000).map(|tick| control.inverse(&model, &input(tick), false).expect("held")).collect();
+        let lengths: Vec<[f64; 8]> =
+            found.iter().map(|state| std::array::from_fn(|i| state.cables[i].length)).collect();
+        control.forward(&model, &lengths[0], None, Some(&input(0).motion.pose)).expect("found");
+        tick = 0;
+        c.bench_function(&format!("control loop: lengths to pose, warm{name}"), |b| {
+            b.iter(|| {
+                tick = (tick + 1) % 4000;
+                control.forward(&model, black_box(&lengths[tick as usize]), None, None).expect("found")
+            });
+        });
+        let tensions: [f64; 8] = std::array::from_fn(|i| found[0].cables[i].tension_drum);
+        c.bench_function(&format!("control loop: tensions to load{name}"), |b| {
+            b.iter(|| control.load(&model, &input(0), black_box(&tensions)).expect("taut"));
+        });
+    }
+}
+
 /// Verdict, load factor and margin of a box of loads, one pose per iteration, from poses of CoGiRo whose dead load is
 /// held.
 fn load_factors(c: &mut Criterion) {
@@ -389,6 +434,6 @@ fn simulations(c: &mut Criterion) {
 criterion_group! {
     name = jobs;
     config = Criterion::default().warm_up_time(Duration::from_secs(1)).measurement_time(Duration::from_secs(3)).sample_size(30);
-    targets = one_catenary, statics_both_ways, tension_distribution, centre_along_a_line, load_factors, distances, trajectory, first_frequencies, first_frequencies_of_eight_cables, responses, natural_frequencies, catenary_dynamic_cables, gradients, simulations
+    targets = one_catenary, statics_both_ways, tension_distribution, centre_along_a_line, control_loops, load_factors, distances, trajectory, first_frequencies, first_frequencies_of_eight_cables, responses, natural_frequencies, catenary_dynamic_cables, gradients, simulations
 }
 criterion_main!(jobs);

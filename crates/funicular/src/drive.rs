@@ -28,6 +28,7 @@ use crate::catenary::space::HangingCable;
 use crate::math::{Mat3, Vec3};
 use crate::robot::{Anchor, Cable, LineLoad, PulleyContact, Robot};
 use arc::Beyond;
+use balance::Unknowns;
 
 /// Cable at rest, from its attachment on the platform to its winch.
 #[derive(Debug, Clone, PartialEq)]
@@ -131,6 +132,71 @@ impl CableAtRest {
     /// Weight is counted from the world's origin, over a pulley and on a winch from the entry point.
     pub fn energy(&self) -> f64 {
         self.span.energy() + self.drive.as_ref().map_or(0.0, |drive| drive.energy)
+    }
+}
+
+/// Cable beyond its free span.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct BeyondExit {
+    /// Unstrained length from the exit point to the drum [m].
+    pub(crate) length: f64,
+    /// Tension from the entry point to the drum [N].
+    pub(crate) tension_drum: f64,
+}
+
+impl BeyondExit {
+    /// Part beyond a span that ends at the anchor's point, or at the exit point of `contact`.
+    pub(crate) fn of(span: &HangingCable, anchor: &Anchor, contact: Option<&PulleyContact>) -> Self {
+        if anchor.is_fixed() {
+            return Self { length: 0.0, tension_drum: span.catenary.tension_at_end() };
+        }
+        let beyond = Beyond::of(span, anchor, contact);
+        Self { length: beyond.length(), tension_drum: beyond.tension_entry }
+    }
+}
+
+/// Cable at rest, as [`CableAtRest`], in one piece: without memory from the heap, for control loops.
+#[derive(Debug, Clone)]
+pub(crate) struct CableInLoop {
+    /// Free span.
+    pub(crate) span: HangingCable,
+    /// State of its drive; `None` for a fixed anchor.
+    pub(crate) drive: Option<DriveAtRest>,
+}
+
+impl CableInLoop {
+    /// Cable of an unstrained length [m], drum side included, as [`CableAtRest::hang`]. The search starts at the place
+    /// and the free length of `near`, and takes a bounded number of steps; `None` if it fails.
+    pub(crate) fn hang(
+        start_w: Vec3,
+        cable: &Cable,
+        load: &LineLoad,
+        unstrained_length: f64,
+        near: Option<&Self>,
+    ) -> Option<Self> {
+        let rope = rope_of(cable, load, unstrained_length);
+        if cable.anchor.is_fixed() {
+            let span = HangingCable::between(start_w, cable.anchor.point_w, load.up_w, rope);
+            return Some(Self { span, drive: None });
+        }
+        let start = near.and_then(|near| {
+            let free_length = near.span.catenary.rope().unstrained_length;
+            Some(Unknowns { contact: near.drive.as_ref()?.contact, free_length })
+        });
+        let (span, contact) = balance::at_length_near(start_w, &cable.anchor, load, rope, start)?;
+        let beyond = Beyond::of(&span, &cable.anchor, contact.as_ref());
+        let drive = DriveAtRest::new(&span, &cable.anchor, contact, &beyond);
+        Some(Self { span, drive: Some(drive) })
+    }
+
+    /// Stiffness of the cable at the platform, as [`CableAtRest::tangent_w`].
+    pub(crate) fn tangent_w(&self) -> Mat3 {
+        tangent_w(&self.span, self.drive.as_ref())
+    }
+
+    /// Tension at the drum [N]; that at the anchor without a drive.
+    pub(crate) fn tension_drum(&self) -> f64 {
+        self.drive.as_ref().map_or_else(|| self.span.catenary.tension_at_end(), |drive| drive.tension_drum)
     }
 }
 

@@ -52,6 +52,7 @@ pub mod calibration;
 pub mod catenary;
 pub mod clearance;
 pub mod compare;
+pub mod control_loop;
 pub mod drive;
 pub mod dynamics;
 pub mod gradient;

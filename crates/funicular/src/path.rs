@@ -20,7 +20,7 @@ pub use smoothing::smoothed_within;
 pub use straight_move::StraightMove;
 pub use table::MAX_TURN_DEG;
 
-use crate::math::{Vec3, Vec6};
+use crate::math::{Rotation, Vec3, Vec6};
 use crate::robot::{Pose, Robot};
 use circle::Circle;
 use moves::Moves;
@@ -287,6 +287,23 @@ impl PathPoint {
     pub fn inertia(&self, robot: &Robot) -> [Vec3; 2] {
         let of = PlatformInertia::of(robot, self);
         [of.force_w, of.moment_w]
+    }
+
+    /// Motion a short time later [s], by its derivatives.
+    #[must_use]
+    pub(crate) fn shifted(&self, time: f64) -> Self {
+        let change =
+            self.velocity_w * time + self.acceleration_w * (0.5 * time * time) + self.jerk_w * (time.powi(3) / 6.0);
+        let turn = Rotation::from_scaled_axis(Vec3::new(change[3], change[4], change[5]));
+        Self {
+            pose: Pose {
+                position_w: self.pose.position_w + Vec3::new(change[0], change[1], change[2]),
+                rot_wp: turn * self.pose.rot_wp,
+            },
+            velocity_w: self.velocity_w + self.acceleration_w * time + self.jerk_w * (0.5 * time * time),
+            acceleration_w: self.acceleration_w + self.jerk_w * time,
+            jerk_w: self.jerk_w,
+        }
     }
 
     /// Rates of [`Self::inertia`] [N/s, N m/s].

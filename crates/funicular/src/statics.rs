@@ -68,7 +68,9 @@ pub use energy::energy;
 pub use equilibria::{Candidate, Candidates, all_equilibria, another_stable_equilibrium};
 pub use equilibrium::{CableState, Equilibrium, MAX_RESIDUAL_OF_ROUNDING, RESIDUAL_LIMIT, Stability};
 pub use error::StaticsError;
+pub(crate) use exit_points::distance_inside_pulley;
 pub use forward::forward;
+pub(crate) use free_motion::independent_directions;
 pub use free_motion::{FreeMotion, free_motions, leaves_choice};
 pub use friction::{
     CableFriction, FrictionError, FrictionInterval, Held, Interval, MotionInterval, friction_exponents,
@@ -76,19 +78,23 @@ pub use friction::{
 };
 pub(crate) use limits::MinimumTension;
 pub use limits::{Limit, LimitViolation, TensionMargin, TensionRange};
+pub(crate) use loaded_cable::LoadedCable;
 pub use model::StaticModel;
 pub use nearest_pose::{NearestEquilibrium, nearest_equilibrium, pose_distance};
 pub(crate) use obstacle::spread;
 pub use obstacle::{Obstacle, OneSidedCause};
 pub use residual::{is_unloaded, wrench};
 pub use solve::{Solution, inverse, solve, solve_at, solve_held, solve_held_at};
+pub(crate) use stiffness::assembled;
 pub use stiffness::tangent_stiffness;
 pub(crate) use supports::{SupportSide, on_support, support_side};
+pub(crate) use tension::{
+    CentreCable, CentreLoad, CentreRow, CentreSearch, Potential, TauLimit, TauLimitKind, TensionCurve,
+};
 pub use tension::{
     LimitAtCable, PayloadBound, PayloadSide, RequestedPayload, TensionCentre, TensionRule, distribute_tensions,
     payload_bound, tension_centre,
 };
-pub(crate) use tension::{TauLimit, TauLimitKind, TensionCurve};
 pub(crate) use tension_gain::tension_gain_exceeds;
 pub use tension_gain::{inverse_condition, tension_gain};
 pub use wrench_set::TensionPlace;

@@ -9,9 +9,9 @@ mod length_acceleration;
 pub use length_acceleration::length_accelerations;
 
 use crate::gradient::{GradientError, LengthRates};
-use crate::math::{Rotation, Vec3, Vec6};
+use crate::math::{Vec3, Vec6};
 use crate::path::PathPoint;
-use crate::robot::{Constraint, Pose, Robot, State};
+use crate::robot::{Constraint, Robot, State};
 use crate::statics::{self, Equilibrium, Limit, StaticModel, StaticsError, TensionRange, TensionRule};
 use std::f64::consts::PI;
 
@@ -148,7 +148,7 @@ impl<'a> AlongPath<'a> {
             *rate += by_load.dot(&load_rate);
         }
         if self.rope_inertia {
-            let [before, after] = [-DIFFERENCE, DIFFERENCE].map(|time| shifted(point, time));
+            let [before, after] = [-DIFFERENCE, DIFFERENCE].map(|time| point.shifted(time));
             let rope_rate = |i| {
                 let of = |point| rope_inertia(self.at_rest, i, point);
                 (of(&after) - of(&before)) / (2.0 * DIFFERENCE)
@@ -164,7 +164,7 @@ impl<'a> AlongPath<'a> {
     /// Rates of the lengths as differences over a short time; those of the smoother side if the tensions jump on the
     /// other.
     fn differences(&mut self, point: &PathPoint) -> Result<Vec<f64>, StaticsError> {
-        let [before, here, after] = [-DIFFERENCE, 0.0, DIFFERENCE].map(|time| self.equilibrium(&shifted(point, time)));
+        let [before, here, after] = [-DIFFERENCE, 0.0, DIFFERENCE].map(|time| self.equilibrium(&point.shifted(time)));
         self.load(point);
         let [before, here, after] = [before?, here?, after?];
         let rates = |from: &Equilibrium, to: &Equilibrium, time: f64| -> Vec<f64> {
@@ -218,22 +218,6 @@ fn rope_inertia(robot: &Robot, i: usize, point: &PathPoint) -> Vec3 {
     of_rope * (-UNIFORM * cable.material.mass_per_length)
 }
 
-/// Motion a short time later, by its derivatives.
-fn shifted(point: &PathPoint, time: f64) -> PathPoint {
-    let change =
-        point.velocity_w * time + point.acceleration_w * (0.5 * time * time) + point.jerk_w * (time.powi(3) / 6.0);
-    let turn = Rotation::from_scaled_axis(Vec3::new(change[3], change[4], change[5]));
-    PathPoint {
-        pose: Pose {
-            position_w: point.pose.position_w + Vec3::new(change[0], change[1], change[2]),
-            rot_wp: turn * point.pose.rot_wp,
-        },
-        velocity_w: point.velocity_w + point.acceleration_w * time + point.jerk_w * (0.5 * time * time),
-        acceleration_w: point.acceleration_w + point.jerk_w * time,
-        jerk_w: point.jerk_w,
-    }
-}
-
 impl InMotion {
     /// First frequency of a cable as a taut string with fixed ends [Hz], the lowest of all cables; `None` without a
     /// rope that has mass. Cables follow the platform as at rest far below it.
@@ -251,6 +235,7 @@ impl InMotion {
 mod tests {
     use super::*;
     use crate::dynamics::{Dynamics, Linearisation};
+    use crate::robot::Pose;
 
     /// Point mass without weight, held by four taut cables in the plane y = 0.
     fn plane_robot() -> Robot {
@@ -279,7 +264,7 @@ mod tests {
         for (i, cable) in robot.cables.iter().enumerate() {
             // Element at the distance s from the platform along a straight rope.
             let place = |time: f64, s: f64| {
-                let end = shifted(&point, time).pose.position_w;
+                let end = point.shifted(time).pose.position_w;
                 end + (cable.anchor.point_w - end).normalize() * s
             };
             let chord_w = cable.anchor.point_w - point.pose.position_w;

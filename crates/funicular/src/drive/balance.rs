@@ -70,6 +70,25 @@ pub(super) fn at_length(start_w: Vec3, anchor: &Anchor, load: &LineLoad, rope: R
     problem.collected(found)
 }
 
+/// Free span and place on the pulley by [`at_length`], by Newton's method alone, from `start` and then from a straight
+/// cable; `None` if neither converges.
+pub(super) fn at_length_near(
+    start_w: Vec3,
+    anchor: &Anchor,
+    load: &LineLoad,
+    rope: Rope,
+    start: Option<Unknowns>,
+) -> Option<(HangingCable, Option<PulleyContact>)> {
+    let problem = Problem { start_w, anchor, load, rope };
+    let straight = problem.straight();
+    let found = if load.size == 0.0 {
+        straight
+    } else {
+        start.and_then(|start| problem.newton(start)).or_else(|| problem.newton(straight))?
+    };
+    Some((problem.span(&found), found.contact))
+}
+
 /// Place on the pulley at which a span would leave it along its tangent with the swivel in balance, if its exit point
 /// did not move; `None` without a pulley.
 pub(crate) fn contact_of_span(
@@ -83,9 +102,9 @@ pub(crate) fn contact_of_span(
 
 /// Unknowns of a cable: its place on the pulley, if it has one, and the unstrained length of its free span.
 #[derive(Debug, Clone, Copy)]
-struct Unknowns {
-    contact: Option<PulleyContact>,
-    free_length: f64,
+pub(super) struct Unknowns {
+    pub(super) contact: Option<PulleyContact>,
+    pub(super) free_length: f64,
 }
 
 /// Cable whose unknowns are searched.

@@ -6,7 +6,6 @@
 //! wrap, swivel angle and free length, and with these the force, with respect to the outer variables (docs/theory.md,
 //! equation (60j)).
 
-use super::DriveAtRest;
 use super::anchor_end::EndNumbers;
 use super::arc::{Beyond, Given};
 use crate::catenary::space::HangingCable;
@@ -114,13 +113,12 @@ fn turning(contact: &PulleyContact) -> Wheel<Inner> {
 }
 
 impl DriveDerivatives {
-    /// Derivatives of a cable with this free span over its anchor's pulley and to its winch. `None` if the conditions
-    /// do not determine the place of the cable.
+    /// Derivatives of a cable with this free span over its anchor's pulley and to its winch; `contact` is its place on
+    /// the pulley. `None` if the conditions do not determine that place.
     ///
     /// # References
     /// docs/theory.md, equation (60j).
-    pub(crate) fn of(span: &HangingCable, anchor: &Anchor, drive: &DriveAtRest) -> Option<Self> {
-        let contact = drive.contact.as_ref();
+    pub(crate) fn of(span: &HangingCable, anchor: &Anchor, contact: Option<&PulleyContact>) -> Option<Self> {
         let given = given_variables(span, anchor, contact);
         let beyond = Beyond::at(&given);
         let offset = given.wheel.as_ref().map(|wheel| wheel.offset_w(wheel.wrap));

@@ -384,7 +384,8 @@ impl DrivePartials {
     fn new(robot: &Robot, equilibrium: &Equilibrium, i: usize) -> Result<Option<Box<Self>>, StaticDerivativeError> {
         let (state, anchor) = (&equilibrium.cables[i], &robot.cables[i].anchor);
         let (Some(span), Some(drive)) = (&state.hanging, &state.drive) else { return Ok(None) };
-        let by_outer = DriveDerivatives::of(span, anchor, drive).ok_or(StaticDerivativeError::Singular)?;
+        let contact = drive.contact.as_ref();
+        let by_outer = DriveDerivatives::of(span, anchor, contact).ok_or(StaticDerivativeError::Singular)?;
         let mut partials = Self {
             by_outer,
             load_by_radius_w: Vec3::zeros(),

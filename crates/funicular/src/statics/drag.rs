@@ -70,7 +70,7 @@ fn force_by_turn_w(robot: &Robot, i: usize, state: &CableState) -> Option<Mat3> 
     }
     let attachment_w = state.attachment_w;
     let turn = robot.line_load_by_chord(i, &(anchor.exit_w(&attachment_w) - attachment_w))?;
-    let by_load = DriveDerivatives::of(hanging, &anchor, drive)?.force_w;
+    let by_load = DriveDerivatives::of(hanging, &anchor, drive.contact.as_ref())?.force_w;
     let by_load = Mat3::from_fn(|k, j| by_load[k][place::LOAD + j]);
     let Some(pulley) = &anchor.pulley else { return Some(by_load * turn) };
     let chord = straight_chord(pulley, &(anchor.point_w - attachment_w))?;

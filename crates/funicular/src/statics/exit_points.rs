@@ -188,14 +188,18 @@ fn straight_contacts(robot: &Robot, pose: &Pose) -> Result<Vec<Option<PulleyCont
 /// # Errors
 /// [`StaticsError::InsidePulley`].
 pub(super) fn straight_contact(cable: &Cable, pose: &Pose) -> Result<Option<PulleyContact>, StaticsError> {
-    let attachment_w = pose.point_w(&cable.attachment_p);
-    if let Some(pulley) = &cable.anchor.pulley {
-        let distance = pulley.distance_from_center(&(attachment_w - cable.anchor.point_w));
-        if distance < pulley.radius {
-            return Err(StaticsError::InsidePulley { cable: cable.name.clone(), distance, radius: pulley.radius });
-        }
+    if let Some(distance) = distance_inside_pulley(cable, pose) {
+        let radius = cable.anchor.pulley.as_ref().map_or(0.0, |pulley| pulley.radius);
+        return Err(StaticsError::InsidePulley { cable: cable.name.clone(), distance, radius });
     }
-    Ok(cable.anchor.contact(&attachment_w))
+    Ok(cable.anchor.contact(&pose.point_w(&cable.attachment_p)))
+}
+
+/// Distance of the attachment from the centre of its cable's wheel [m] if it is inside the wheel.
+pub(crate) fn distance_inside_pulley(cable: &Cable, pose: &Pose) -> Option<f64> {
+    let pulley = cable.anchor.pulley.as_ref()?;
+    let distance = pulley.distance_from_center(&(pose.point_w(&cable.attachment_p) - cable.anchor.point_w));
+    (distance < pulley.radius).then_some(distance)
 }
 
 fn exit_w(cable: &Cable, contact: Option<&PulleyContact>) -> Vec3 {

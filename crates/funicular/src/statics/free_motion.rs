@@ -85,7 +85,7 @@ pub(super) fn has_choice(robot: &Robot, pose: &Pose, model: StaticModel) -> bool
 
 /// Largest number of independent directions that the cables of a robot have at any pose: fewer than the degrees of
 /// freedom if all end at one point or on one line of the platform.
-pub(super) fn independent_directions(robot: &Robot) -> usize {
+pub(crate) fn independent_directions(robot: &Robot) -> usize {
     let dof = robot.platform.motion.count();
     let turns = match robot.platform.motion {
         PlatformMotion::Rigid => 3,

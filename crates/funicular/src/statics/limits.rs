@@ -2,6 +2,7 @@
 
 use super::equilibrium::CableState;
 use super::obstacle::Obstacle;
+use crate::catenary::space::HangingCable;
 use crate::math::Vec3;
 use crate::robot::{Robot, TensionLimits};
 use std::fmt;
@@ -85,10 +86,15 @@ impl TensionRange {
 
     /// Distances of a cable's tensions from these limits.
     pub fn margin(&self, state: &CableState) -> TensionMargin {
-        let (min, max) = state.hanging.as_ref().map_or((state.tension_platform, state.tension_anchor), |hanging| {
-            let drum = state.tension_drum();
-            (hanging.catenary.min_tension().min(drum), hanging.catenary.max_tension().max(drum))
-        });
+        if let Some(span) = &state.hanging {
+            return self.margin_of_span(span, state.tension_drum());
+        }
+        TensionMargin { range: *self, min: state.tension_platform, max: state.tension_anchor }
+    }
+
+    /// Distances of the tensions in a free span and at its drum [N] from these limits.
+    pub(crate) fn margin_of_span(&self, span: &HangingCable, drum: f64) -> TensionMargin {
+        let (min, max) = (span.catenary.min_tension().min(drum), span.catenary.max_tension().max(drum));
         TensionMargin { range: *self, min, max }
     }
 }

@@ -14,15 +14,15 @@ pub(super) const MAX_LENGTH_RATIO: f64 = 2.0;
 
 /// Cable without its length: anchor, rope and load.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct LoadedCable<'a> {
+pub(crate) struct LoadedCable<'a> {
     pub(super) cable: &'a Cable,
     /// Load; its size is zero in a straight model.
-    pub(super) load: LineLoad,
+    pub(crate) load: LineLoad,
 }
 
 impl<'a> LoadedCable<'a> {
     /// Cable `i` in a static model, with the load that it has at a pose.
-    pub(super) fn at(robot: &'a Robot, i: usize, pose: &Pose, model: StaticModel) -> Self {
+    pub(crate) fn at(robot: &'a Robot, i: usize, pose: &Pose, model: StaticModel) -> Self {
         let cable = &robot.cables[i];
         let mut load = robot.line_load(i, &cable.chord_w(pose));
         if model != StaticModel::Catenary {

@@ -36,7 +36,7 @@ pub fn tangent_stiffness(robot: &Robot, equilibrium: &Equilibrium) -> Option<Mat
 
 /// Sum of the stiffness of cables and the geometric stiffness of weight and load at a pose. A cable is given by its 3×3
 /// stiffness, its force on the platform and its lever arm.
-pub(super) fn assembled(robot: &Robot, pose: &Pose, cables: impl Iterator<Item = (Mat3, Vec3, Vec3)>) -> Mat6 {
+pub(crate) fn assembled(robot: &Robot, pose: &Pose, cables: impl Iterator<Item = (Mat3, Vec3, Vec3)>) -> Mat6 {
     let mut total = Mat6::zeros();
     for (stiffness, force, lever) in cables {
         add_congruent(&mut total, &stiffness, &lever);

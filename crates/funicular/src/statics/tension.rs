@@ -33,6 +33,7 @@ use crate::platform::Coordinates;
 use crate::robot::{Cable, Pose, Robot};
 pub(super) use balanced_pull::balanced_pull;
 pub(crate) use centre::curve::{TauLimit, TauLimitKind, TensionCurve};
+pub(crate) use centre::{CentreCable, CentreLoad, CentreRow, CentreSearch, Potential};
 pub use centre::{TensionCentre, tension_centre};
 pub(super) use payload::with_weight;
 pub use payload::{PayloadBound, PayloadSide, RequestedPayload, payload_bound};

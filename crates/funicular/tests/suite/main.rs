@@ -11,6 +11,7 @@ mod calibration;
 mod catenary;
 mod clearance;
 mod compare;
+mod control_loop;
 mod control_model;
 mod derivatives;
 mod drive;

@@ -8,6 +8,7 @@
 
 pub(crate) mod corners;
 pub(crate) mod curve;
+mod potential;
 
 use super::{TensionRule, cables_at, distribute_tensions};
 use crate::drive::CableAtRest;
@@ -22,6 +23,7 @@ use crate::statics::ideal;
 use crate::statics::model::StaticModel;
 use crate::statics::supports;
 use curve::{ForceByTau, TensionCurve};
+pub(crate) use potential::Potential;
 
 /// Maximum number of Newton steps. From the middle of the limits 7 to 15 are usual, 20 a hundred-thousandth of a newton
 /// within the border of the workspace.
@@ -129,17 +131,24 @@ fn on_rigid_supports(
     model: StaticModel,
     last: Option<&TensionCentre>,
 ) -> Result<TensionCentre, StaticsError> {
-    let mut search = CentreSearch::new(robot, pose, model)?;
-    let has_room = search.cables.iter().all(|cable| cable.lower < cable.upper);
+    let coordinates = Coordinates::of(robot);
+    let mut cables = (0..robot.cables.len())
+        .map(|i| Ok(CentreCable::new(TensionCurve::new(robot, i, pose, model)?, pose, coordinates, None)))
+        .collect::<Result<Vec<_>, StaticsError>>()?;
+    let mut rows = vec![CentreRow::default(); cables.len()];
+    let load = CentreLoad { wrench: coordinates.reduce(&load_wrench(robot, pose)), size: load_size(robot) };
+    let mut search = CentreSearch::new(coordinates, &mut cables, &mut rows, load);
+    search.may_be_dependent = true;
+    let has_room = search.has_room();
     let mut found = false;
     if has_room {
         if let Some(last) = last {
             search.start(|i| last.tensions.get(i).copied().unwrap_or(0.0), &last.multipliers);
-            found = search.newton();
+            found = search.newton(MAX_STEPS);
         }
         if !found {
             search.start(|_| f64::NAN, &[]);
-            found = search.newton();
+            found = search.newton(MAX_STEPS);
         }
     }
 
@@ -152,82 +161,113 @@ fn on_rigid_supports(
         };
         if has_room {
             search.start(of_state, &[]);
-            found = search.newton();
+            found = search.newton(MAX_STEPS);
         }
         if !found {
-            return Err(search.no_centre(of_state));
+            return Err(search.no_centre(robot, of_state));
         }
     }
-    Ok(search.collected())
+    Ok(search.collected(robot, pose, model))
 }
 
 /// Cable with its limits.
-struct CentreCable<'a> {
-    curve: TensionCurve<'a>,
+#[derive(Debug, Clone)]
+pub(crate) struct CentreCable<'a> {
+    pub(crate) curve: TensionCurve<'a>,
     /// Lever arm over ℓ.
     lever_w: Vec3,
     /// Limits of τ.
-    lower: f64,
-    upper: f64,
+    pub(crate) lower: f64,
+    pub(crate) upper: f64,
 }
 
-impl CentreCable<'_> {
+impl<'a> CentreCable<'a> {
+    /// Cable with its limits, searched from those of a pose nearby.
+    pub(crate) fn new(curve: TensionCurve<'a>, pose: &Pose, coordinates: Coordinates, near: Option<[f64; 2]>) -> Self {
+        let [lower, upper] = curve.limits_near(near).map(|limit| limit.curve.tau());
+        Self::within(curve, pose, coordinates, [lower, upper])
+    }
+
+    /// Cable with these limits of τ [N].
+    pub(crate) fn within(curve: TensionCurve<'a>, pose: &Pose, coordinates: Coordinates, limits: [f64; 2]) -> Self {
+        let lever_w = (curve.span.start_w - pose.position_w) / coordinates.ell();
+        Self { curve, lever_w, lower: limits[0], upper: limits[1] }
+    }
+
     /// Distances of τ from both limits.
-    fn room(&self) -> [f64; 2] {
+    pub(crate) fn room(&self) -> [f64; 2] {
         [self.curve.tau() - self.lower, self.upper - self.curve.tau()]
     }
-
-    /// First and second derivative of the logarithms by τ.
-    fn barrier(&self) -> [f64; 2] {
-        barrier(self.room())
-    }
 }
 
-/// First and second derivative of `−ln s⁻ − ln s⁺` by τ.
-fn barrier([below, above]: [f64; 2]) -> [f64; 2] {
-    [1.0 / above - 1.0 / below, 1.0 / (below * below) + 1.0 / (above * above)]
-}
-
-/// Search for the centre.
-struct CentreSearch<'a> {
-    robot: &'a Robot,
-    pose: &'a Pose,
-    model: StaticModel,
-    coordinates: Coordinates,
-    cables: Vec<CentreCable<'a>>,
+/// Load on the platform.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct CentreLoad {
     /// Wrench of weight and load, reduced.
-    load: Vec6,
+    pub(crate) wrench: Vec6,
+    /// Sum of the sizes of their forces, and of moments over ℓ [N].
+    pub(crate) size: f64,
+}
+
+/// Cable in Newton's step.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct CentreRow {
+    /// Wrench by τ, reduced.
+    column: Vec6,
+    /// Inverse curvature of the Lagrangian, and its slope.
+    weight: f64,
+    residual: f64,
+    /// Change of τ [N].
+    pub(crate) step: f64,
+}
+
+/// Search for the centre, in memory of the caller: one row per cable.
+pub(crate) struct CentreSearch<'a, 's> {
+    coordinates: Coordinates,
+    pub(crate) cables: &'s mut [CentreCable<'a>],
+    rows: &'s mut [CentreRow],
+    load: CentreLoad,
     /// Reference size of the tensions [N].
     size: f64,
-    multipliers: Vec6,
-    iterations: usize,
+    pub(crate) multipliers: Vec6,
+    pub(crate) iterations: usize,
+    /// Function whose minimum is searched.
+    pub(crate) potential: Potential,
+    /// True if the first step of the last search had no solution: the cables do not span the degrees of freedom.
+    pub(crate) is_singular: bool,
+    /// True if cables that do not span the degrees of freedom are searched for a solution too, in memory from the heap.
+    may_be_dependent: bool,
 }
 
-/// Newton's step: changes of the tensions and of the multipliers.
-struct CentreStep {
-    tau: Vec<f64>,
-    multipliers: Vec6,
-}
+impl<'a, 's> CentreSearch<'a, 's> {
+    pub(crate) fn new(
+        coordinates: Coordinates,
+        cables: &'s mut [CentreCable<'a>],
+        rows: &'s mut [CentreRow],
+        load: CentreLoad,
+    ) -> Self {
+        let size = load.size + cables.iter().map(|cable| cable.lower.abs()).sum::<f64>();
+        Self {
+            coordinates,
+            cables,
+            rows,
+            load,
+            size,
+            multipliers: Vec6::zeros(),
+            iterations: 0,
+            potential: Potential::Logarithms,
+            is_singular: false,
+            may_be_dependent: false,
+        }
+    }
 
-impl<'a> CentreSearch<'a> {
-    fn new(robot: &'a Robot, pose: &'a Pose, model: StaticModel) -> Result<Self, StaticsError> {
-        let coordinates = Coordinates::of(robot);
-        let cables = (0..robot.cables.len())
-            .map(|i| {
-                let curve = TensionCurve::new(robot, i, pose, model)?;
-                let [lower, upper] = curve.limits().map(|limit| limit.curve.tau());
-                let lever_w = (curve.span.start_w - pose.position_w) / coordinates.ell();
-                Ok(CentreCable { curve, lever_w, lower, upper })
-            })
-            .collect::<Result<Vec<_>, StaticsError>>()?;
-        let load = coordinates.reduce(&load_wrench(robot, pose));
-        let size = load_size(robot) + cables.iter().map(|cable| cable.lower.abs()).sum::<f64>();
-        let multipliers = Vec6::zeros();
-        Ok(Self { robot, pose, model, coordinates, cables, load, size, multipliers, iterations: 0 })
+    /// True if every cable has tensions between its limits.
+    pub(crate) fn has_room(&self) -> bool {
+        self.cables.iter().all(|cable| cable.lower < cable.upper)
     }
 
     /// Goes to these tensions, moved inside the limits; not a number stands for their middle.
-    fn start(&mut self, tau: impl Fn(usize) -> f64, multipliers: &[f64]) {
+    pub(crate) fn start(&mut self, tau: impl Fn(usize) -> f64, multipliers: &[f64]) {
         for (i, cable) in self.cables.iter_mut().enumerate() {
             let (middle, width) = (0.5 * (cable.lower + cable.upper), cable.upper - cable.lower);
             let wanted = tau(i);
@@ -237,6 +277,31 @@ impl<'a> CentreSearch<'a> {
         self.multipliers = Vec6::from_fn(|k, _| multipliers.get(k).copied().unwrap_or(0.0));
     }
 
+    /// Goes to these tensions as they are; not a number stands for the middle of the limits, or without a maximum for a
+    /// taut cable.
+    pub(crate) fn start_at(&mut self, tau: impl Fn(usize) -> f64, multipliers: Vec6) {
+        for (i, cable) in self.cables.iter_mut().enumerate() {
+            let wanted = tau(i);
+            if !wanted.is_nan() {
+                cable.curve.set(wanted);
+            } else if cable.upper.is_finite() {
+                cable.curve.set(0.5 * (cable.lower + cable.upper));
+            }
+        }
+        self.multipliers = multipliers;
+    }
+
+    /// True if no tension is so near to a limit that a relaxed logarithm differs from the logarithm.
+    pub(crate) fn is_inside(&self) -> bool {
+        self.violation() < -1.0
+    }
+
+    /// Largest violation of a limit, over the width in which a logarithm is relaxed; negative within the limits.
+    pub(crate) fn violation(&self) -> f64 {
+        let of_cable = |cable: &CentreCable<'_>| potential::violation(cable);
+        self.cables.iter().map(of_cable).fold(f64::NEG_INFINITY, f64::max)
+    }
+
     /// Reduced wrench of a force at a cable.
     fn wrench(&self, cable: &CentreCable<'_>, force_w: &Vec3) -> Vec6 {
         self.coordinates.motion().reduced(&wrench_of(force_w, &cable.lever_w))
@@ -244,35 +309,40 @@ impl<'a> CentreSearch<'a> {
 
     /// Newton's method; true if it converges. It does not at a singular pose, and where so many tensions have run into
     /// their limits that the others do not span the degrees of freedom: the search of the rule `middle` tells which.
-    fn newton(&mut self) -> bool {
+    pub(crate) fn newton(&mut self, max_steps: usize) -> bool {
         let mut far = true;
-        for _ in 0..MAX_STEPS {
+        for step_count in 0..max_steps {
             self.iterations += 1;
-            let Some(step) = self.step(!far) else { return false };
+            let Some(multipliers) = self.step(!far) else {
+                self.is_singular = step_count == 0;
+                return false;
+            };
 
             // Part of the way to the nearest limit.
             let (mut fraction, mut change, mut rounding) = (1.0_f64, 0.0_f64, true);
-            for (cable, step) in self.cables.iter().zip(&step.tau) {
-                let [below, above] = cable.room();
-                let room = if *step < 0.0 { below } else { above };
-                if step.abs() * fraction > MAX_PART * room {
-                    fraction = MAX_PART * room / step.abs();
+            for (cable, row) in self.cables.iter().zip(&*self.rows) {
+                let (step, reach) = (row.step, self.potential.reach(cable, row.step));
+                if step.abs() * fraction > MAX_PART * reach {
+                    fraction = MAX_PART * reach / step.abs();
                 }
-                let part = step.abs() / below.min(above);
+                let near = self.potential.size(cable);
+                let part = step.abs() / near;
                 if part.is_nan() {
                     return false;
                 }
                 change = change.max(part);
-                rounding &= step.abs() <= LAST_STEP * below.min(above) + ROUNDING * self.size;
+                rounding &= step.abs() <= LAST_STEP * near + ROUNDING * self.size;
             }
             if fraction <= MIN_FRACTION {
                 return false;
             }
 
-            for (cable, step) in self.cables.iter_mut().zip(&step.tau) {
-                cable.curve.set(cable.curve.tau() + fraction * step);
+            for (cable, row) in self.cables.iter_mut().zip(&*self.rows) {
+                cable.curve.set(self.potential.moved(cable, fraction * row.step));
             }
-            self.multipliers += step.multipliers * fraction;
+            if self.potential != Potential::None {
+                self.multipliers += multipliers * fraction;
+            }
             if rounding && !far {
                 return true;
             }
@@ -285,38 +355,59 @@ impl<'a> CentreSearch<'a> {
         self.cables.iter().any(|cable| cable.curve.has_moving_exit())
     }
 
-    /// Newton's step (40b6); `None` if its matrix is singular. `follows` lets the exit points follow in the
-    /// derivatives.
-    fn step(&self, follows: bool) -> Option<CentreStep> {
-        let y = &self.multipliers;
-        let (mut balance, mut matrix, mut right) = (self.load, Mat6::zeros(), Vec6::zeros());
-        let mut rows = Vec::with_capacity(self.cables.len());
-        for cable in &self.cables {
+    /// Newton's step (40b6), with the change of the multipliers; `None` if its matrix is singular. `follows` lets the
+    /// exit points follow in the derivatives.
+    fn step(&mut self, follows: bool) -> Option<Vec6> {
+        let y = self.multipliers;
+        let (mut balance, mut matrix, mut right) = (self.load.wrench, Mat6::zeros(), Vec6::zeros());
+        for (i, cable) in self.cables.iter().enumerate() {
             let ForceByTau { first_w, second_up } = cable.curve.force_by_tau(follows);
-            let [slope, curvature] = cable.barrier();
+            let [slope, curvature] = self.potential.derivatives(cable);
             let column = self.wrench(cable, &first_w);
             balance += self.wrench(cable, &cable.curve.span.force_on_start_w());
             let bend = y.dot(&self.wrench(cable, &cable.curve.span.axes_w().1)) * second_up;
             let weight = 1.0 / (curvature - bend).max(MIN_CURVATURE * curvature);
-            let residual = slope - column.dot(y);
+            let residual = slope - column.dot(&y);
             matrix.ger(weight, &column, &column, 1.0);
             right += column * (weight * residual);
-            rows.push((column, weight, residual));
+            self.rows[i] = CentreRow { column, weight, residual, step: 0.0 };
         }
 
-        let multipliers = self.solved(&matrix, &(right - balance), &rows)?;
-        let tau = rows.iter().map(|(column, weight, residual)| weight * (column.dot(&multipliers) - residual));
-        Some(CentreStep { tau: tau.collect(), multipliers })
+        if self.potential == Potential::None {
+            return self.balancing_step(&balance);
+        }
+        let multipliers = self.solved(&matrix, &(right - balance))?;
+        for row in &mut *self.rows {
+            row.step = row.weight * (row.column.dot(&multipliers) - row.residual);
+        }
+        Some(multipliers)
+    }
+
+    /// Newton's step of as many cables as degrees of freedom, which the balance alone determines. The matrix of (40b6)
+    /// would square its condition.
+    fn balancing_step(&mut self, balance: &Vec6) -> Option<Vec6> {
+        let mut columns = Mat6::identity();
+        for (i, row) in self.rows.iter().enumerate().take(6) {
+            columns.set_column(i, &row.column);
+        }
+        let step = columns.lu().solve(&-balance)?;
+        for (row, step) in self.rows.iter_mut().zip(step.iter()) {
+            row.step = *step;
+        }
+        Some(Vec6::zeros())
     }
 
     /// Solution of `S Δy = right`; `None` if there is none. If the cables do not span the degrees of freedom, that in
     /// the wrenches which they span.
-    fn solved(&self, matrix: &Mat6, right: &Vec6, rows: &[(Vec6, f64, f64)]) -> Option<Vec6> {
+    fn solved(&self, matrix: &Mat6, right: &Vec6) -> Option<Vec6> {
         let n = self.coordinates.count();
         if let Some(solution) = solved_if_regular(matrix, right, n) {
             return Some(solution);
         }
-        let columns: Vec<Vec6> = rows.iter().map(|(column, ..)| *column).collect();
+        if !self.may_be_dependent {
+            return None;
+        }
+        let columns: Vec<Vec6> = self.rows.iter().map(|row| row.column).collect();
         let SpannedWrenches { spanned, free } = SpannedWrenches::of(&columns, n);
         let unbalanced = free.iter().map(|free| free.dot(right).abs()).fold(0.0, f64::max);
         if spanned.is_empty() || unbalanced > BALANCED_ALONG_FREE * (right.norm() + self.size) {
@@ -330,8 +421,25 @@ impl<'a> CentreSearch<'a> {
         Some(spanned.iter().zip(solution.iter()).map(|(wrench, part)| wrench * *part).sum())
     }
 
+    /// Remaining wrench [N]: the larger of force and moment/ℓ; and the sum of the sizes of all forces [N].
+    pub(crate) fn unbalanced(&self) -> [f64; 2] {
+        let (mut sum, mut size) = (self.load.wrench, self.load.size);
+        for cable in &*self.cables {
+            let force_w = cable.curve.span.force_on_start_w();
+            sum += self.wrench(cable, &force_w);
+            size += force_w.norm();
+        }
+        let sum = self.coordinates.expand(&sum);
+        [sum.fixed_rows::<3>(0).norm().max(sum.fixed_rows::<3>(3).norm()), size]
+    }
+
+    /// Last step of each cable [N].
+    pub(crate) fn last_step(&self, i: usize) -> f64 {
+        self.rows[i].step
+    }
+
     /// True if (40b5), or the curvature at some places between the limits, shows that the centre is the only one.
-    fn is_unique(&self) -> bool {
+    pub(crate) fn is_unique(&self) -> bool {
         self.cables.iter().all(|cable| {
             let up = self.multipliers.dot(&self.wrench(cable, &cable.curve.span.axes_w().1)).abs();
             let catenary = &cable.curve.span.catenary;
@@ -350,26 +458,26 @@ impl<'a> CentreSearch<'a> {
             let tau = cable.lower * ratio.powf((place as f64 + 0.5) / PLACES as f64);
             let mut there = cable.curve.clone();
             there.set(tau);
-            let [_, curvature] = barrier([tau - cable.lower, cable.upper - tau]);
+            let [_, curvature] = potential::logarithms([tau - cable.lower, cable.upper - tau]);
             let bend = self.multipliers.dot(&self.wrench(cable, &there.span.axes_w().1));
             curvature > bend * there.force_by_tau(false).second_up
         })
     }
 
     /// Error of a pose whose tensions have no room between their limits. `tau` are the tensions farthest from them.
-    fn no_centre(&self, tau: impl Fn(usize) -> f64) -> StaticsError {
+    fn no_centre(&self, robot: &Robot, tau: impl Fn(usize) -> f64) -> StaticsError {
         let room = |i: usize| (tau(i) - self.cables[i].lower).min(self.cables[i].upper - tau(i));
         let count = self.cables.len();
         let tightest = (0..count).min_by(|a, b| room(*a).total_cmp(&room(*b))).unwrap_or(0);
-        StaticsError::NoCentre { cable: self.robot.cables[tightest].name.clone(), room: room(tightest).max(0.0) }
+        StaticsError::NoCentre { cable: robot.cables[tightest].name.clone(), room: room(tightest).max(0.0) }
     }
 
-    fn collected(self) -> TensionCentre {
+    fn collected(self, robot: &Robot, pose: &Pose, model: StaticModel) -> TensionCentre {
         let unique = self.is_unique();
         let tensions: Vec<f64> = self.cables.iter().map(|cable| cable.curve.tau()).collect();
         let limits = self.cables.iter().map(|cable| [cable.lower, cable.upper]).collect();
         let multipliers = self.multipliers.iter().copied().take(self.coordinates.count()).collect();
-        let (robot, pose, model, iterations) = (self.robot, self.pose, self.model, self.iterations);
+        let iterations = self.iterations;
         let equilibrium = if model == StaticModel::Ideal {
             ideal::collect(robot, *pose, &tensions, iterations)
         } else {

@@ -4,7 +4,7 @@ use super::corners::{RoundedTension, SpanForces};
 use crate::catenary::space::HangingCable;
 use crate::catenary::{Catenary, Rope};
 use crate::drive::derivatives::{DriveDerivatives, OuterRow, VARIABLES, place};
-use crate::drive::{CableAtRest, tension_at_drum};
+use crate::drive::{BeyondExit, CableAtRest, tension_at_drum};
 use crate::math::{Rotation, Vec3};
 use crate::robot::{Cable, Pose, PulleyContact, Robot};
 use crate::statics::equilibrium::CableState;
@@ -20,6 +20,9 @@ const MAX_STEPS: usize = 30;
 /// Step over τ after which the next value is the limit: Newton's method squares it, and over a pulley it falls by a
 /// thousandth a step.
 const LAST_STEP: f64 = 1e-11;
+
+/// The same for a search that begins at the limit of a pose nearby: a step this small leaves less than [`LAST_STEP`].
+const LAST_STEP_NEAR: f64 = 1e-8;
 
 /// Minimum slope of a tension by τ; see `MIN_SLOPE` in `tension/search.rs`.
 const MIN_SLOPE: f64 = 1e-3;
@@ -77,12 +80,19 @@ impl<'a> TensionCurve<'a> {
     /// # Errors
     /// [`StaticsError::InsidePulley`].
     pub(super) fn new(robot: &'a Robot, i: usize, pose: &Pose, model: StaticModel) -> Result<Self, StaticsError> {
+        exit_points::straight_contact(&robot.cables[i], pose)?;
+        Ok(Self::at(robot, i, pose, model))
+    }
+
+    /// Cable `i` with any tension, its attachment outside the wheel of its pulley.
+    pub(crate) fn at(robot: &'a Robot, i: usize, pose: &Pose, model: StaticModel) -> Self {
         let loaded = LoadedCable::at(robot, i, pose, model);
-        let contact = exit_points::straight_contact(&robot.cables[i], pose)?;
+        let cable = &robot.cables[i];
+        let contact = cable.anchor.contact(&pose.point_w(&cable.attachment_p));
         let weight = loaded.load.size * loaded.chord_w(pose).norm();
         let tau = 6.0 * Catenary::MIN_TENSION_TO_WEIGHT * weight;
         let span = loaded.hang_with_tension(pose, tau);
-        Ok(Self { robot, i, span, contact, tau })
+        Self { robot, i, span, contact, tau }
     }
 
     /// Cable `i` of an equilibrium.
@@ -93,7 +103,7 @@ impl<'a> TensionCurve<'a> {
         Some(Self { robot, i, span, contact, tau })
     }
 
-    pub(super) fn cable(&self) -> &'a Cable {
+    pub(crate) fn cable(&self) -> &'a Cable {
         &self.robot.cables[self.i]
     }
 
@@ -112,7 +122,7 @@ impl<'a> TensionCurve<'a> {
     }
 
     /// Hangs the cable with another τ [N].
-    pub(super) fn set(&mut self, tau: f64) {
+    pub(crate) fn set(&mut self, tau: f64) {
         match self.contact.filter(|_| self.has_moving_exit()) {
             Some(contact) => {
                 let (span, contact) = exit_points::at_own_exit_point(self.cable(), &self.span, contact, tau);
@@ -157,25 +167,34 @@ impl<'a> TensionCurve<'a> {
     /// Limits of τ: the tensions at which the lowest tension in the cable is at its minimum, and the highest one at its
     /// maximum. The maximum has to be finite.
     pub(crate) fn limits(&self) -> [TauLimit<'a>; 2] {
+        self.limits_near(None)
+    }
+
+    /// Limits of τ by [`Self::limits`], searched from values near them.
+    pub(super) fn limits_near(&self, near: Option<[f64; 2]>) -> [TauLimit<'a>; 2] {
+        let near = near.filter(|_| self.weight_per_length() > 0.0);
+        let last_step = if near.is_some() { LAST_STEP_NEAR } else { LAST_STEP };
         let chord_w = self.span.chord_w();
         let minimum = MinimumTension::of(self.robot, self.i, &chord_w);
         let maximum = self.cable().limits().maximum.unwrap_or(f64::INFINITY);
 
         let mut lower = self.clone();
-        let is_slackest = lower.search(lower.minimum(minimum), SpanForces::lowest, |curve| curve.minimum(minimum));
+        let start = near.map_or_else(|| lower.minimum(minimum), |[lower, _]| lower);
+        let is_slackest = lower.search((start, last_step), SpanForces::lowest, |curve| curve.minimum(minimum));
         let kind = if is_slackest { TauLimitKind::Slackest } else { TauLimitKind::Minimum(minimum) };
         let lower = TauLimit { curve: lower, kind };
 
         let mut upper = self.clone();
-        upper.search(maximum, SpanForces::highest, |_| maximum);
+        let start = near.map_or(maximum, |[_, upper]| upper);
+        upper.search((start, last_step), SpanForces::highest, |_| maximum);
         [lower, TauLimit { curve: upper, kind: TauLimitKind::Maximum }]
     }
 
     /// Hangs the cable with the τ at which a tension has this value, or with the slackest τ if that is higher; true in
-    /// the latter case.
+    /// the latter case. The search has a start, and a relative step that is its last.
     fn search(
         &mut self,
-        start: f64,
+        (start, last_step): (f64, f64),
         tension: impl Fn(&SpanForces) -> RoundedTension,
         wanted: impl Fn(&Self) -> f64,
     ) -> bool {
@@ -191,7 +210,7 @@ impl<'a> TensionCurve<'a> {
             let slackest = self.slackest();
             is_slackest = next < slackest;
             let next = next.max(slackest);
-            let is_last = (next - self.tau).abs() <= LAST_STEP * next;
+            let is_last = (next - self.tau).abs() <= last_step * next;
             self.set(next);
             if is_last {
                 break;
@@ -284,6 +303,42 @@ impl<'a> TensionCurve<'a> {
         force_by_tau_over_pulley(&cable, &span, contact)
     }
 
+    /// Cable beyond the free span with its present tension.
+    pub(crate) fn beyond_exit(&self) -> BeyondExit {
+        BeyondExit::of(&self.span, &self.cable().anchor, self.contact.as_ref())
+    }
+
+    /// Hangs the cable with the τ at which the tension at its drum, or at its anchor without one, has a value [N]; true
+    /// if there is one above the slackest τ.
+    pub(crate) fn set_drum_tension(&mut self, wanted: f64) -> bool {
+        let slackest = self.slackest();
+        self.set(wanted.max(slackest));
+        for _ in 0..MAX_STEPS {
+            let step = (wanted - self.beyond_exit().tension_drum) / self.end_slope().max(MIN_SLOPE);
+            let next = self.tau + step;
+            if next.is_nan() || next < slackest && self.tau <= slackest {
+                return false;
+            }
+            let next = next.max(slackest);
+            let is_last = step.abs() <= LAST_STEP * next;
+            self.set(next);
+            if is_last {
+                return true;
+            }
+        }
+        false
+    }
+
+    /// Derivative of the tension at the end of the span by τ, the exit point held; that at the drum grows like it.
+    fn end_slope(&self) -> f64 {
+        let catenary = &self.span.catenary;
+        let by_tau = catenary.by_parallel_tension();
+        let [cos, _] = catenary.chord_direction();
+        let vertical = by_tau.vertical_at_start[0] + self.weight_per_length() * by_tau.length[0];
+        let (h, v) = (catenary.horizontal_force(), catenary.vertical_force_at_end());
+        (h * cos + v * vertical) / h.hypot(v).max(f64::MIN_POSITIVE)
+    }
+
     /// Cable at rest with its present tension, drum side and winch included.
     pub(crate) fn at_rest(&self) -> CableAtRest {
         CableAtRest::with_span(self.span.clone(), &self.cable().anchor, self.contact)
@@ -293,8 +348,7 @@ impl<'a> TensionCurve<'a> {
 /// Derivative of the force on the platform by τ for a cable with weight over a pulley, the exit point following; `None`
 /// for a vertical one.
 fn force_by_tau_over_pulley(cable: &Cable, span: &HangingCable, contact: PulleyContact) -> Option<Vec3> {
-    let at_rest = CableAtRest::with_span(span.clone(), &cable.anchor, Some(contact));
-    let derivatives = DriveDerivatives::of(span, &cable.anchor, at_rest.drive.as_deref()?)?;
+    let derivatives = DriveDerivatives::of(span, &cable.anchor, Some(&contact))?;
     let column = |rows: &[OuterRow; 3]| Vec3::from_fn(|k, _| rows[k][place::LENGTH]);
     let (force, chord) = (column(&derivatives.force_w), column(&derivatives.chord_w));
 

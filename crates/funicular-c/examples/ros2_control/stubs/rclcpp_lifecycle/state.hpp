@@ -1,0 +1,6 @@
+// STUB, not rclcpp_lifecycle.
+#pragma once
+
+namespace rclcpp_lifecycle {
+class State {};
+}  // namespace rclcpp_lifecycle

@@ -1,0 +1,169 @@
+/* Statics of cable-driven parallel robots with sagging cables inside a control loop. C99 and later, C++.
+ *
+ * SI units; every name has its unit. World axes. Cables in the order of the robot file. Lengths are unstrained lengths
+ * from the attachment on the platform to the drum (to the anchor without one): what a winch has to pay out.
+ *
+ * Memory. The caller owns all memory but that of models. fn_inverse, fn_forward, fn_wrench, fn_warm_up and fn_reset
+ * reserve none, take no lock, print nothing, and every iteration in them has a largest number of steps.
+ * The others are for set-up.
+ *
+ * Threads. A model is read only: many loops may use it. A loop serves one thread at a time; a second one gets FN_BUSY.
+ *
+ * Results. Every function returns a status. From zero on there is a result, and a smaller status is better. With a
+ * negative one nothing at all was written, and the state of the loop is as before. Arrays may be NULL: not wanted.
+ *
+ * Structs begin with struct_size = sizeof(struct). A longer struct of a later version is accepted. A shorter one is
+ * accepted if it has all members above the line "may be missing"; members that it does not have are zero or not wanted.
+ *
+ * Input. Numbers that are not finite or larger than 1e9 are FN_BAD_INPUT. A quaternion has either sign and is
+ * normalised; one whose length differs from 1 by more than 1e-3 is FN_BAD_INPUT. */
+#ifndef FUNICULAR_H
+#define FUNICULAR_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define FN_ABI_VERSION 1 /* what fn_abi_version() has to return */
+#define FN_MAX_CABLES 16
+
+/* Statuses. */
+#define FN_CERTIFIED 0          /* balance, limits and certificate hold */
+#define FN_ACCEPTED 1           /* balance and limits hold, the certificate is missing */
+#define FN_BEYOND_LIMITS 2      /* the balance holds with tensions beyond their limits */
+#define FN_HELD 3               /* nothing was found: the last certified values, age_calls old */
+#define FN_BAD_INPUT (-1)       /* not finite, too large, not positive, or a bad quaternion */
+#define FN_BAD_POINTER (-2)     /* missing or not aligned */
+#define FN_BAD_STRUCT (-3)      /* struct_size or cables too small */
+#define FN_BAD_MODEL (-4)       /* robot file: the message says where */
+#define FN_NOT_FOR_LOOP (-5)    /* robot that a loop cannot compute: the message says why */
+#define FN_BAD_MEMORY (-6)      /* too small or not aligned, see fn_loop_bytes */
+#define FN_BAD_HANDLE (-7)      /* no model or loop there, or it has ended */
+#define FN_IN_USE (-8)          /* the model has loops */
+#define FN_BUSY (-9)            /* another thread is in a call with this loop */
+#define FN_POISONED (-10)       /* an earlier call failed inside: end the loop */
+#define FN_PANIC (-11)          /* a mistake in this library */
+#define FN_IMPOSSIBLE_POSE (-12) /* out of the plane, or an attachment at its anchor */
+#define FN_INSIDE_PULLEY (-13)  /* an attachment is inside a wheel */
+#define FN_LIMITS_CONTRADICT (-14) /* a minimum tension is not below its maximum at this pose */
+#define FN_SINGULAR (-15)       /* the cables do not oppose every motion at this pose */
+#define FN_TOO_SLACK (-16)      /* a cable cannot have this tension at this pose */
+#define FN_NOT_FOUND (-17)      /* no result in the largest number of steps, and none to hold */
+#define FN_NO_START (-18)       /* lengths to pose need a pose to start from */
+
+typedef struct fn_model fn_model; /* robot, read only */
+typedef struct fn_loop fn_loop;   /* state of one loop, in memory of the caller */
+
+/* Motion of the platform, and external load on it besides the load of the robot file. */
+typedef struct fn_pose_input {
+  uint32_t struct_size;
+  uint32_t reserved; /* 0 */
+  double position_m[3];
+  double quaternion_wxyz[4]; /* from platform to world axes */
+  /* may be missing: */
+  double velocity_m_s[3];
+  double angular_velocity_rad_s[3];
+  double acceleration_m_s2[3]; /* the inertia of the platform is a load on it */
+  double angular_acceleration_rad_s2[3];
+  double force_n[3];    /* at the origin of the platform */
+  double moment_n_m[3]; /* about that origin */
+} fn_pose_input;
+
+typedef struct fn_inverse_result {
+  uint32_t struct_size;
+  uint32_t cables; /* room of each array, at least the number of cables */
+  int32_t status;
+  int32_t iterations;
+  int32_t age_calls; /* 0 but for FN_HELD */
+  int32_t least_margin_cable; /* from 0 */
+  double least_margin_n; /* smallest distance of a tension from its limit, negative beyond it */
+  double error_n; /* wrench that is not balanced; moments over the mean distance of the attachments */
+  double error_m; /* bound of the error of the lengths */
+  /* may be missing: */
+  double *length_m;
+  double *length_rate_m_s; /* positive while the cable is paid out */
+  double *length_acceleration_m_s2;
+  double *free_length_m; /* without the arc on the pulley and the drum side */
+  double *tension_platform_n;
+  double *tension_drum_n;
+  double *margin_n;
+} fn_inverse_result;
+
+typedef struct fn_forward_result {
+  uint32_t struct_size;
+  uint32_t cables;
+  int32_t status;
+  int32_t iterations;
+  int32_t age_calls;
+  int32_t least_margin_cable;
+  double least_margin_n;
+  double error_n;
+  double error_m; /* bound of the error of the pose */
+  double position_m[3];
+  double quaternion_wxyz[4];
+  /* may be missing: */
+  double *free_length_m;
+  double *tension_platform_n;
+  double *tension_drum_n;
+  double *margin_n;
+} fn_forward_result;
+
+typedef struct fn_wrench_result {
+  uint32_t struct_size;
+  int32_t status;
+  double force_n[3];
+  double moment_n_m[3];
+  double payload_kg; /* mass whose weight is the part of the force along gravity */
+} fn_wrench_result;
+
+/* Set-up. */
+
+int32_t fn_abi_version(void);
+
+/* Text of a status, with a zero at its end, cut to its memory. */
+int32_t fn_status_text(int32_t status, char *text, size_t bytes);
+
+/* Model from the text of a robot file, or from the file. A message (may be NULL) says why there is none. */
+int32_t fn_model_from_toml(const char *toml, size_t bytes, fn_model **model, char *message, size_t message_bytes);
+int32_t fn_model_from_file(const char *path, fn_model **model, char *message, size_t message_bytes);
+int32_t fn_model_cables(const fn_model *model, uint32_t *cables);
+/* FN_IN_USE while loops of the model have not ended. NULL is fine. */
+int32_t fn_model_free(fn_model *model);
+
+/* Memory of a loop: its size and alignment; any memory of both, for as long as the loop lives. */
+int32_t fn_loop_bytes(const fn_model *model, size_t *bytes, size_t *alignment);
+int32_t fn_loop_init(const fn_model *model, void *memory, size_t bytes, fn_loop **loop);
+int32_t fn_loop_end(fn_loop *loop); /* the memory is the caller's again */
+
+/* Runs every path once at the pose of the robot file, so that the first call in the loop is as fast as the others.
+ * FN_NO_START without such a pose. The state stays as it was. */
+int32_t fn_warm_up(fn_loop *loop);
+
+/* Loop. */
+
+/* The next call starts cold, as the first one did: for runs that have to repeat to the last digit. */
+int32_t fn_reset(fn_loop *loop);
+
+/* Pose to lengths and tensions. Rates and accelerations cost time; they are computed if one of the arrays is wanted. */
+int32_t fn_inverse(fn_loop *loop, const fn_pose_input *input, fn_inverse_result *result);
+
+/* Lengths to pose and tensions. The search starts at the pose of `start`, whose load and motion count too, or (NULL) at
+ * the last pose of this loop. FN_NO_START if there is none. */
+int32_t fn_forward(fn_loop *loop, const double *length_m, uint32_t cables, const fn_pose_input *start,
+                   fn_forward_result *result);
+
+/* Lengths to pose from nothing. Reserves memory and has no bound of time: before the loop, not in it. */
+int32_t fn_forward_cold(fn_loop *loop, const double *length_m, uint32_t cables, fn_forward_result *result);
+
+/* Tensions at the drums to the external load on the platform: what fn_inverse would have to be given for them. */
+int32_t fn_wrench(fn_loop *loop, const fn_pose_input *input, const double *tension_drum_n, uint32_t cables,
+                  fn_wrench_result *result);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
