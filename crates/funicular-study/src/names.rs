@@ -529,11 +529,16 @@ pub enum ExportFormat {
     Urdf,
     /// VTK XML of polylines and polygons (.vtp), for ParaView.
     Vtk,
+    /// C99 file with a table of lengths, for firmware.
+    C,
+    /// Table of lengths in JSON, for firmware that reads its numbers.
+    Json,
 }
 
 impl Named for ExportFormat {
     const WHAT: &'static str = "format of export";
-    const ALL: &'static [Self] = &[Self::Opensees, Self::Moordyn, Self::Mujoco, Self::Sdf, Self::Urdf, Self::Vtk];
+    const ALL: &'static [Self] =
+        &[Self::Opensees, Self::Moordyn, Self::Mujoco, Self::Sdf, Self::Urdf, Self::Vtk, Self::C, Self::Json];
 
     fn name(self) -> &'static str {
         match self {
@@ -543,6 +548,8 @@ impl Named for ExportFormat {
             Self::Sdf => "sdf",
             Self::Urdf => "urdf",
             Self::Vtk => "vtk",
+            Self::C => "c",
+            Self::Json => "json",
         }
     }
 
@@ -554,6 +561,8 @@ impl Named for ExportFormat {
             Self::Sdf => "World of Gazebo, whose cables Drake reads as springs",
             Self::Urdf => "Frame and platform for viewers",
             Self::Vtk => "VTK XML of polylines and polygons (.vtp), for ParaView",
+            Self::C => "Table of lengths over a box of poses as a C99 file, for firmware",
+            Self::Json => "Table of lengths over a box of poses in JSON, for firmware that reads its numbers",
         }
     }
 }
@@ -568,7 +577,14 @@ impl ExportFormat {
             Self::Sdf => "Gazebo",
             Self::Urdf => "URDF",
             Self::Vtk => "VTK",
+            Self::C => "C",
+            Self::Json => "JSON",
         }
+    }
+
+    /// True if the file is a table of lengths over a box of poses.
+    pub fn is_length_table(self) -> bool {
+        matches!(self, Self::C | Self::Json)
     }
 
     /// True if cables of the program are straight springs without mass, with the static model `spring`.
