@@ -61,7 +61,7 @@ pub fn run(at_rest: &AtRest, request: &request::ExportRequest) -> Result<Exporte
     let request::ExportRequest { to, segments, modes_below_hz, .. } = *request;
     refuse(request)?;
     if to.is_length_table() {
-        return firmware::file(&at_rest.robot, Some(&at_rest.equilibrium.pose), request);
+        return firmware::file(&at_rest.robot, request);
     }
     let given = &at_rest.equilibrium;
     let straight = has_straight_cables(request).then(|| springs::at_rest(at_rest)).transpose()?;

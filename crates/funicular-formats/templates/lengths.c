@@ -1,12 +1,14 @@
 /*
 {%- for line in about %}
- * {{ line }}
+ *{% if !line.is_empty() %} {{ line }}{% endif %}
 {%- endfor %}
  *
  * Lengths are in m, angles in degrees, R = Rz(yaw) Ry(pitch) Rx(roll). A pose outside the box is moved to its border, and
  * the result says so. Nothing is allocated, called or kept: the file needs no library, and every function can be called
- * from every thread. Macros: {{ m }}_FLOAT keeps and sums the corrections in float, {{ m }}_DECLARATIONS leaves the
- * declarations alone, {{ m }}_SQRT(v) is another square root than the one below.
+ * from every thread. Define before this file, or for the compiler:
+ *   {{ m }}_FLOAT to keep and sum the corrections in float,
+ *   {{ m }}_DECLARATIONS to have the declarations alone, as from a header,
+ *   {{ m }}_SQRT(v) for another square root than the one below.
  */
 #ifndef {{ m }}_DECLARED
 #define {{ m }}_DECLARED

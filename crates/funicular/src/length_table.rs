@@ -3,7 +3,7 @@
 //!
 //! A firmware computes `|B − p − R a|`, the distance of a cable's ends. Sag, stretch, pulleys and flexible supports change
 //! this length by a function of the pose that is smooth under a smooth rule of tensions, and small, so that a polynomial
-//! of low degree follows it (docs/theory.md, (40z10)).
+//! of low degree follows it (docs/theory.md, (40z12)).
 
 use crate::math::chebyshev::{ChebyshevBasis, chebyshev_point, even_point};
 use crate::math::{Vec3, rotation};
@@ -26,6 +26,9 @@ const TESTED: usize = 1000;
 /// Number of cables whose largest error is followed to its maximum, and halvings of the step of this search.
 const MAX_FOLLOWED: usize = 8;
 const HALVINGS: usize = 6;
+
+/// Part of the tolerance up to which products are left out.
+const ROOM: f64 = 0.9;
 
 /// Number of poses inside the box, besides its corners, at which the effect of another rope is computed.
 const VARIED: usize = 50;
@@ -234,7 +237,8 @@ impl StraightLine {
 }
 
 /// Table of the unstrained lengths with which a robot rests at the poses of a box, with an error of at most `tolerance`
-/// [m] at all poses that were tried. The total degree is the least that keeps it.
+/// [m] at all poses that were tried. The total degree is the least that keeps it, and products that are not needed for it
+/// are left out.
 ///
 /// No finite number of poses proves the error elsewhere in the box: the table says how many they were. From the worst
 /// of them the error is followed to its maximum.
@@ -257,7 +261,7 @@ impl StraightLine {
 /// ```
 ///
 /// # References
-/// docs/theory.md, equations (40z10) and (40z11).
+/// docs/theory.md, equations (40z12) and (40z13).
 pub fn length_table(
     robot: &Robot,
     pose_box: &PoseBox,
@@ -265,26 +269,20 @@ pub fn length_table(
     rule: &TensionRule,
     tolerance: f64,
 ) -> Result<LengthTable, LengthTableError> {
-    let n = pose_box.sides.len();
     let sampled = Sampled { robot, pose_box, model, rule };
-
-    // Corners first: a box that is too large fails there.
-    let mut tested = sampled.poses(pose_box.corners().into_iter())?;
-    tested.extend(sampled.poses((0..TESTED).map(|i| even_point(n, i)))?);
+    let tested = sampled.tested()?;
     let mut fitted = Poses::default();
     let mut best: Option<LengthTable> = None;
     for degree in 0..=MAX_DEGREE {
-        let count = ChebyshevBasis::count(n, degree);
-        if count > MAX_COEFFICIENTS {
+        if ChebyshevBasis::count(pose_box.sides.len(), degree) > MAX_COEFFICIENTS {
             break;
         }
-        let wanted = FITTED_PER_COEFFICIENT * count;
-        fitted.extend(sampled.poses((fitted.places.len()..wanted).map(|i| chebyshev_point(n, i)))?);
-        let Some(mut table) = sampled.fitted(degree, &fitted, &tested) else { break };
+        let Some(mut table) = sampled.of_degree(degree, &mut fitted, &tested)? else { break };
         if table.error <= tolerance {
             sampled.follow(&mut table, &tested)?;
         }
         if table.error <= tolerance {
+            let mut table = sampled.shortened(table, &tested, tolerance)?;
             table.by_stiffness = sampled.effect(&tested, |cable| cable.material.axial_stiffness *= VARIED_FACTOR);
             table.by_mass = sampled.effect(&tested, |cable| cable.material.mass_per_length *= VARIED_FACTOR);
             return Ok(table);
@@ -292,6 +290,23 @@ pub fn length_table(
         best = Some(table);
     }
     Err(too_coarse(pose_box, best, tolerance))
+}
+
+/// Table by [`length_table`] with all polynomials up to a total degree, whatever their error is: for a memory that is
+/// given. The error is not followed beyond the tested poses.
+///
+/// # Errors
+/// [`LengthTableError::NotHeld`], [`LengthTableError::LetGo`].
+pub fn length_table_of_degree(
+    robot: &Robot,
+    pose_box: &PoseBox,
+    model: StaticModel,
+    rule: &TensionRule,
+    degree: usize,
+) -> Result<Option<LengthTable>, LengthTableError> {
+    let sampled = Sampled { robot, pose_box, model, rule };
+    let tested = sampled.tested()?;
+    sampled.of_degree(degree, &mut Poses::default(), &tested)
 }
 
 /// Error of a box whose polynomials of the highest degree are not good enough.
@@ -377,6 +392,76 @@ impl Sampled<'_> {
             poses.places.push(place);
         }
         Ok(poses)
+    }
+
+    /// Poses at which errors are computed. Corners come first: a box that is too large fails there.
+    fn tested(&self) -> Result<Poses, LengthTableError> {
+        let n = self.pose_box.sides.len();
+        let mut tested = self.poses(self.pose_box.corners().into_iter())?;
+        tested.extend(self.poses((0..TESTED).map(|i| even_point(n, i)))?);
+        Ok(tested)
+    }
+
+    /// Table of a degree; poses to which it is fitted are added. `None` if they do not determine it.
+    fn of_degree(
+        &self,
+        degree: usize,
+        fitted: &mut Poses,
+        tested: &Poses,
+    ) -> Result<Option<LengthTable>, LengthTableError> {
+        let n = self.pose_box.sides.len();
+        let wanted = FITTED_PER_COEFFICIENT * ChebyshevBasis::count(n, degree);
+        fitted.extend(self.poses((fitted.places.len()..wanted).map(|i| chebyshev_point(n, i)))?);
+        Ok(self.fitted(degree, fitted, tested))
+    }
+
+    /// Table with its error at the tested poses, without the products that it needs least: as long as it keeps the
+    /// tolerance. Half of them come back until it does everywhere.
+    fn shortened(&self, table: LengthTable, tested: &Poses, tolerance: f64) -> Result<LengthTable, LengthTableError> {
+        let count = table.basis.exponents().len();
+        let size = |k: usize| table.coefficients.iter().map(|row| row[k].abs()).fold(0.0, f64::max);
+        let mut order: Vec<usize> = (0..count).collect();
+        order.sort_by(|a, b| size(*a).total_cmp(&size(*b)));
+
+        // One after the other, the smallest first, with room for poses between the tested ones.
+        let at = |(place, corrections): (&Vec<f64>, &Vec<f64>)| {
+            let values = table.basis.values(place);
+            let of_cable = |(row, correction): (&Vec<f64>, &f64)| sum(row, &values) - correction;
+            (table.coefficients.iter().zip(corrections).map(of_cable).collect(), values)
+        };
+        let mut errors: Vec<(Vec<f64>, Vec<f64>)> = tested.places.iter().zip(&tested.corrections).map(at).collect();
+        let mut without = 0;
+        while without + 1 < count {
+            let k = order[without];
+            let mut largest = 0.0_f64;
+            for (of_cables, values) in &mut errors {
+                for (error, row) in of_cables.iter_mut().zip(&table.coefficients) {
+                    *error -= row[k] * values[k];
+                    largest = largest.max(error.abs());
+                }
+            }
+            if largest > ROOM * tolerance {
+                break;
+            }
+            without += 1;
+        }
+
+        while without > 0 {
+            let mut kept = order[without..].to_vec();
+            kept.sort_unstable();
+            let rows = table.coefficients.iter().map(|row| kept.iter().map(|k| row[*k]).collect()).collect();
+            let mut short = LengthTable { basis: table.basis.kept(&kept), coefficients: rows, ..table.clone() };
+            (short.error, short.tested) = (0.0, tested.places.len());
+            for (place, corrections) in tested.places.iter().zip(&tested.corrections) {
+                self.note_errors(&mut short, place, corrections);
+            }
+            self.follow(&mut short, tested)?;
+            if short.error <= tolerance {
+                return Ok(short);
+            }
+            without /= 2;
+        }
+        Ok(table)
     }
 
     /// Table of a degree with its error at the tested poses; `None` if the poses do not determine it.

@@ -7,7 +7,7 @@ mod json;
 use super::{Exported, one_line};
 use anyhow::{Result, anyhow, bail};
 use funicular::length_table::{BoxSide, LengthTable, LengthTableError, PoseBox, length_table};
-use funicular::robot::{Pose, Robot, State};
+use funicular::robot::{PlatformMotion, Pose, Robot, State};
 use funicular::statics::{self, TensionRule};
 use funicular::warnings;
 use funicular_study::NoSolution;
@@ -83,23 +83,15 @@ pub(super) fn refuse(request: &ExportRequest) -> Result<()> {
 /// A request that contradicts itself or the robot, a box that is not wholly feasible, or a tolerance that cannot be kept.
 pub(super) fn of_request(robot: &Robot, request: &ExportRequest) -> Result<Exported> {
     let robot = at_rest::with_limits(&at_rest::with_state(robot.clone(), &request.state)?, &request.tensions)?;
-    let base = match &robot.state {
-        State::Pose(pose) => Some(*pose),
-        State::Lengths(lengths) => {
-            Some(statics::forward(&robot, lengths, request.state.static_model, None).map_err(anyhow::Error::from)?.pose)
-        }
-        State::Unknown => None,
-    };
-    file(&robot, base.as_ref(), request)
+    file(&robot, request)
 }
 
-/// Writes the table of lengths of a robot with all changes of a request. `base` gives the coordinates that the request
-/// does not give.
+/// Writes the table of lengths of a robot with all changes of a request.
 ///
 /// # Errors
 /// Those of [`of_request`].
-pub(super) fn file(robot: &Robot, base: Option<&Pose>, request: &ExportRequest) -> Result<Exported> {
-    let pose_box = pose_box(robot, base, &request.within)?;
+pub(super) fn file(robot: &Robot, request: &ExportRequest) -> Result<Exported> {
+    let pose_box = pose_box(robot, &request.within)?;
     let given = at_rest::rule(&request.tensions)?;
     let mut caveats = Vec::new();
     let rule = rule(robot, given.as_ref(), &mut caveats)?;
@@ -162,12 +154,12 @@ fn rule(robot: &Robot, given: Option<&TensionRule>, caveats: &mut Vec<String>) -
     Ok(TensionRule::Lowest)
 }
 
-/// Box of poses of a request; `base` gives the coordinates that it does not give.
+/// Box of poses of a request. Coordinates that it does not give are those of the pose of the state, or else no rotation.
 ///
 /// # Errors
 /// An axis that is given twice or along which the platform cannot move, an empty range, a position that nothing gives,
 /// or poses that the platform cannot have.
-fn pose_box(robot: &Robot, base: Option<&Pose>, within: &[Axis]) -> Result<PoseBox> {
+fn pose_box(robot: &Robot, within: &[Axis]) -> Result<PoseBox> {
     let mut ends: [Option<[f64; 2]>; 6] = [None; 6];
     for axis in within {
         let name = axis.name();
@@ -179,15 +171,11 @@ fn pose_box(robot: &Robot, base: Option<&Pose>, within: &[Axis]) -> Result<PoseB
         }
     }
 
-    let mut position = [0.0; 3];
+    let base = base_pose(robot, &ends)?;
+    let mut position: [f64; 3] = base.position_w.into();
     let mut angles = [0.0; 3];
-    if let Some(base) = base {
-        position = base.position_w.into();
-    } else if let Some(k) = (0..3).find(|k| ends[*k].is_none()) {
-        bail!("nothing gives the coordinate {}: give it by ⟪within⟫, or give ⟪pose⟫", AXES[k]);
-    }
-    let fixed_angles = (3..6).any(|k| ends[k].is_some());
-    if let Some(base) = base.filter(|_| fixed_angles) {
+    let fixes_angles = ends[3..].iter().any(Option::is_some);
+    if fixes_angles {
         angles = funicular::math::rotation::to_roll_pitch_yaw_deg(&base.rot_wp);
     }
     let mut sides = Vec::new();
@@ -207,11 +195,12 @@ fn pose_box(robot: &Robot, base: Option<&Pose>, within: &[Axis]) -> Result<PoseB
         );
     }
 
-    let mut base =
-        Pose { rot_wp: base.map_or_else(Default::default, |base| base.rot_wp), ..Pose::new(position, angles) };
-    if fixed_angles {
-        base = Pose::new(position, angles);
-    }
+    let base = if fixes_angles {
+        Pose::new(position, angles)
+    } else {
+        // The rotation of the state with every digit.
+        Pose { position_w: position.into(), rot_wp: base.rot_wp }
+    };
     let pose_box = PoseBox::new(base, sides);
     let n = pose_box.sides().len();
     for i in 0..1 << n {
@@ -220,6 +209,25 @@ fn pose_box(robot: &Robot, base: Option<&Pose>, within: &[Axis]) -> Result<PoseB
             .map_err(|error| error.context("⟪within⟫: the platform cannot have all poses of the box"))?;
     }
     Ok(pose_box)
+}
+
+/// Pose for the coordinates that a request does not give.
+///
+/// # Errors
+/// A coordinate that neither the state nor the request gives.
+fn base_pose(robot: &Robot, ends: &[Option<[f64; 2]>; 6]) -> Result<Pose> {
+    if let State::Pose(pose) = &robot.state {
+        return Ok(*pose);
+    }
+    let given = [0, 1, 2].map(|k| ends[k].map(|[from, _]| from));
+    let position = match &robot.platform.motion {
+        PlatformMotion::Planar(plane) => plane.point_with(given).map(Into::into),
+        _ => None,
+    };
+    if let Some(k) = (0..3).find(|k| given[*k].is_none() && position.is_none()) {
+        bail!("nothing gives the coordinate {}: give it by ⟪within⟫, or give ⟪pose⟫", AXES[k]);
+    }
+    Ok(Pose::new(position.unwrap_or_else(|| given.map(Option::unwrap_or_default)), [0.0; 3]))
 }
 
 /// Ends of a side; twice the same for a coordinate that is fixed.

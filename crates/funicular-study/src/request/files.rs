@@ -129,13 +129,13 @@ declared! {
         /// Time that MoorDyn simulates with ⟪scenario⟫ [s].
         duration_s: Option<f64> = None => (Number(Positive)).otherwise("10 with a scenario");
         /// Side of the box of poses for C and JSON: x, y, z [m], roll, pitch, yaw [degrees] from A to B, or at one value
-        /// (repeatable); an axis that is not given keeps the value of the robot's state or of ⟪pose⟫.
+        /// (repeatable); an axis that is not given keeps the value of ⟪pose⟫ or of the pose of the robot's state.
         within: Vec<Axis> = Vec::new() => (List(ProgramForm::Side)).form("AXIS=A:B").under("Table of lengths");
         /// Largest error of a length in the box [m].
         tolerance_m: Option<f64> = None => (Number(Positive)).under("Table of lengths").otherwise("1e-4");
         /// Beginning of all names in the C file.
         prefix: Option<String> = None => (Text).form("NAME").under("Table of lengths")
-            .otherwise("from the name of the robot");
+            .otherwise("from the name of the robot file");
         /// State and loads.
         #[serde(flatten)]
         state: State = State::default() => group;

@@ -47,6 +47,13 @@ impl ChebyshevBasis {
         &self.exponents
     }
 
+    /// Basis of some of the products.
+    pub(crate) fn kept(&self, keep: &[usize]) -> Self {
+        let exponents: Vec<Vec<usize>> = keep.iter().map(|k| self.exponents[*k].clone()).collect();
+        let degree = exponents.iter().map(|exponents| exponents.iter().sum()).max().unwrap_or(0);
+        Self { variables: self.variables, degree, exponents }
+    }
+
     /// Value of every product at a point.
     pub fn values(&self, point: &[f64]) -> Vec<f64> {
         let along: Vec<Vec<f64>> = point.iter().map(|x| along_one(*x, self.degree)).collect();

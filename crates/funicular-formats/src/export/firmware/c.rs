@@ -56,7 +56,7 @@ struct Test {
 /// Text of a table in C.
 pub(super) fn text(of: &Firmware) -> Result<String> {
     let (table, sides) = (&of.table, of.table.pose_box.sides());
-    let p = of.request.prefix.clone().unwrap_or_else(|| identifier(&of.robot.name));
+    let p = of.request.prefix.clone().unwrap_or_else(|| identifier(stem(of)));
     let names: Vec<String> = sides.iter().map(|side| COORDINATES[side.axis].to_owned()).collect();
     let (base, angles) = (table.pose_box.base(), table.pose_box.angles_deg());
     let coordinate = |axis: usize, fixed: f64| {
@@ -197,6 +197,13 @@ fn comment(text: &str) -> String {
     let kept = |c: char| if c.is_alphanumeric() || matches!(c, ' '..='~') { c } else { '_' };
     let text: String = one_line(text).chars().map(kept).collect();
     text.replace("*/", "* /").replace("/*", "/ *").replace("??", "? ?").replace('\\', "/")
+}
+
+/// Name of the robot file without folder and ending, or else that of the robot.
+fn stem<'a>(of: &'a Firmware) -> &'a str {
+    let file = of.request.robot.name.rsplit(['/', '\\']).next().unwrap_or_default();
+    let stem = file.split('.').next().unwrap_or_default();
+    if stem.contains(|c: char| c.is_ascii_alphanumeric()) { stem } else { &of.robot.name }
 }
 
 /// Beginning of names in C from the name of a robot: its letters without accents and digits in small letters, all else
