@@ -48,12 +48,14 @@ pub enum Kind {
     Urdf,
     /// Unit of a simulation after the Functional Mock-up Interface.
     Fmu,
+    /// C source.
+    C,
     /// Kind that is never written, in words.
     Other(&'static str),
 }
 
 /// All endings with a meaning. A file with any other ending may hold any text.
-const ENDINGS: [(&[&str], Kind); 40] = [
+const ENDINGS: [(&[&str], Kind); 41] = [
     (&["txt", "out", "log", "dat"], Kind::Text),
     (&["md"], Kind::Markdown),
     (&["json"], Kind::Json),
@@ -75,6 +77,7 @@ const ENDINGS: [(&[&str], Kind); 40] = [
     (&["sdf"], Kind::Sdf),
     (&["urdf"], Kind::Urdf),
     (&["fmu"], Kind::Fmu),
+    (&["c", "h"], Kind::C),
     (&["partial", "writing"], Kind::Other("rows of an unfinished sweep")),
     (&["jsonl", "ndjson"], Kind::Other("lines of JSON")),
     (&["tsv", "tab"], Kind::Other("a table of tab-separated values")),
@@ -91,7 +94,7 @@ const ENDINGS: [(&[&str], Kind); 40] = [
     (&["doc", "docx", "odt", "rtf", "ppt", "pptx", "tex"], Kind::Other("a document")),
     (&["yaml", "yml", "ini"], Kind::Other("another format of settings")),
     (&["wcrfx"], Kind::Other("another format of XML")),
-    (&["tcl", "js", "c", "h", "cpp", "rs", "jl", "sh", "bat"], Kind::Other("a program in another language")),
+    (&["tcl", "js", "cpp", "rs", "jl", "sh", "bat"], Kind::Other("a program in another language")),
     (&["db", "sqlite", "duckdb"], Kind::Other("a database")),
     (&["zip", "gz", "tgz", "bz2", "xz", "zst", "7z", "tar"], Kind::Other("an archive")),
 ];
@@ -127,6 +130,7 @@ impl Kind {
             Self::Sdf => "a model of Gazebo",
             Self::Urdf => "a robot in URDF",
             Self::Fmu => "a Functional Mock-up Unit",
+            Self::C => "C source",
             Self::Other(words) => words,
         }
     }

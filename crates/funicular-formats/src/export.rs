@@ -1,6 +1,7 @@
 //! Export of a robot at equilibrium to files of other programs; docs/export.md describes the content of each file.
 
 pub(crate) mod chain;
+mod firmware;
 mod links;
 pub(crate) mod moordyn;
 mod mujoco;
@@ -14,8 +15,9 @@ use anyhow::{Result, bail};
 use funicular::cable::CableModel;
 use funicular::dynamics::{Dynamics, Linearisation};
 use funicular::modes::{self, LowestError, Modes};
+use funicular::robot::Robot;
 use funicular::statics::StaticModel;
-use funicular_study::at_rest::AtRest;
+use funicular_study::at_rest::{self, AtRest};
 use funicular_study::request;
 use funicular_study::values::positive;
 
@@ -39,6 +41,18 @@ const MAX_SEGMENTS: usize = 1000;
 /// Numbers of pieces of a cable in MuJoCo: one has no mass, and a hundred of eight cables take a step of a millisecond.
 const CABLE_PIECES: std::ops::RangeInclusive<usize> = 2..=100;
 
+/// Writes the robot of a request as a file of another program, at its equilibrium.
+///
+/// # Errors
+/// Those of [`run`], or no equilibrium.
+pub fn of_request(robot: Robot, request: &request::ExportRequest) -> Result<Exported> {
+    refuse(request)?;
+    if request.to.is_length_table() {
+        return firmware::of_request(&robot, request);
+    }
+    run(&at_rest::equilibrium(robot, &request.robot, &request.state, &request.tensions)?, request)
+}
+
 /// Writes the robot at equilibrium as a file of another program.
 ///
 /// # Errors
@@ -46,6 +60,9 @@ const CABLE_PIECES: std::ops::RangeInclusive<usize> = 2..=100;
 pub fn run(at_rest: &AtRest, request: &request::ExportRequest) -> Result<Exported> {
     let request::ExportRequest { to, segments, modes_below_hz, .. } = *request;
     refuse(request)?;
+    if to.is_length_table() {
+        return firmware::file(&at_rest.robot, request);
+    }
     let given = &at_rest.equilibrium;
     let straight = has_straight_cables(request).then(|| springs::at_rest(at_rest)).transpose()?;
     let at_rest = straight.as_ref().unwrap_or(at_rest);
@@ -76,6 +93,7 @@ pub fn run(at_rest: &AtRest, request: &request::ExportRequest) -> Result<Exporte
         ExportFormat::Sdf => links::sdf(at_rest, given, &mut warnings)?,
         ExportFormat::Urdf => links::urdf(at_rest, given, &mut warnings)?,
         ExportFormat::Vtk => vtk::poly_data(at_rest, segments, modes_below_hz, &mut warnings)?,
+        ExportFormat::C | ExportFormat::Json => unreachable!("a table of lengths is no file of one equilibrium"),
     };
     warnings.extend(at_rest.warnings(None));
     Ok(Exported { text, warnings })
@@ -95,7 +113,14 @@ pub fn refuse(request: &request::ExportRequest) -> Result<()> {
     if request.cable_pieces.is_some() && request.to != ExportFormat::Mujoco {
         bail!("⟪cable_pieces⟫ is for MuJoCo: for {} leave it out", request.to.program());
     }
-    if has_straight_cables(request) {
+    firmware::refuse(request)?;
+    if request.to.is_length_table() {
+        if model == StaticModel::Ideal {
+            bail!(
+                "ideal cables are as long as they are straight, and there is nothing to correct: leave out ⟪static_model⟫"
+            );
+        }
+    } else if has_straight_cables(request) {
         if model == StaticModel::Ideal {
             bail!("ideal cables have no stiffness, which {} needs: leave out ⟪static_model⟫", request.to.program());
         }

@@ -16,7 +16,7 @@ use funicular_study::analyses::Found;
 use funicular_study::request::Request;
 use funicular_study::schema;
 use funicular_study::wording::{Words, told, worded};
-use funicular_study::{Error, Watch, at_rest, json, run};
+use funicular_study::{Error, Watch, json, run};
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 use std::fs;
@@ -137,8 +137,7 @@ pub(crate) fn text_of(py: Python<'_>, request: &str, call: String) -> PyResult<(
             Request::Paper(_) => (pages::paper::paper(call)?, Vec::new()),
             Request::Export(of) => {
                 export::refuse(of)?;
-                let at_rest = at_rest::equilibrium(of.robot.read()?.robot, &of.robot, &of.state, &of.tensions)?;
-                let exported = export::run(&at_rest, of)?;
+                let exported = export::of_request(of.robot.read()?.robot, of)?;
                 (exported.text, exported.warnings)
             }
             Request::New(of) => {

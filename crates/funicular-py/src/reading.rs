@@ -91,7 +91,7 @@ impl Kind {
                 _ => Self::Text,
             },
             request::Kind::List(form) | request::Kind::Commas(form) => match form {
-                ProgramForm::GridAxis | ProgramForm::Variation => Self::Axes,
+                ProgramForm::GridAxis | ProgramForm::Side | ProgramForm::Variation => Self::Axes,
                 ProgramForm::Positive => Self::Row,
                 ProgramForm::NotNegative => Self::OneOrRow,
                 ProgramForm::Fit | ProgramForm::Change | ProgramForm::Prior => Self::Any,

@@ -465,6 +465,18 @@ def test_files_and_pages_are_those_of_the_program(executable: str, folder: Path)
         made = funicular.run(robot.request("export", to=to, pose=[0, 0, 0.5], segments=5, **keywords))
         assert made.text == Path(f"ours.{ending}").read_text()
 
+    for to in ("c", "json"):
+        run(f"export {ROBOT} --to {to} --pose 0,0,0.5 --within x=-0.2:0.2 --within y=-0.2:0.2 --tolerance-m 1e-5 -o theirs.{to}")
+        within = {"x": (-0.2, 0.2), "y": [-0.2, 0.2]}
+        rest.export(to, f"ours.{to}", within=within, tolerance_m=1e-5)
+        assert Path(f"ours.{to}").read_bytes() == Path(f"theirs.{to}").read_bytes()
+        made = funicular.run(robot.request("export", to=to, pose=[0, 0, 0.5], within=within, tolerance_m=1e-5))
+        assert made.text == Path(f"ours.{to}").read_text()
+    with pytest.raises(funicular.InputError, match="`within`"):
+        rest.export("c", "none.c")
+    with pytest.raises(funicular.Error, match="wholly feasible"):
+        rest.export("c", "none.c", within={"x": (-20, 20)})
+
     files = ["docs/import/tripod_bodies.xml", "docs/import/tripod_cables.xml"]
     run(f"import {' '.join(files)} --mass-kg-per-m 0.05 --axial-stiffness-n 1e6 -o theirs.toml")
     imported = funicular.import_robot(files, mass_kg_per_m=0.05, axial_stiffness_n=1e6)

@@ -393,6 +393,8 @@ named! {
         Sdf "sdf", "World of Gazebo, whose cables Drake reads as springs";
         Urdf "urdf", "Frame and platform for viewers";
         Vtk "vtk", "VTK XML of polylines and polygons (.vtp), for ParaView";
+        C "c", "Table of lengths over a box of poses as a C99 file, for firmware";
+        Json "json", "Table of lengths over a box of poses in JSON, for firmware that reads its numbers";
     }
 }
 
@@ -406,7 +408,14 @@ impl ExportFormat {
             Self::Sdf => "Gazebo",
             Self::Urdf => "URDF",
             Self::Vtk => "VTK",
+            Self::C => "C",
+            Self::Json => "JSON",
         }
+    }
+
+    /// True if the file is a table of lengths over a box of poses.
+    pub fn is_length_table(self) -> bool {
+        matches!(self, Self::C | Self::Json)
     }
 
     /// True if cables of the program are straight springs without mass, with the static model `spring`.

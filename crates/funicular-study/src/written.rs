@@ -44,6 +44,7 @@ fn read_form(form: ProgramForm, text: &str) -> Result<Value, String> {
         ProgramForm::Quantity => quantity(text),
         ProgramForm::MassRange => mass_range(text),
         ProgramForm::GridAxis => grid_axis(text),
+        ProgramForm::Side => side(text),
         ProgramForm::Variation => variation(text),
         ProgramForm::Fit => fit(text),
         ProgramForm::Change => change(text),
@@ -217,6 +218,21 @@ fn grid_axis(text: &str) -> Result<Value, String> {
     axis(name, &steps(values)?)
 }
 
+/// Reads `x=-3:3`, or `z=1` for a coordinate that is fixed.
+fn side(text: &str) -> Result<Value, String> {
+    let (name, values) = text.split_once('=').ok_or("it has no `=`: write AXIS=from:to, as in x=-3:3")?;
+    let name = name.trim();
+    if !sweep::AXES.contains(&name) {
+        return Err(sweep::SweepError::UnknownAxis { axis: name.to_owned() }.to_string());
+    }
+    let ends: Result<Vec<f64>, String> = values.split(':').map(number).collect();
+    match ends?[..] {
+        [at] => axis(name, &Steps::List(vec![at])),
+        [from, to] => axis(name, &Steps::List(vec![from, to])),
+        _ => Err("a side has two ends: write AXIS=from:to, as in x=-3:3".to_owned()),
+    }
+}
+
 /// Reads `platform.mass_kg=10:90:81`.
 fn variation(text: &str) -> Result<Value, String> {
     let form = "it has no `=`: write PATH=from:to:count, as in platform.mass_kg=10:90:81";
@@ -321,6 +337,9 @@ mod tests {
         assert!(bound("load-factor").is_err() && bound("load-factor=x").is_err());
         assert_eq!(named_point("hook=0,0,-0.5").unwrap(), json!({ "name": "hook", "point_m": [0.0, 0.0, -0.5] }));
         assert!(named_point("0,0,1").is_err() && named_point("hook=0,0").is_err());
+        assert_eq!(side("x = -3:3").unwrap(), json!({ "axis": "x", "values": [-3.0, 3.0] }));
+        assert_eq!(side("z=1").unwrap(), json!({ "axis": "z", "values": [1.0] }));
+        assert!(side("w=0:1").is_err() && side("x").is_err() && side("x=0:1:2").is_err() && side("x=0:nan").is_err());
         assert!(fit("a=3").is_err() && change("a=3").is_err() && band("3").is_err());
     }
 }

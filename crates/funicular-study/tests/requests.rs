@@ -433,6 +433,7 @@ fn requests() -> Vec<Value> {
                 &json!({
                     "to": "vtk", "segments": 5, "cable_pieces": 4, "modes_below_hz": 10.0, "duration_s": 2.0,
                     "scenario": { "release": [{ "at_s": 0.1, "mass_kg": 1.0 }] },
+                    "within": [{ "axis": "x", "values": [-0.5, 0.5] }], "tolerance_m": 1e-3, "prefix": "table",
                 }),
             ],
         ),

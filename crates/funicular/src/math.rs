@@ -3,6 +3,7 @@
 //! The types are those of nalgebra under these names; no other file of the crate names nalgebra.
 
 pub(crate) mod active_set;
+pub mod chebyshev;
 pub mod chosen_rows;
 pub(crate) mod complex_symmetric;
 pub(crate) mod dual;

@@ -9,7 +9,6 @@ use funicular::robot::Robot;
 use funicular_files::Guard;
 use funicular_files::endings::Kind;
 use funicular_formats::export::{self, ExportFormat};
-use funicular_study::at_rest;
 use funicular_study::request::{ExportRequest, Request};
 use serde_json::{Map, Value};
 use std::path::Path;
@@ -43,12 +42,13 @@ pub(super) fn write(of: &ExportRequest, robot: Robot, guard: &mut Guard, path: &
         ExportFormat::Sdf => ("a world of Gazebo", &[Kind::Sdf]),
         ExportFormat::Urdf => ("a robot in URDF", &[Kind::Urdf]),
         ExportFormat::Vtk => ("curves and polygons of VTK", &[Kind::Vtp]),
+        ExportFormat::C => ("C source", &[Kind::C]),
+        ExportFormat::Json => ("a table of lengths in JSON", &[Kind::Json]),
     };
     let content = Content { name: "the exported robot", in_words, fitting };
     let target = Target::open(Some(path), content, guard)?;
     export::refuse(of)?;
-    let at_rest = at_rest::equilibrium(robot, &of.robot, &of.state, &of.tensions)?;
-    let exported = export::run(&at_rest, of)?;
+    let exported = export::of_request(robot, of)?;
     target.write(exported.text.as_bytes())?;
     if target.is_file() {
         errors::note(&format!("wrote {}", path.display()));

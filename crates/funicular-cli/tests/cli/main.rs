@@ -15,6 +15,7 @@ mod gradient;
 mod gust;
 mod identify;
 mod import;
+mod length_tables;
 mod links;
 mod loads;
 mod messages;

@@ -106,7 +106,7 @@ class Analyses:
         -------
         The keys of the program's JSON; lists of numbers are arrays.
         """
-    def export(self, /, to: ExportFormat, path: str | PathLike[str], *, segments: SupportsIndex | None = None, cable_pieces: SupportsIndex | None = None, modes_below_hz: SupportsFloat | SupportsIndex | None = None, scenario: Any = None, duration_s: SupportsFloat | SupportsIndex | None = None) -> list[str]:
+    def export(self, /, to: ExportFormat, path: str | PathLike[str], *, segments: SupportsIndex | None = None, cable_pieces: SupportsIndex | None = None, modes_below_hz: SupportsFloat | SupportsIndex | None = None, scenario: Any = None, duration_s: SupportsFloat | SupportsIndex | None = None, within: Mapping[str, ArrayLike] | None = None, tolerance_m: SupportsFloat | SupportsIndex | None = None, prefix: str | None = None) -> list[str]:
         """
         Writes the equilibrium as a file of another program; returns the caveats of the file.
 

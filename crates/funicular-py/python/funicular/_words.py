@@ -11,7 +11,7 @@ Hold = Literal["lengths", "pose", "rule"]
 Per = Literal["unit", "percent", "tolerance"]
 Method = Literal["automatic", "linear", "sampled"]
 Goal = Literal["first-frequency", "platform", "stiffness-min", "rope-mass", "rope-length"]
-ExportFormat = Literal["opensees", "moordyn", "mujoco", "sdf", "urdf", "vtk"]
+ExportFormat = Literal["opensees", "moordyn", "mujoco", "sdf", "urdf", "vtk", "c", "json"]
 Result = Literal[
     "pose",
     "lengths",

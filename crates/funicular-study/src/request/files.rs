@@ -1,7 +1,7 @@
 //! Requests that make a robot file, or write the robot for another program.
 
 use super::key::declared;
-use super::parts::{ImportPlatform, ImportRopes, Pose, RobotText, State, Tensions};
+use super::parts::{Axis, ImportPlatform, ImportRopes, Pose, RobotText, State, Tensions};
 use super::simulate::Scenario;
 use super::source_file::SourceFile;
 use crate::names::{ExportFormat, LengthUnit, NewMotion, RopeType, SchemaSubject, optional};
@@ -101,12 +101,13 @@ declared! {
 }
 
 declared! {
-    /// Export the robot at its equilibrium for OpenSees, MoorDyn, MuJoCo, Gazebo or ParaView.
+    /// Export the robot at its equilibrium for OpenSees, MoorDyn, MuJoCo, Gazebo or ParaView, or its lengths for firmware.
     ///
     /// opensees: a Python script for OpenSeesPy that prints its statics and modes beside those of funicular. moordyn: an input
     /// file of version 2, with a scenario a Python script that runs it. mujoco: a model with straight cables whose lengths and
     /// tensions are commanded. sdf: a world of Gazebo. urdf: frame and platform for viewers. vtk: a .vtp file of cables and
-    /// platform, with modes on request. docs/export.md describes the files and the differences between the programs.
+    /// platform, with modes on request. c, json: polynomials that correct the lengths of straight cables over a box of
+    /// poses, for firmware. docs/export.md describes the files and the differences between the programs.
     pub struct ExportRequest {
         /// Robot file.
         robot: RobotText = RobotText::default() => (Data(shape::robot)).required();
@@ -127,6 +128,14 @@ declared! {
         scenario: Option<Scenario> = None => (Data(shape::scenario));
         /// Time that MoorDyn simulates with ⟪scenario⟫ [s].
         duration_s: Option<f64> = None => (Number(Positive)).otherwise("10 with a scenario");
+        /// Side of the box of poses for C and JSON: x, y, z [m], roll, pitch, yaw [degrees] from A to B, or at one value
+        /// (repeatable); an axis that is not given keeps the value of ⟪pose⟫ or of the pose of the robot's state.
+        within: Vec<Axis> = Vec::new() => (List(ProgramForm::Side)).form("AXIS=A:B").under("Table of lengths");
+        /// Largest error of a length in the box [m].
+        tolerance_m: Option<f64> = None => (Number(Positive)).under("Table of lengths").otherwise("1e-4");
+        /// Beginning of all names in the C file.
+        prefix: Option<String> = None => (Text).form("NAME").under("Table of lengths")
+            .otherwise("from the name of the robot file");
         /// State and loads.
         #[serde(flatten)]
         state: State = State::default() => group;
@@ -141,5 +150,6 @@ declared! {
         "funicular export robots/cogiro.toml --to mujoco -o cogiro.xml",
         "funicular export robots/cogiro.toml --to mujoco --cable-pieces 10 -o cogiro.xml",
         "funicular export robots/cogiro.toml --to vtk --pose 1,2,1.5 --modes-below-hz 10 -o cogiro.vtp",
+        "funicular export robots/cogiro.toml --to c --within x=-3:3 --within y=-2:2 --within z=0.5:2.5 -o cogiro.c",
     }
 }

@@ -182,7 +182,7 @@ fn of_form(form: ProgramForm, value: &Value) -> KeyCheck {
         ProgramForm::NotNegative => return number(Range::NotNegative, value),
         ProgramForm::MassRange => return masses(value),
         ProgramForm::Band => return numbers(Range::Positive, Some(2), value),
-        ProgramForm::GridAxis | ProgramForm::Variation => return axis(value),
+        ProgramForm::GridAxis | ProgramForm::Side | ProgramForm::Variation => return axis(value),
         ProgramForm::Fit => vec![
             text_of("path"),
             finite("minimum", false),

@@ -74,6 +74,8 @@ pub enum ProgramForm {
     MassRange,
     /// Axis of a grid, `x=-4:4:81`.
     GridAxis,
+    /// Side of a box of poses, `x=-3:3`.
+    Side,
     /// Number of the robot file that varies, `platform.mass_kg=10:90:81`.
     Variation,
     /// Value to identify, `PATH` or `PATH=MIN:MAX`.

@@ -81,7 +81,7 @@ fn of_form(form: ProgramForm) -> Value {
         ProgramForm::Positive => number(Range::Positive),
         ProgramForm::NotNegative => number(Range::NotNegative),
         ProgramForm::MassRange => mass_range(),
-        ProgramForm::GridAxis | ProgramForm::Variation => axis(),
+        ProgramForm::GridAxis | ProgramForm::Side | ProgramForm::Variation => axis(),
         ProgramForm::Fit => fit(),
         ProgramForm::Change => change(),
         ProgramForm::Prior => prior(),

@@ -103,7 +103,8 @@ function show() {
   const past = shaping?.settled_without_s;
   const words = shaping
     ? `With the shaper (full line) the platform is ${own}; without it (broken line) ` +
-      `${past === undefined ? never : `after ${seconds(past)}`}. The shaped stop takes ${seconds(shaping.longer_s)} longer, and cancels ` +
+      `${past === undefined ? never : `after ${seconds(past)}`}. ` +
+      `The shaped stop takes ${seconds(shaping.longer_s)} longer, and cancels ` +
       `${shaping.modes_hz.map((hz) => `${short(hz, 4)} Hz`).join(", ") || "nothing: nothing is left to cancel"}.`
     : `The platform is ${own}.`;
   const largest = answer.modes[0];
