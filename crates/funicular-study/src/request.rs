@@ -36,7 +36,7 @@ pub(crate) use given::{check_scenario, read};
 pub use gradient::{GradientRequest, frequencies};
 pub use grids::{EachPoint, MapRequest, MergeRequest, PlotRequest, PointOptions, SweepRequest};
 pub use identify::{Experiment, FitValue, IdentifyRequest};
-pub use key::{Choice, Declared, Key, Kind, ProgramForm, Range};
+pub use key::{Choice, Declared, InputFile, Key, Kind, ProgramForm, Range, Reader};
 pub use loads::{LoadsRequest, Requirements};
 pub use pages::{LiveRequest, PaperRequest, ReportRequest, ValidateRequest};
 pub use parts::{
