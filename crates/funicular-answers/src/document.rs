@@ -1,15 +1,17 @@
 //! Commands whose result is a file itself: robot files, schemas, pages, files of other programs.
 
-use crate::outputs::size_of_page;
+use crate::outputs::{self, size_of_page};
 use anyhow::{Result, bail};
 use funicular_files::SweepFile;
 use funicular_files::endings::Kind;
 use funicular_formats::export::{self, ExportFormat};
 use funicular_formats::{import, new_robot};
 use funicular_pages::pages;
-use funicular_study::request::{ExportRequest, Request};
+use funicular_study::names::SchemaSubject;
+use funicular_study::request::{ExportRequest, Request, SchemaRequest};
 use funicular_study::wording::{Words, worded};
 use funicular_study::{Watch, at_rest, schema};
+use serde_json::Value;
 use std::path::{Path, PathBuf};
 
 /// Default destination of a file.
@@ -112,6 +114,22 @@ pub struct Document {
     pub notes: Vec<String>,
 }
 
+/// Text of a schema. That of requests has the files that each command writes.
+fn schema_of(of: &SchemaRequest) -> Result<String> {
+    let text = schema::of_request(of, vec![funicular_validation::tables()]);
+    if of.of != SchemaSubject::Request {
+        return Ok(text);
+    }
+    let mut schema: Value = serde_json::from_str(&text)?;
+    for form in schema["oneOf"].as_array_mut().into_iter().flatten() {
+        let command = form["title"].as_str().unwrap_or_default().to_owned();
+        if let (Some(files), Some(keys)) = (outputs::schema(&command), form["properties"].as_object_mut()) {
+            keys.insert(outputs::FILES.to_owned(), files);
+        }
+    }
+    Ok(format!("{schema:#}\n"))
+}
+
 /// Makes the file of a request. `call` makes it again, and `words` are those for the names of options.
 ///
 /// # Errors
@@ -126,7 +144,7 @@ pub fn make(request: &Request, call: &str, words: Words, watch: &mut dyn Watch) 
             let notes = vec![made.pose_line()];
             Document { notes, ..text(made.text, made.warnings) }
         }
-        Request::Schema(of) => text(schema::of_request(of, vec![funicular_validation::tables()]), Vec::new()),
+        Request::Schema(of) => text(schema_of(of)?, Vec::new()),
         Request::Import(of) => {
             let import::Imported { text: made, assumed, lost } = import::run(of, words)?;
             let assumed = assumed.iter().map(|fact| format!("assumed: {fact}"));

@@ -2,7 +2,7 @@
 //! Unit.
 
 use crate::destination::Bytes;
-use crate::outputs::{Answered, Made};
+use crate::outputs::{Answered, Given, Made};
 use anyhow::{Result, anyhow, bail};
 use funicular::math::DMat;
 use funicular::reduced_model::{SecondOrder, StateSpace};
@@ -13,8 +13,7 @@ use funicular_study::analyses::Found;
 use funicular_study::analyses::control_model::ControlStateSpace;
 use funicular_study::analyses::reduce::{ChannelRow, ReducedForm};
 use funicular_study::json;
-use funicular_study::names::ModelForm;
-use funicular_study::request::Request;
+use funicular_study::names::{ModelForm, Named};
 use std::io::{Cursor, Write};
 use std::path::Path;
 use zip::write::SimpleFileOptions;
@@ -48,13 +47,11 @@ pub(crate) fn made(reduced: &ReducedForm, at: &Answered<'_>, kind: Option<Kind>)
 const UNIT_OF_SPACE: &str = "a Functional Mock-up Unit holds a state space: leave out ⟪form⟫ second-order";
 
 /// Refuses a model that the file cannot hold.
-pub(crate) fn check(request: &Request, path: &Path) -> Result<()> {
-    match request {
-        Request::Reduce(of) if of.form == ModelForm::SecondOrder && Kind::of(path) == Some(Kind::Fmu) => {
-            bail!("{UNIT_OF_SPACE}")
-        }
-        _ => Ok(()),
+pub(crate) fn check(given: &Given, path: &Path) -> Result<()> {
+    if given.get("form") == Some(&ModelForm::SecondOrder.name().into()) && Kind::of(path) == Some(Kind::Fmu) {
+        bail!("{UNIT_OF_SPACE}");
     }
+    Ok(())
 }
 
 /// CSV files of a folder, one per matrix, and the description.

@@ -13,10 +13,12 @@ use funicular_pages::pages;
 use funicular_pages::pages::plot::SweepFigureChoice;
 use funicular_study::analyses::workspace::Workspace;
 use funicular_study::columns::ResultTable;
-use funicular_study::request::Request;
+use funicular_study::request::{Request, keys_of};
 use funicular_study::text::counted;
 use funicular_study::wording::{Words, worded};
 use funicular_study::{Results, Watch};
+use serde_json::{Map, Value, json};
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 /// File that a command writes besides its result.
@@ -40,7 +42,9 @@ pub struct Output {
     /// Key of the request without which there is no such file.
     pub needs: Option<&'static str>,
     /// Refuses a request without such a file, before the work.
-    check: fn(&Request, &Path) -> Result<()>,
+    check: fn(&Given, &Path) -> Result<()>,
+    /// True if it is made of the request alone, without results.
+    of_request: bool,
     make: Make,
 }
 
@@ -97,6 +101,9 @@ impl FigureOptions {
     }
 }
 
+/// Keys of a request that are given, as JSON.
+pub type Given = Map<String, Value>;
+
 /// Content of a file, ready to be written.
 pub(crate) struct Made {
     pub(crate) bytes: Bytes,
@@ -146,7 +153,7 @@ macro_rules! of {
     };
 }
 
-fn always(_: &Request, _: &Path) -> Result<()> {
+fn always(_: &Given, _: &Path) -> Result<()> {
     Ok(())
 }
 
@@ -172,6 +179,7 @@ const fn file(
         folder: false,
         needs: None,
         check: always,
+        of_request: false,
         make,
     }
 }
@@ -186,6 +194,14 @@ const fn figure(
 ) -> Output {
     let words = ["the figure", "a figure"];
     Output { by_ending: true, ..file("figure", about, words, &[Kind::Svg, Kind::Pdf], Make::Figure(make)) }
+}
+
+/// Figure that is made of the request alone.
+const fn drawn(
+    about: &'static str,
+    make: fn(&Answered<'_>, &FigureOptions, &mut dyn Watch) -> Result<Drawn>,
+) -> Output {
+    Output { of_request: true, ..figure(about, make) }
 }
 
 const fn robot_file(key: &'static str, about: &'static str, make: BytesOf) -> Output {
@@ -224,16 +240,19 @@ pub fn as_csv(ResultTable { columns, mut rows }: ResultTable<'_>) -> Result<Vec<
     table.into_inner().map_err(|error| anyhow!("{}", error.error()))
 }
 
+/// Message about a figure of a workspace without sections.
+const NO_SECTION: &str = "a figure of a workspace shows its sections: give ⟪section⟫, as in z=0.5,1,1.5";
+
 /// Files of each command besides its result, in the order in which they are opened and written.
 static OUTPUTS: &[(&str, &[Output])] = &[
     (
         "statics",
         &[Output {
-            check: |request, _| match request {
-                Request::Statics(of) if of.all => bail!("a figure shows one equilibrium: leave out ⟪all⟫"),
+            check: |given, _| match given.get("all") {
+                Some(Value::Bool(true)) => bail!("a figure shows one equilibrium: leave out ⟪all⟫"),
                 _ => Ok(()),
             },
-            ..figure("Draw the robot at its equilibrium", |at, _, _| match at.request {
+            ..drawn("Draw the robot at its equilibrium", |at, _, _| match at.request {
                 Request::Statics(of) => Ok(plain(figures::of_statics(of)?)),
                 other => bail!("`{}` has no such file", other.command()),
             })
@@ -242,7 +261,7 @@ static OUTPUTS: &[(&str, &[Output])] = &[
     (
         "modes",
         &[
-            figure("Draw the spectrum, or the shape of one mode", |at, options, _| match at.request {
+            drawn("Draw the spectrum, or the shape of one mode", |at, options, _| match at.request {
                 Request::Modes(of) => Ok(figures::of_modes(of, options.mode)?.into()),
                 other => bail!("`{}` has no such file", other.command()),
             }),
@@ -252,7 +271,7 @@ static OUTPUTS: &[(&str, &[Output])] = &[
     (
         "frf",
         &[
-            figure("Draw magnitude and phase", |at, _, watch| match at.request {
+            drawn("Draw magnitude and phase", |at, _, watch| match at.request {
                 Request::Frf(of) => Ok(figures::of_frf(of, watch)?.into()),
                 other => bail!("`{}` has no such file", other.command()),
             }),
@@ -409,10 +428,9 @@ static OUTPUTS: &[(&str, &[Output])] = &[
         "workspace",
         &[
             Output {
-                check: |request, _| match request {
-                    Request::Workspace(of) if of.section.is_empty() => {
-                        bail!("a figure of a workspace shows its sections: give ⟪section⟫, as in z=0.5,1,1.5")
-                    }
+                check: |given, _| match given.get("section") {
+                    None | Some(Value::Null) => bail!("{NO_SECTION}"),
+                    Some(Value::Array(axes)) if axes.is_empty() => bail!("{NO_SECTION}"),
                     _ => Ok(()),
                 },
                 ..figure(
@@ -439,7 +457,7 @@ static OUTPUTS: &[(&str, &[Output])] = &[
     ),
     (
         "plot",
-        &[figure("Draw one quantity for a paper", |at, options, _| match at.request {
+        &[drawn("Draw one quantity for a paper", |at, options, _| match at.request {
             Request::Plot(of) => {
                 let rows = SweepFile::open(Path::new(&of.file))?;
                 let made = pages::plot::figure(&rows, &of.file, &options.of_rows)?;
@@ -489,10 +507,25 @@ impl Opened {
     /// Checks the wanted files of a request, in the order of the table, before the work.
     ///
     /// # Errors
+    /// Those of [`Opened::of_keys`].
+    pub fn open(request: &Request, wanted: &[Wanted], options: FigureOptions, guard: &mut Guard) -> Result<Self> {
+        let given = if wanted.is_empty() { Map::new() } else { keys_of(request)? };
+        Self::of_keys(request.command(), &given, wanted, options, guard)
+    }
+
+    /// Checks the wanted files of a command with these keys.
+    ///
+    /// # Errors
     /// A file that the command does not have, that the request has not, that cannot be written, or that the command reads
     /// or writes otherwise; options of a figure without one.
-    pub fn open(request: &Request, wanted: &[Wanted], options: FigureOptions, guard: &mut Guard) -> Result<Self> {
-        let (command, outputs) = (request.command(), of(request.command()));
+    pub fn of_keys(
+        command: &str,
+        given: &Given,
+        wanted: &[Wanted],
+        options: FigureOptions,
+        guard: &mut Guard,
+    ) -> Result<Self> {
+        let outputs = of(command);
         if let Some(other) = wanted.iter().find(|of| !outputs.iter().any(|output| output.key == of.key)) {
             let known: Vec<String> = outputs.iter().map(|output| format!("⟪{}⟫", output.key)).collect();
             let known = if known.is_empty() { "no other file".to_owned() } else { known.join(", ") };
@@ -506,11 +539,8 @@ impl Opened {
             if paths.len() > 1 && !output.several {
                 bail!("⟪{}⟫ and -o name a file of the same kind: leave out one of them", output.key);
             }
-            if paths.is_empty() {
-                continue;
-            }
             for path in paths {
-                output.refuse(request, path)?;
+                output.refuse(given, path)?;
                 files.push((output, output.destination(path, guard)?));
             }
         }
@@ -518,10 +548,15 @@ impl Opened {
         if let Some(key) = options.given().next().filter(|_| !has_figure) {
             bail!("⟪{key}⟫ belongs to a figure: write one with -o FILE.svg or -o FILE.pdf, or leave it out");
         }
-        if options.mode.is_some() && !matches!(request, Request::Modes(_)) {
+        if options.mode.is_some() && command != "modes" {
             bail!("⟪figure_mode⟫ chooses a mode shape of `modes`: leave it out for `{command}`");
         }
         Ok(Self { files, options, size })
+    }
+
+    /// True if some file is made of results.
+    pub fn needs_results(&self) -> bool {
+        self.files.iter().any(|(output, _)| !output.of_request)
     }
 
     /// True without any file.
@@ -564,14 +599,14 @@ impl Opened {
 }
 
 impl Output {
-    /// Refuses a request without such a file.
-    fn refuse(&self, request: &Request, path: &Path) -> Result<()> {
+    /// Refuses keys without such a file.
+    fn refuse(&self, given: &Given, path: &Path) -> Result<()> {
         if let Some(needed) = self.needs
-            && request.to_value().get(needed).is_none_or(serde_json::Value::is_null)
+            && given.get(needed).is_none_or(Value::is_null)
         {
             bail!("⟪{}⟫ means nothing without ⟪{needed}⟫: give both or neither", self.key);
         }
-        (self.check)(request, path)
+        (self.check)(given, path)
     }
 
     /// Checks that a file can be written.
@@ -625,4 +660,65 @@ pub fn told(path: &Path, size: Option<&str>) -> String {
         Some(size) => format!("wrote {} ({size})", path.display()),
         None => format!("wrote {}", path.display()),
     }
+}
+
+/// Key of a request in JSON with the files that it wants: an object with the keys of the table.
+pub const FILES: &str = "files";
+
+/// Takes the wanted files out of a request in JSON.
+///
+/// # Errors
+/// No object of paths; only files of which there may be several have a list of paths.
+pub fn take_wanted(request: &mut Value) -> Result<Vec<Wanted>> {
+    let files = request.as_object_mut().and_then(|keys| keys.remove(FILES));
+    let files = match files {
+        None | Some(Value::Null) => return Ok(Vec::new()),
+        Some(Value::Object(files)) => files,
+        Some(other) => bail!("⟪{FILES}⟫ is {other}: give an object of paths, as in {{\"page\": \"page.html\"}}"),
+    };
+    let mut wanted = Vec::new();
+    for (key, paths) in files {
+        let paths = match paths {
+            Value::Null => continue,
+            Value::Array(paths) => paths,
+            one => vec![one],
+        };
+        for path in paths {
+            let Value::String(path) = path else { bail!("`{FILES}`, `{key}`: {path} is not the path of a file") };
+            wanted.push(Wanted { key: key.clone(), path: path.into() });
+        }
+    }
+    Ok(wanted)
+}
+
+/// Wanted files as the value of [`FILES`]; `None` without any.
+pub fn wanted_to_value(wanted: &[Wanted]) -> Option<Value> {
+    let mut files: BTreeMap<&str, Vec<Value>> = BTreeMap::new();
+    for Wanted { key, path } in wanted {
+        files.entry(key).or_default().push(path.display().to_string().into());
+    }
+    let of_paths = |mut paths: Vec<Value>| if paths.len() == 1 { paths.remove(0) } else { Value::Array(paths) };
+    let object: Map<String, Value> = files.into_iter().map(|(key, paths)| (key.to_owned(), of_paths(paths))).collect();
+    (!object.is_empty()).then_some(Value::Object(object))
+}
+
+/// Schema of the value of [`FILES`] for a command; `None` for one that writes no other file.
+pub fn schema(command: &str) -> Option<Value> {
+    let outputs = of(command);
+    if outputs.is_empty() {
+        return None;
+    }
+    let path = json!({ "type": "string", "minLength": 1 });
+    let property = |output: &Output| {
+        let about = worded(output.about, Words::Json);
+        let one = json!({ "type": "string", "minLength": 1, "description": about });
+        let some = json!({ "anyOf": [path, { "type": "array", "items": path }], "description": about });
+        (output.key.to_owned(), if output.several { some } else { one })
+    };
+    Some(json!({
+        "description": "Files that are written besides the result",
+        "type": "object",
+        "properties": outputs.iter().map(property).collect::<Map<_, _>>(),
+        "additionalProperties": false,
+    }))
 }

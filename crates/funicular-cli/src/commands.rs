@@ -33,6 +33,7 @@ mod workspace;
 
 use crate::args::{Cli, RequestArgs, RunArgs};
 use crate::{errors, shell, sweep_run};
+use answering::Asked;
 use anyhow::{Context, Result, anyhow};
 use funicular::robot::Robot;
 use funicular_answers::inputs::{FileKey, FilesRead, read_robot};
@@ -47,13 +48,14 @@ pub(crate) fn run(cli: &Cli) -> Result<()> {
         return Ok(());
     }
     let mut read = FilesRead::default();
-    let request = match cli.name.as_str() {
+    let (request, wanted) = match cli.name.as_str() {
         "request" => request::read(&cli.files::<RequestArgs>()?.file, &mut read)?,
-        _ => request_of(cli, &mut read)?,
+        _ => (request_of(cli, &mut read)?, Vec::new()),
     };
     read.notes.iter().for_each(|note| errors::note(note));
+    let asked = Asked::of(cli, request.command(), wanted)?;
     if cli.print_request {
-        return request::print(&request);
+        return request::print(&request, &asked.wanted);
     }
 
     let guard = &mut read.guard();
@@ -63,7 +65,7 @@ pub(crate) fn run(cli: &Cli) -> Result<()> {
             let to: Option<&PathBuf> = cli.value("output_file");
             merge::run(of, to.context("a request of `merge` needs ⟪output_file⟫, the file of all rows")?)
         }
-        _ => answering::run(cli, &request, guard),
+        _ => answering::run(cli, &request, asked, guard),
     }
 }
 

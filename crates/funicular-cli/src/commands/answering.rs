@@ -27,21 +27,24 @@ use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 
 /// Files that the command line asks for.
-struct Asked {
+pub(super) struct Asked {
     /// Format and file of the result itself.
     result: OutputArgs,
     /// Files besides the result.
-    wanted: Vec<Wanted>,
+    pub(super) wanted: Vec<Wanted>,
     options: FigureOptions,
     samples: Option<PathBuf>,
     begin: Begin,
 }
 
 impl Asked {
-    fn of(cli: &Cli, command: &str) -> Result<Self> {
+    /// Files of a command line, and those that the request wants itself.
+    ///
+    /// # Errors
+    /// A unit of a simulation without its file.
+    pub(super) fn of(cli: &Cli, command: &str, mut wanted: Vec<Wanted>) -> Result<Self> {
         let format: Option<Format> = cli.value("format").copied();
         let mut output_file: Option<PathBuf> = cli.value("output_file").cloned();
-        let mut wanted = Vec::new();
         let want = |key: &str, path: PathBuf| Wanted { key: key.to_owned(), path };
         if cli.value("to") == Some(&ReducedTo::Fmu) {
             let path = output_file.take().filter(|path| Kind::of(path) == Some(Kind::Fmu));
@@ -81,10 +84,9 @@ impl Asked {
 }
 
 /// Runs a request and writes its files.
-pub(super) fn run(cli: &Cli, request: &Request, guard: &mut Guard) -> Result<()> {
+pub(super) fn run(cli: &Cli, request: &Request, asked: Asked, guard: &mut Guard) -> Result<()> {
     // Errors of the robot file are reported before errors of the destinations.
     let robot = request.robot().map(RobotText::read).transpose()?.map(|file| file.robot);
-    let asked = Asked::of(cli, request.command())?;
     match document::form(request) {
         Some(form) => document(cli, request, form, asked, guard),
         None if matches!(request, Request::Validate(_)) => validate(&asked, guard),
