@@ -1,7 +1,7 @@
-//! Run of a request with results, whatever its command: on several threads where the work has parts, with rows or samples
-//! in a file that survives interruptions.
+//! Run of a request with results, whatever its command: on several threads where the work has parts, with rows or
+//! samples in a file that survives interruptions.
 
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, bail};
 use funicular::robot::Robot;
 use funicular_files::{Begin, UncertaintyOutcome, UncertaintyRun, WorkspaceRun};
 use funicular_study::analyses::simulate::{self, BegunRun, RowKeeper};
@@ -30,6 +30,8 @@ pub struct Running<'a> {
     pub cancel: &'a AtomicBool,
     /// File for the sampled robots of `uncertainty`, and the treatment of the work of an earlier run.
     pub samples: Option<(&'a Path, Begin)>,
+    /// True if the results are drawn as a figure, which some do not have.
+    pub has_figure: bool,
     /// Keeper of the rows of `simulate`, and the run that has begun.
     pub keeper: Option<(&'a mut dyn RowKeeper, Option<BegunRun>)>,
 }
@@ -59,7 +61,13 @@ impl Running<'_> {
 pub fn run(request: &Request, robot: Option<Robot>, how: Running<'_>) -> Result<Answer> {
     let of_robot = |robot: Option<Robot>| robot.with_context(|| format!("`{}` needs a robot", request.command()));
     match request {
-        Request::Workspace(of) => workspace(&WorkspaceStudy::new(of_robot(robot)?, of)?, how),
+        Request::Workspace(of) => {
+            let study = WorkspaceStudy::new(of_robot(robot)?, of)?;
+            if how.has_figure && !study.has_sections() {
+                bail!("a figure of a workspace shows its sections: give ⟪section⟫, as in z=0.5,1,1.5");
+            }
+            workspace(&study, how)
+        }
         Request::Uncertainty(of) => uncertainty(&UncertaintyStudy::new(of)?, how),
         Request::Simulate(of) => {
             let robot = of_robot(robot)?;

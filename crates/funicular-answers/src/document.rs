@@ -34,14 +34,12 @@ const DOCUMENTS: [(&str, Default, &str); 8] = [
     ("report", Default::File("funicular-report.html"), TO_PAGE),
     ("live", Default::File("funicular-live.html"), TO_PAGE),
     ("paper", Default::File("funicular-paper.html"), TO_PAGE),
-    (
-        "plot",
-        Default::BesideRows,
-        "Write the page to FILE, completely or not at all; - is standard output [default: FILE.parquet with the ending .html]. FILE.svg and FILE.pdf hold one figure",
-    ),
+    ("plot", Default::BesideRows, TO_PAGE_OR_FIGURE),
 ];
 
 const TO_FILE: &str = "Write to FILE, completely or not at all; - is standard output";
+const TO_PAGE_OR_FIGURE: &str = "Write the page to FILE, completely or not at all; - is standard output [default: \
+                                 FILE.parquet with the ending .html]. FILE.svg and FILE.pdf hold one figure";
 const TO_PAGE: &str = "Write the page to FILE, completely or not at all; - is standard output";
 
 /// Default destination of a command whose result is a file, and the meaning of its `-o`; `None` for other commands.

@@ -1,5 +1,5 @@
-//! Files of the matrices of `reduce`: arrays of NumPy, variables of MATLAB, CSV files of a folder, or a Functional Mock-up
-//! Unit.
+//! Files of the matrices of `reduce`: arrays of NumPy, variables of MATLAB, CSV files of a folder, or a Functional
+//! Mock-up Unit.
 
 use crate::destination::Bytes;
 use crate::outputs::{Answered, Given, Made};

@@ -1,5 +1,5 @@
-//! Files that commands write besides their result: one table, from which the program has its options, Python its keywords
-//! and a request in JSON its `files`.
+//! Files that commands write besides their result: one table, from which the program has its options, Python its
+//! keywords and a request in JSON its `files`.
 
 use crate::destination::{Bytes, Content, Destination};
 use crate::matrices;
@@ -240,9 +240,6 @@ pub fn as_csv(ResultTable { columns, mut rows }: ResultTable<'_>) -> Result<Vec<
     table.into_inner().map_err(|error| anyhow!("{}", error.error()))
 }
 
-/// Message about a figure of a workspace without sections.
-const NO_SECTION: &str = "a figure of a workspace shows its sections: give ⟪section⟫, as in z=0.5,1,1.5";
-
 /// Files of each command besides its result, in the order in which they are opened and written.
 static OUTPUTS: &[(&str, &[Output])] = &[
     (
@@ -328,8 +325,8 @@ static OUTPUTS: &[(&str, &[Output])] = &[
         "trajectory",
         &[
             lengths(
-                "Write the lengths for a controller: t_s, and unstrained_length_NAME_m of every cable [m], a trajectory for \
-                 `settle`",
+                "Write the lengths for a controller: t_s, and unstrained_length_NAME_m of every cable [m], a trajectory \
+                 for `settle`",
                 |at, _| of!(Trajectory, at, found => Ok(as_csv(found.lengths_table())?.into())),
             ),
             page("Write a page with the moving robot, and tensions, speeds and powers over time", |at| {
@@ -369,8 +366,8 @@ static OUTPUTS: &[(&str, &[Output])] = &[
             check: matrices::check,
             ..file(
                 "matrices",
-                "Write the matrices to an .npz or .mat file, or as CSV files to a new folder; FILE.fmu is a unit for Simulink \
-                 and Modelica",
+                "Write the matrices to an .npz or .mat file, or as CSV files to a new folder; FILE.fmu is a unit for \
+                 Simulink and Modelica",
                 ["the matrices", "matrices"],
                 &[Kind::Npz, Kind::Mat, Kind::Fmu],
                 Make::Bytes(|at, kind| of!(Reduce, at, found => matrices::made(found, at, kind))),
@@ -404,8 +401,8 @@ static OUTPUTS: &[(&str, &[Output])] = &[
                 |at, _| of!(Calibrate, at, found => Ok(found.robot_file.clone().into_bytes().into())),
             ),
             page(
-                "Write a page with the anchors and their ellipses, the residuals, rows that can be clicked away and the proposed \
-                 poses",
+                "Write a page with the anchors and their ellipses, the residuals, rows that can be clicked away and the \
+                 proposed poses",
                 |at| of!(Calibrate, at, found => pages::calibrate::page(found, at.call.to_owned())),
             ),
         ],
@@ -427,17 +424,10 @@ static OUTPUTS: &[(&str, &[Output])] = &[
     (
         "workspace",
         &[
-            Output {
-                check: |given, _| match given.get("section") {
-                    None | Some(Value::Null) => bail!("{NO_SECTION}"),
-                    Some(Value::Array(axes)) if axes.is_empty() => bail!("{NO_SECTION}"),
-                    _ => Ok(()),
-                },
-                ..figure(
-                    "Draw the sections",
-                    |at, _, _| of!(Workspace, at, found => Ok(plain(figures::of_sections(found)?))),
-                )
-            },
+            figure(
+                "Draw the sections",
+                |at, _, _| of!(Workspace, at, found => Ok(plain(figures::of_sections(found)?))),
+            ),
             Output {
                 by_ending: true,
                 several: true,
@@ -487,6 +477,19 @@ pub fn by_ending(command: &str, path: &Path) -> Option<&'static Output> {
     of(command).iter().find(|output| output.by_ending && output.kinds.contains(&kind))
 }
 
+/// Makes the page of results.
+///
+/// # Errors
+/// Results without a page.
+pub fn page_of(at: &Answered<'_>) -> Result<String> {
+    let make = of(at.request.command()).iter().find_map(|output| match output.make {
+        Make::Page(make) => Some(make),
+        _ => None,
+    });
+    let make = make.ok_or_else(|| anyhow!("`{}` has no page of its own", at.request.command()))?;
+    Ok(worded(&make(at)?, at.words))
+}
+
 /// File that is wanted: its key, and its path.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Wanted {
@@ -516,8 +519,8 @@ impl Opened {
     /// Checks the wanted files of a command with these keys.
     ///
     /// # Errors
-    /// A file that the command does not have, that the request has not, that cannot be written, or that the command reads
-    /// or writes otherwise; options of a figure without one.
+    /// A file that the command does not have, that the request has not, that cannot be written, or that the command
+    /// reads or writes otherwise; options of a figure without one.
     pub fn of_keys(
         command: &str,
         given: &Given,
@@ -552,6 +555,11 @@ impl Opened {
             bail!("⟪figure_mode⟫ chooses a mode shape of `modes`: leave it out for `{command}`");
         }
         Ok(Self { files, options, size })
+    }
+
+    /// True with a figure.
+    pub fn has_figure(&self) -> bool {
+        self.files.iter().any(|(output, _)| matches!(output.make, Make::Figure(_)))
     }
 
     /// True if some file is made of results.
@@ -616,7 +624,7 @@ impl Output {
         if self.folder && !is_of_kind {
             if path.extension().is_some() && !path.is_dir() {
                 bail!(
-                    "⟪{}⟫ {} is neither a {} file nor a folder: give such a name, or that of a folder, which has no ending",
+                    "⟪{}⟫ {} neither ends in {} nor is a folder: give such a name, or a folder, whose name has no ending",
                     self.key,
                     path.display(),
                     endings::listed(self.kinds)
@@ -674,7 +682,7 @@ pub fn take_wanted(request: &mut Value) -> Result<Vec<Wanted>> {
     let files = match files {
         None | Some(Value::Null) => return Ok(Vec::new()),
         Some(Value::Object(files)) => files,
-        Some(other) => bail!("⟪{FILES}⟫ is {other}: give an object of paths, as in {{\"page\": \"page.html\"}}"),
+        Some(other) => bail!("`{FILES}` is {other}: give an object of paths, as in {{\"page\": \"page.html\"}}"),
     };
     let mut wanted = Vec::new();
     for (key, paths) in files {

@@ -1,5 +1,5 @@
-//! Commands: this file makes the request of a command from the arguments and the files that they name. [`answering`] runs
-//! it. The other files, one per command, write the results as text.
+//! Commands: this file makes the request of a command from the arguments and the files that they name. [`answering`]
+//! runs it. The other files, one per command, write the results as text.
 
 mod answering;
 mod cable;

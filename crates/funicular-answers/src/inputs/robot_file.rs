@@ -10,8 +10,8 @@ use std::fs::File;
 use std::io::{self, Read};
 use std::path::Path;
 
-/// Reads the text of a robot file with changes, or without a path the robot that is built into the program. `role` is the
-/// name of the file in messages.
+/// Reads the text of a robot file with changes, or without a path the robot that is built into the program. `role` is
+/// the name of the file in messages.
 ///
 /// # Errors
 /// A file that cannot be read.

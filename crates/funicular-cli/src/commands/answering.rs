@@ -132,6 +132,7 @@ fn results(
         threads: threads::or_all(threads),
         cancel: &STOPPED,
         samples: samples.as_deref().map(|path| (path, begin)),
+        has_figure: opened.has_figure(),
         keeper: partial.as_mut().map(|partial| (partial as _, begun)),
     };
     let Answer { mut results, stopped } = answer::run(request, robot, running)?;
