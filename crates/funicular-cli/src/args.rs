@@ -5,18 +5,17 @@ mod declared;
 mod files;
 pub(crate) mod values;
 
-use anyhow::{Context, Result, anyhow};
+use anyhow::{Context, Result};
 use clap::builder::PossibleValuesParser;
+use clap::parser::ValueSource;
 use clap::{Arg, ArgAction, ArgMatches, Args, Command, FromArgMatches, value_parser};
 use clap_complete::Shell;
-pub(crate) use files::{
-    CalibrateArgs, ChangeArgs, DesignArgs, DrawArgs, DrawModesArgs, ExportArgs, FigureArgs, FileArgs, Format, GustArgs,
-    IdentifyArgs, ImportArgs, MapArgs, MergeArgs, NewArgs, OutputArgs, PageArgs, PlotArgs, ReduceArgs, ReducedTo,
-    RequestArgs, RunArgs, SettleArgs, SimulateArgs, TrajectoryArgs, UncertaintyArgs, WorkspaceArgs,
+pub(crate) use files::{FigureArgs, Format, IdentifyArgs, MergeArgs, OutputArgs, ReducedTo, RequestArgs, RunArgs};
+use files::{
+    ModeFigureArgs, OptionalRobotArgs, ReduceArgs, RobotArgs, SampleArgs, StoredArgs, SweepFigureArgs, ThreadArgs,
 };
-use files::{OptionalRobotArgs, RobotArgs};
-use funicular_study::request::{self, CommandInfo, Declared, Experiment, Key, Request, RequestRobot, ResponsePoints};
-use funicular_study::wording::Words;
+use funicular_answers::{document, outputs};
+use funicular_study::request::{self, Change, CommandInfo, Declared, Experiment, Key, RequestRobot, ResponsePoints};
 use serde_json::{Map, Value};
 use std::path::PathBuf;
 
@@ -58,9 +57,25 @@ impl Cli {
         self.value("robot")
     }
 
-    /// Changes of the robot file.
-    pub(crate) fn changes(&self) -> Result<ChangeArgs> {
-        self.files()
+    /// Changes of the robot file, or of that of a key.
+    pub(crate) fn changes(&self, key: Option<&str>) -> Vec<Change> {
+        self.values(&key.map_or_else(|| "set".to_owned(), declared::changes_of))
+    }
+
+    /// Values of an argument that can be given several times.
+    pub(crate) fn values<T: Clone + Send + Sync + 'static>(&self, name: &str) -> Vec<T> {
+        let given = self.matches.try_get_many(name).ok().flatten();
+        given.map_or_else(Vec::new, |values| values.cloned().collect())
+    }
+
+    /// True for a switch that the command line gives.
+    pub(crate) fn is_on(&self, name: &str) -> bool {
+        self.value(name).copied().unwrap_or_default()
+    }
+
+    /// True for an argument that stands in the command line, not for its default.
+    pub(crate) fn is_given(&self, name: &str) -> bool {
+        self.matches.try_contains_id(name).is_ok() && self.matches.value_source(name) == Some(ValueSource::CommandLine)
     }
 
     /// Keys of a group that the command line gives.
@@ -68,16 +83,17 @@ impl Cli {
         declared::given(&self.matches, &T::keys())
     }
 
-    /// Request of the command with further keys, which the command line gives in files.
+    /// Declaration of the command.
     ///
     /// # Errors
-    /// A request that is not complete.
-    pub(crate) fn request(&self, further: Map<String, Value>) -> Result<Request> {
-        let command = command_of(&self.name).context("this command has no request")?;
-        let mut keys = declared::given(&self.matches, &command.keys);
-        keys.insert("command".to_owned(), command.name.into());
-        keys.extend(further);
-        Request::from_value(Value::Object(keys)).map_err(|error| anyhow!("{}", error.message(Words::Program)))
+    /// A command that has no request.
+    pub(crate) fn info(&self) -> Result<&'static CommandInfo> {
+        command_of(&self.name).context("this command has no request")
+    }
+
+    /// Keys of the command's request that stand in the command line.
+    pub(crate) fn keys(&self, info: &CommandInfo) -> Map<String, Value> {
+        declared::given(&self.matches, &info.keys)
     }
 }
 
@@ -112,7 +128,7 @@ pub(crate) fn program() -> Command {
         .action(ArgAction::SetTrue)
         .global(true);
     let run_request = declared::described(
-        RequestArgs::augment_args(Command::new("request")),
+        RequestArgs::augment_args(Command::new("request")).args(outputs::all().map(declared::output)),
         "Run a request in JSON: the options of any command and the text of the robot file in one object\n\nEvery command \
          prints its request with --print-request. The keys are the names of the options, with _ instead of -.",
         &["funicular statics robots/cogiro.toml --pose 1,2,1.5 --print-request > request.json\n  \
@@ -166,34 +182,35 @@ fn subcommand(info: &CommandInfo) -> Command {
 
 /// Adds the options of a command that are not keys of its request.
 fn with_files(name: &str, command: Command) -> Command {
-    let page = |command: Command, heading: Option<&'static str>| {
-        let file = format!("funicular-{name}.html");
-        PageArgs::augment_args(command)
-            .mut_arg("output_file", |arg| arg.default_value(file).required(false).help_heading(heading))
+    let stored = |command: Command, file: &'static str| {
+        let command = StoredArgs::augment_args(command);
+        command.mut_arg("resume", |arg| arg.requires(file)).mut_arg("discard", |arg| arg.requires(file))
     };
-    match name {
-        "new" => NewArgs::augment_args(command),
-        "schema" => FileArgs::augment_args(command),
-        "export" => ExportArgs::augment_args(command).mut_arg("duration_s", |arg| arg.visible_alias("for")),
-        "statics" | "frf" | "compare" => DrawArgs::augment_args(command),
-        "modes" => DrawModesArgs::augment_args(command),
-        "uncertainty" => UncertaintyArgs::augment_args(command),
-        "reduce" => ReduceArgs::augment_args(command),
-        "settle" => SettleArgs::augment_args(command),
-        "trajectory" => TrajectoryArgs::augment_args(command),
-        "simulate" => SimulateArgs::augment_args(command).mut_arg("duration_s", |arg| arg.visible_alias("for")),
-        "gust" => GustArgs::augment_args(command),
+    let rows = |command: Command| {
+        let command = RunArgs::augment_args(command);
+        command
+            .mut_arg("resume", |arg| arg.requires("output_file"))
+            .mut_arg("discard", |arg| arg.requires("output_file"))
+    };
+    let command = match (name, document::destination(name)) {
+        ("map", _) => rows(command).mut_arg("grid", |arg| arg.required_unless_present("poses")),
+        ("sweep", _) => rows(command),
+        ("merge", _) => MergeArgs::augment_args(command),
+        (_, Some((default, about))) => command.arg(declared::document(default, about)),
+        (_, None) => OutputArgs::augment_args(command),
+    };
+    let command = match name {
+        "modes" => ModeFigureArgs::augment_args(command),
+        "plot" => SweepFigureArgs::augment_args(command),
         "identify" => IdentifyArgs::augment_args(command),
-        "calibrate" => CalibrateArgs::augment_args(command),
-        "design" => DesignArgs::augment_args(command),
-        "map" => MapArgs::augment_args(command).mut_arg("grid", |arg| arg.required_unless_present("poses")),
-        "workspace" => WorkspaceArgs::augment_args(command),
-        "sweep" => RunArgs::augment_args(command),
-        "merge" => MergeArgs::augment_args(command),
-        "plot" => PlotArgs::augment_args(command),
-        "report" | "live" => page(command, Some("Output")),
-        "paper" => page(command, None),
-        "import" => ImportArgs::augment_args(command),
-        _ => OutputArgs::augment_args(command),
-    }
+        "reduce" => ReduceArgs::augment_args(command),
+        "uncertainty" => ThreadArgs::augment_args(stored(SampleArgs::augment_args(command), "samples_file")),
+        "workspace" => ThreadArgs::augment_args(command),
+        "simulate" => stored(command, "output_file").mut_arg("duration_s", |arg| arg.visible_alias("for")),
+        "export" => command.mut_arg("duration_s", |arg| arg.visible_alias("for")),
+        _ => command,
+    };
+    let files = outputs::of(name);
+    let command = command.args(files.iter().map(declared::output));
+    if files.iter().any(|output| output.key == "figure") { FigureArgs::augment_args(command) } else { command }
 }

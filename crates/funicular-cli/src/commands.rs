@@ -1,33 +1,26 @@
-//! Commands: this file makes the request of a command and runs it. The other files, one per command, read the files
-//! that the arguments name, and write the results.
+//! Commands: this file makes the request of a command from the arguments and the files that they name. [`answering`]
+//! runs it. The other files, one per command, write the results as text.
 
-mod analysis;
+mod answering;
 mod cable;
 mod calibrate;
 mod check;
 mod clearance;
 mod compare;
 mod design;
-mod export;
 mod frf;
 mod gradient;
 mod gust;
 mod identify;
-mod import;
 mod loads;
-mod map;
 mod merge;
 mod modes;
-mod new_robot;
-mod page;
 mod parameters;
 mod payload;
 mod pose_error;
 mod profile_table;
 mod reduce;
 mod request;
-mod result_files;
-mod schema;
 mod settle;
 mod simulate;
 mod speeds;
@@ -38,88 +31,95 @@ mod uncertainty;
 mod validate;
 mod workspace;
 
-use crate::args::{Cli, DrawArgs, DrawModesArgs, FileArgs, OutputArgs, PageArgs, RequestArgs, RunArgs};
-use crate::{robot_file, shell, sweep_run};
-use anyhow::Result;
-use funicular_files::Guard;
-use funicular_study::request::{Request, RequestRobot, commands};
-use serde_json::Map;
+use crate::args::{Cli, RequestArgs, RunArgs};
+use crate::{errors, shell, sweep_run};
+use answering::Asked;
+use anyhow::{Context, Result, anyhow};
+use funicular::robot::Robot;
+use funicular_answers::inputs::{FileKey, FilesRead, read_robot};
+use funicular_study::request::{CommandInfo, Request, RequestRobot, RobotText};
+use funicular_study::wording::Words;
+use serde_json::{Map, Value};
+use std::path::PathBuf;
 
 /// Runs a command, or prints its request.
 pub(crate) fn run(cli: &Cli) -> Result<()> {
     if shell::printed(cli)? {
         return Ok(());
     }
-    if cli.name == "request" {
-        let args: RequestArgs = cli.files()?;
-        return if cli.print_request { request::print(&request::read(&args.file)?) } else { request::run(&args) };
-    }
-    let request = request_of(cli)?;
+    let mut read = FilesRead::default();
+    let (request, wanted) = match cli.name.as_str() {
+        "request" => request::read(&cli.files::<RequestArgs>()?.file, &mut read)?,
+        _ => (request_of(cli, &mut read)?, Vec::new()),
+    };
+    read.notes.iter().for_each(|note| errors::note(note));
+    let asked = Asked::of(cli, request.command(), wanted)?;
     if cli.print_request {
-        return request::print(&request);
+        return request::print(&request, &asked.wanted);
     }
 
-    let guard = || robot_file::guard(cli.robot_path().map(|path| &**path));
-    let page = || Ok::<_, anyhow::Error>(cli.files::<PageArgs>()?.output_file);
+    let guard = &mut read.guard();
     match &request {
-        Request::Statics(_) | Request::Frf(_) | Request::Compare(_) => {
-            let DrawArgs { output, figure } = cli.files()?;
-            analysis::print_or_draw(&request, &output, figure, None, guard())
+        Request::Map(_) | Request::Sweep(_) => sweep_run::run(&request, guard, &cli.files::<RunArgs>()?),
+        Request::Merge(of) => {
+            let to: Option<&PathBuf> = cli.value("output_file");
+            merge::run(of, to.context("a request of `merge` needs ⟪output_file⟫, the file of all rows")?)
         }
-        Request::Modes(_) => {
-            let DrawModesArgs { drawn, figure_mode } = cli.files()?;
-            analysis::print_or_draw(&request, &drawn.output, drawn.figure, figure_mode, guard())
-        }
-        Request::Uncertainty(of) => uncertainty::run(of, &cli.files()?, &mut guard()),
-        Request::Gust(_) => gust::run(&request, &cli.files()?, guard()),
-        Request::Settle(of) => settle::run(of, &cli.files()?, guard()),
-        Request::Trajectory(of) => trajectory::run(of, &cli.files()?, &mut guard()),
-        Request::Simulate(of) => simulate::run(of, &cli.files()?, &mut guard()),
-        Request::Reduce(of) => reduce::run(of, &cli.files()?, guard()),
-        Request::Identify(of) => identify::run(of, &cli.files()?, &mut guard()),
-        Request::Calibrate(of) => calibrate::run(of, &cli.files()?, &mut guard()),
-        Request::Design(of) => design::run(of, &cli.files()?, &mut guard()),
-        Request::Workspace(of) => workspace::run(of, &cli.files()?, &mut guard()),
-        Request::Map(_) => map::run(&request, &cli.files()?, &mut guard()),
-        Request::Sweep(_) => sweep_run::run(&request, &mut guard(), &cli.files::<RunArgs>()?),
-        Request::Merge(_) => merge::run(&cli.files()?),
-        Request::Plot(_) => page::plot(&cli.files()?),
-        Request::Live(_) => page::live(&request, cli.robot_path().map(|path| &**path), &page()?),
-        Request::Report(_) => page::report(&request, cli.robot_path().map(|path| &**path), &page()?),
-        Request::Paper(_) => page::paper(&page()?),
-        Request::New(of) => new_robot::run(of, &cli.files()?),
-        Request::Schema(of) => schema::write(of, &mut Guard::default(), &cli.files::<FileArgs>()?.output_file),
-        Request::Import(of) => import::run(of, &cli.files()?),
-        Request::Export(of) => export::run(of, &cli.files()?, &mut guard()),
-        _ => analysis::print(&request, &cli.files::<OutputArgs>()?, guard()),
+        _ => answering::run(cli, &request, asked, guard),
     }
 }
 
-/// Request of a command, with the texts of the files that it names.
-fn request_of(cli: &Cli) -> Result<Request> {
-    let mut further = Map::new();
-    let robot = commands().iter().find(|info| info.name == cli.name).map(|info| info.robot);
-    if robot.is_some_and(|robot| robot != RequestRobot::None) {
-        let robot = robot_file::read(cli.robot_path().map(|path| &**path), &cli.changes()?)?;
-        further.insert("robot".to_owned(), serde_json::to_value(robot)?);
+/// Request of a command, with the values of the files that it names.
+fn request_of(cli: &Cli, read: &mut FilesRead) -> Result<Request> {
+    let info = cli.info()?;
+    let mut keys = cli.keys(info);
+    keys.insert("command".to_owned(), info.name.into());
+    let mut robot = None;
+    if info.robot != RequestRobot::None {
+        let path = cli.robot_path().map(|path| &**path);
+        let text = read_robot(path, &cli.changes(None), "the robot file", read)?;
+        keys.insert("robot".to_owned(), serde_json::to_value(&text)?);
+        robot = Some(text);
+    }
+    add_files(cli, info, robot.as_ref(), &mut keys, read)?;
+    if info.name == "identify" {
+        keys.insert("experiments".to_owned(), Value::Array(Vec::new()));
     }
 
-    match cli.name.as_str() {
-        "uncertainty" => uncertainty::request(cli, further),
-        "identify" => identify::request(cli, further),
-        "calibrate" => calibrate::request(cli, further),
-        "design" => design::request(cli, further),
-        "workspace" => workspace::request(cli, further),
-        "map" => map::request(cli, further),
-        "settle" => settle::request(cli, further),
-        "gust" => gust::request(cli, further),
-        "trajectory" => trajectory::request(cli, further),
-        "simulate" => simulate::request(cli, further),
-        "export" => export::request(cli, further),
-        "merge" => merge::request(cli, further),
-        "plot" => page::plot_request(cli, further),
-        "new" => new_robot::request(cli, further),
-        "import" => import::request(cli, further),
-        _ => cli.request(further),
+    let mut request =
+        Request::from_value(Value::Object(keys)).map_err(|error| anyhow!("{}", error.message(Words::Program)))?;
+    if let Request::Identify(of) = &mut request {
+        identify::complete(of, cli, read)?;
     }
+    Ok(request)
+}
+
+/// Adds the values of keys that stand in files.
+fn add_files(
+    cli: &Cli,
+    info: &CommandInfo,
+    text: Option<&RobotText>,
+    keys: &mut Map<String, Value>,
+    read: &mut FilesRead,
+) -> Result<()> {
+    let mut robot: Option<Robot> = None;
+    for key in &info.keys {
+        let Some(file) = key.file else { continue };
+        let paths: Vec<PathBuf> = cli.values(key.name);
+        let changes = &cli.changes(Some(key.name));
+        if paths.is_empty() {
+            // Changes without a file are those of the robot itself.
+            if let Some(text) = text.filter(|_| !changes.is_empty()) {
+                let changed = RobotText { set: [&text.set[..], changes].concat(), ..text.clone() };
+                keys.insert(key.name.to_owned(), serde_json::to_value(changed)?);
+            }
+            continue;
+        }
+        if let (None, Some(text)) = (&robot, text) {
+            robot = Some(text.read()?.robot);
+        }
+        let value = FileKey { command: info.name, key: key.name, file, changes }.read(&paths, robot.as_ref(), read)?;
+        keys.insert(key.name.to_owned(), value);
+    }
+    Ok(())
 }

@@ -1,11 +1,11 @@
 //! Output of a run without a result: one message on stderr, and the exit code.
 
+use funicular_answers::Stopped;
 use funicular_study::robot_file::Refused;
 use funicular_study::wording::{Words, message, told};
 use funicular_study::{Error, ErrorKind};
 use std::io::{self, IsTerminal, Write};
 use std::process::ExitCode;
-use thiserror::Error;
 
 /// Exit code of a valid input for a robot that has no such solution.
 const NO_SOLUTION: u8 = 1;
@@ -14,11 +14,6 @@ pub(crate) const STOPPED: u8 = 130;
 
 /// Exit code of an input that has to change.
 const BAD_INPUT: u8 = 2;
-
-/// Error of work that was stopped from outside, with the results that remain.
-#[derive(Debug, Error)]
-#[error("{0}")]
-pub(crate) struct Interrupted(pub(crate) String);
 
 /// Prints the error and chooses the exit code.
 pub(crate) fn report(error: &anyhow::Error) -> ExitCode {
@@ -69,7 +64,7 @@ fn refused(error: &anyhow::Error) -> Option<&Refused> {
 }
 
 fn code(error: &anyhow::Error) -> u8 {
-    if error.is::<Interrupted>() {
+    if error.is::<Stopped>() {
         return STOPPED;
     }
     match error.downcast_ref::<Error>().map_or_else(|| ErrorKind::of(error), Error::kind) {

@@ -1,7 +1,8 @@
 //! Ctrl-C, and the SIGTERM by which a cluster ends a job: work stops at its next step, with the exit code of SIGINT.
 
-use crate::errors::{self, Interrupted};
+use crate::errors;
 use anyhow::{Context, Result};
+use funicular_answers::Stopped;
 use std::process;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread;
@@ -30,7 +31,7 @@ pub(crate) fn stop_at_next_row(otherwise: Option<String>) -> Result<()> {
         if let Some(message) = otherwise.clone() {
             thread::spawn(|| {
                 thread::sleep(END_WITHIN);
-                errors::report(&Interrupted(message).into());
+                errors::report(&Stopped(message).into());
                 process::exit(errors::STOPPED.into());
             });
         }
@@ -50,7 +51,7 @@ pub(crate) fn stop_analysis() -> Computes {
         thread::spawn(|| {
             thread::sleep(PATIENCE);
             if COMPUTES.load(Ordering::Relaxed) {
-                errors::report(&Interrupted("stopped before the end".to_owned()).into());
+                errors::report(&Stopped("stopped before the end".to_owned()).into());
                 process::exit(errors::STOPPED.into());
             }
         });

@@ -3,12 +3,14 @@
 mod summary;
 
 use crate::args::{Format, OutputArgs, RunArgs};
-use crate::errors::{self, Interrupted};
+use crate::errors;
 use crate::interrupt::{STOPPED, stop_at_next_row};
 use crate::output::{self, Sink};
 use crate::progress::Progress;
 use crate::table::counted;
 use anyhow::{Result, bail};
+use funicular_answers::Stopped;
+use funicular_answers::outputs::told;
 use funicular_files::endings::Kind;
 use funicular_files::{Begin, CsvRows, Guard, Opened, Outcome, SweepFile, threads};
 use funicular_study::Request;
@@ -31,11 +33,14 @@ pub(crate) fn run(request: &Request, guard: &mut Guard, run: &RunArgs) -> Result
     let job = &Job { sweep: &sweep, run };
     let plan = sweep.plan()?;
     let record = sweep.record(&plan, run.part);
-    let threads = threads::or_all(run.threads);
+    let threads = threads::or_all(run.threads.threads);
     match &run.output_file {
         Some(path) => {
             refuse_output(job, guard, path)?;
             to_file(job, &plan, record, path, threads)
+        }
+        None if run.stored.resume || run.stored.discard => {
+            bail!("⟪resume⟫ and ⟪discard⟫ are about rows in a file: give -o FILE.parquet, .csv or .vti")
         }
         None if run.format == Some(Format::Csv) => {
             warn(job);
@@ -69,7 +74,7 @@ fn refuse_stopped(plan: &Plan, outcome: Outcome) -> Result<()> {
         Outcome::Complete => Ok(()),
         Outcome::Cancelled { next } => {
             let (done, rows) = ((next * plan.chunk_rows()).min(plan.rows()), plan.rows());
-            Err(Interrupted(format!(
+            Err(Stopped(format!(
                 "stopped after {done} of {rows} rows, which are not stored: give -o to be able to continue later"
             ))
             .into())
@@ -93,7 +98,7 @@ fn to_file(job: &Job, plan: &Plan, record: Record, path: &Path, threads: NonZero
     let run = job.run;
     // A file of rows as CSV says nothing of a summary.
     let format = run.format.filter(|format| *format != Format::Csv);
-    let begin = Begin::of(run.resume, run.discard);
+    let begin = Begin::of(run.stored.resume, run.stored.discard);
     let range = record.range();
     let rows = record.rows_of(range.clone());
 
@@ -135,11 +140,11 @@ fn to_file(job: &Job, plan: &Plan, record: Record, path: &Path, threads: NonZero
 
     if outcome != Outcome::Complete {
         let safe = work.interrupt(funicular_files::WRITE_WITHIN)?;
-        return Err(Interrupted(format!("stopped: {safe}; continue with the same command and --resume")).into());
+        return Err(Stopped(format!("stopped: {safe}; continue with the same command and --resume")).into());
     }
 
     work.finish()?;
-    errors::note(&format!("{} in {}", counted(rows, "row"), path.display()));
+    errors::note(&told(path, Some(&counted(rows, "row"))));
     if format.is_some() { summary.print(format) } else { Ok(()) }
 }
 
@@ -161,5 +166,5 @@ fn refuse_output(job: &Job, guard: &mut Guard, path: &Path) -> Result<()> {
 
 /// Destination of a summary.
 fn sink(format: Option<Format>) -> Result<Sink> {
-    Sink::open(&OutputArgs { format, output_file: None }, &[], &mut Guard::default())
+    Sink::open(&OutputArgs { format, output_file: None, quiet: false }, &[], &mut Guard::default())
 }

@@ -106,6 +106,11 @@ impl Kind {
         ENDINGS.iter().find(|(endings, _)| endings.contains(&ending.as_str())).map(|(_, kind)| *kind)
     }
 
+    /// First ending of such files, without the dot.
+    pub fn ending(self) -> Option<&'static str> {
+        ENDINGS.iter().find(|(_, kind)| *kind == self).map(|(endings, _)| endings[0])
+    }
+
     /// Name of the kind in messages.
     fn in_words(self) -> &'static str {
         match self {
@@ -163,10 +168,8 @@ fn ending(path: &Path) -> Option<String> {
 }
 
 /// First ending of each kind, such as ".json, .csv or .txt".
-fn listed(kinds: &[Kind]) -> String {
-    let first =
-        |kind: &Kind| ENDINGS.iter().find(|(_, other)| other == kind).map(|(endings, _)| format!(".{}", endings[0]));
-    let mut endings: Vec<String> = kinds.iter().filter_map(first).collect();
+pub fn listed(kinds: &[Kind]) -> String {
+    let mut endings: Vec<String> = kinds.iter().filter_map(|kind| Some(format!(".{}", kind.ending()?))).collect();
     match endings.pop() {
         None => ".txt".to_owned(),
         Some(last) if endings.is_empty() => last,

@@ -1,7 +1,7 @@
 //! Figures for papers, as SVG and PDF.
 //!
-//! A [`Figure`] describes what is drawn, independent of its size and of the format of the file. [`of_request`] makes
-//! the figure of `statics`, `modes`, `frf` or `compare`, and [`crate::pages::plot::figure`] that of a map or sweep.
+//! A [`Figure`] describes what is drawn, independent of its size and of the format of the file. [`of_statics`] and its
+//! neighbours make the figures of the commands, and [`crate::pages::plot::figure`] that of a map or sweep.
 //! [`Figure::svg`] and [`Figure::pdf`] draw it with the width of a journal's column. Sizes of texts and lines are those
 //! of the printed page. A PDF has the letters of its font embedded. The same figure always gives the same bytes.
 
@@ -27,7 +27,10 @@ pub(crate) mod supports;
 mod svg;
 pub(crate) mod view;
 
-pub use making::{RequestFigure, of_calibration, of_decay, of_request, of_sections, of_simulation};
+pub use making::{
+    RequestFigure, of_calibration, of_compare, of_decay, of_frf, of_gust, of_modes, of_sections, of_simulation,
+    of_statics,
+};
 pub use space::animation_of_simulation;
 
 pub use crate::figure_style::{DEFAULT_FONT_SIZE_PT, DEFAULT_WIDTH_MM, FONT_SIZE_LIMITS_PT, WIDTH_LIMITS_MM, WIDTHS};
@@ -127,13 +130,6 @@ impl Figure {
             FigureContent::Space(space) => space.draw(width, &style),
         }
     }
-}
-
-/// Choice of what a figure shows.
-#[derive(Debug, Clone, Default, PartialEq)]
-pub struct FigureChoice {
-    /// Number of the mode whose shape is drawn, from 1; the spectrum if none is given.
-    pub mode: Option<usize>,
 }
 
 #[cfg(test)]

@@ -36,7 +36,7 @@ pub(crate) use given::{check_scenario, read};
 pub use gradient::{GradientRequest, frequencies};
 pub use grids::{EachPoint, MapRequest, MergeRequest, PlotRequest, PointOptions, SweepRequest};
 pub use identify::{Experiment, FitValue, IdentifyRequest};
-pub use key::{Choice, Declared, Key, Kind, ProgramForm, Range};
+pub use key::{Choice, Declared, InputFile, Key, Kind, ProgramForm, Range, Reader};
 pub use loads::{LoadsRequest, Requirements};
 pub use pages::{LiveRequest, PaperRequest, ReportRequest, ValidateRequest};
 pub use parts::{
@@ -198,10 +198,17 @@ impl Request {
     /// Text that is not JSON, a key that is there twice, another schema, an unknown command or key, or a value of the
     /// wrong type.
     pub fn from_json(text: &str) -> Result<Self, Error> {
-        let value = json_text::value(text.as_bytes()).map_err(|error| {
-            anyhow!("the request is not valid JSON: {}", library_words::of_form(&error.to_string()))
-        })?;
-        Self::from_value(value)
+        Self::from_value(Self::value_of_json(text)?)
+    }
+
+    /// Value of a text in JSON, for a front end that takes keys of its own out of it.
+    ///
+    /// # Errors
+    /// Text that is not JSON, or a key that is there twice.
+    pub fn value_of_json(text: &str) -> Result<Value, Error> {
+        json_text::value(text.as_bytes()).map_err(|error| {
+            anyhow!("the request is not valid JSON: {}", library_words::of_form(&error.to_string())).into()
+        })
     }
 
     /// Reads a request from a JSON value, with the checks of [`Request::from_json`].

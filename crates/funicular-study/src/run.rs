@@ -42,7 +42,7 @@ use serde::Serialize;
 /// for its robot, with a watch. A command that starts from an equilibrium can say after `at` how it goes on from one.
 macro_rules! answers {
     (
-        ($robot:ident, $watch:ident)
+        ($d:tt $robot:ident, $watch:ident)
         $($Variant:ident($Found:ty): $of:pat => $run:expr $(, at $at_rest:ident => $about:expr)?;)*
     ) => {
         /// Results of any command that needs nothing but its request.
@@ -57,6 +57,13 @@ macro_rules! answers {
             /// Name of every command, with the columns of its tables in files as [`Tabled::tables`] gives them.
             pub fn tables() -> Vec<CommandTables> {
                 vec![$((<$Found as Found>::COMMAND, <$Found as Tabled>::tables()),)*]
+            }
+
+            /// Sentences that the user should know before trusting the numbers.
+            pub fn warnings(&self) -> &[String] {
+                match self {
+                    $(Self::$Variant(found) => found.warnings(),)*
+                }
             }
 
             /// Table of the results in files.
@@ -76,6 +83,16 @@ macro_rules! answers {
                     $(Self::$Variant(found) => json::of_results(found, words),)*
                 }
             }
+        }
+
+        /// Evaluates an expression for results, whatever command they are of, with their own type.
+        #[macro_export]
+        macro_rules! with_found {
+            ($d results:expr, $d found:ident => $d body:expr) => {
+                match $d results {
+                    $($crate::Results::$Variant($d found) => $d body,)*
+                }
+            };
         }
 
         /// Runs a request whose robot, if it has one, has been read before. The errors keep their types.
@@ -117,7 +134,7 @@ macro_rules! answers {
 }
 
 answers! {
-    (robot, watch)
+    ($ robot, watch)
     Check(Checked): _ => check::run(robot()?);
     Parameters(ParameterList): of => parameters::run(&of.robot)?;
     Statics(Statics): of => statics::run(robot()?, of)?;

@@ -1,68 +1,12 @@
-//! `calibrate`: readings, text and CSV, and the robot file.
+//! `calibrate`: text.
 
 use super::profile_table::{Profiled, profiles};
-use super::result_files::{OtherFile, ResultFiles};
-use crate::args::{CalibrateArgs, Cli, DrawArgs, OutputArgs};
-use crate::number_table;
-use crate::output::{FigureSink, Printed};
-use crate::pose_csv;
-use crate::progress::TerminalProgress;
+use crate::output::Printed;
 use crate::table::{Table, counted, significant};
-use anyhow::Result;
-use funicular_files::Guard;
-use funicular_pages::figures;
 use funicular_study::analyses::calibrate::{
-    self, Calibrated, CalibratedValue, DistanceRow, LeftOut, ProposalRow, ReadingRow, check_readings,
+    Calibrated, CalibratedValue, DistanceRow, LeftOut, ProposalRow, ReadingRow,
 };
-use funicular_study::request::{CalibrateRequest, GappedColumns, Request};
-use funicular_study::wording::{Words, worded};
-use serde_json::{Map, Value};
 use std::fmt::Write as _;
-
-/// Request of a calibration. Errors of its readings name the line in the file.
-pub(super) fn request(cli: &Cli, mut further: Map<String, Value>) -> Result<Request> {
-    let files = cli.files::<CalibrateArgs>()?;
-    further.insert("readings".to_owned(), Value::Object(Map::new()));
-    let mut request = cli.request(further)?;
-    if let Request::Calibrate(of) = &mut request {
-        of.poses = pose_csv::read_if_given(files.poses.as_deref(), &of.robot)?;
-        let robot = of.robot.read()?.robot;
-        let check = |columns: &GappedColumns| check_readings(columns, &robot);
-        of.readings = number_table::read_with_gaps(&files.readings, "the readings", check)?;
-    }
-    Ok(request)
-}
-
-/// Runs `calibrate`: prints the result and writes the robot file.
-pub(super) fn run(of: &CalibrateRequest, args: &CalibrateArgs, guard: &mut Guard) -> Result<()> {
-    guard.reads("the readings", &args.readings);
-    if let Some(poses) = &args.poses {
-        guard.reads("the poses", poses);
-    }
-    let DrawArgs { output, figure } = &args.drawn;
-    let path = output.output_file.as_deref().filter(|_| output.format.is_none());
-    let drawn = FigureSink::open(path, *figure, guard)?;
-    let calibrated = OtherFile::robot("calibrated", args.calibrated.as_deref());
-    // With a figure the result is printed.
-    let output_file = output.output_file.clone().filter(|_| drawn.is_none());
-    let printed = OutputArgs { format: output.format, output_file };
-    let files = ResultFiles::open(&printed, calibrated, args.page.as_deref(), guard)?;
-
-    let mut watch = TerminalProgress::new();
-    let found = calibrate::run(of, &mut watch)?;
-    drop(watch);
-    if let Some(drawn) = drawn {
-        drawn.write(&figures::of_calibration(&found))?;
-    }
-    files.write(
-        &found,
-        || Ok(found.robot_file.clone().into_bytes()),
-        || {
-            let page = funicular_pages::pages::calibrate::page(&found, super::page::command_line()?)?;
-            Ok(worded(&page, Words::Program))
-        },
-    )
-}
 
 impl Printed for Calibrated {
     fn text(&self) -> String {

@@ -1,48 +1,9 @@
-//! `design`: text and CSV.
+//! `design`: text.
 
-use super::result_files::{OtherFile, ResultFiles};
-use crate::args::{Cli, DesignArgs};
 use crate::output::Printed;
-use crate::pose_csv;
-use crate::progress::TerminalProgress;
 use crate::table::{Table, counted, significant};
-use anyhow::Result;
-use funicular_files::Guard;
-use funicular_study::analyses::design::{self, ChosenValue, DemandRow, Designed};
-use funicular_study::request::{DesignRequest, Request};
-use funicular_study::wording::{Words, worded};
-use serde_json::{Map, Value};
+use funicular_study::analyses::design::{ChosenValue, DemandRow, Designed};
 use std::fmt::Write as _;
-
-/// Request of a design. Errors of its poses name the line in the file of poses.
-pub(super) fn request(cli: &Cli, further: Map<String, Value>) -> Result<Request> {
-    let mut request = cli.request(further)?;
-    if let Request::Design(of) = &mut request {
-        of.poses = pose_csv::read_if_given(cli.files::<DesignArgs>()?.poses.as_deref(), &of.robot)?;
-    }
-    Ok(request)
-}
-
-/// Runs `design`: prints the result, writes the robot file and the page.
-pub(super) fn run(of: &DesignRequest, args: &DesignArgs, guard: &mut Guard) -> Result<()> {
-    if let Some(poses) = &args.poses {
-        guard.reads("the poses", poses);
-    }
-    let designed = OtherFile::robot("designed", args.designed.as_deref());
-    let files = ResultFiles::open(&args.sink, designed, args.page.as_deref(), guard)?;
-
-    let mut watch = TerminalProgress::new();
-    let found = design::run(of, &mut watch)?;
-    drop(watch);
-    files.write(
-        &found,
-        || Ok(found.robot_file.clone().into_bytes()),
-        || {
-            let page = funicular_pages::pages::design::page(&found, super::page::command_line()?)?;
-            Ok(worded(&page, Words::Program))
-        },
-    )
-}
 
 impl Printed for Designed {
     fn text(&self) -> String {

@@ -1,8 +1,7 @@
-//! `frf`: text and CSV.
+//! `frf`: text.
 
 use crate::output::Printed;
 use crate::table::{Table, counted, decimals, significant, vector};
-use funicular_formats::uff_writing::frf_file;
 use funicular_study::analyses::frf::{Frf, PairRow, PlaceRow};
 
 impl Printed for Frf {
@@ -29,10 +28,6 @@ impl Printed for Frf {
         }
         let count = counted(self.responses.len(), "response");
         format!("{robot}: {count}\n{models}\n\n{range}\n\n{several}The whole curves: --format csv or --format json.\n")
-    }
-
-    fn uff(&self) -> anyhow::Result<Vec<u8>> {
-        frf_file(self)
     }
 }
 

@@ -1,35 +1,11 @@
-//! `gust`: measured spectra, text and CSV.
+//! `gust`: text.
 
-use super::analysis;
-use crate::args::{Cli, GustArgs};
-use crate::number_table;
 use crate::output::Printed;
 use crate::table::{Table, counted, significant};
-use anyhow::Result;
-use funicular_files::Guard;
-use funicular_study::analyses::gust::{self, AirDamping, GustRow, Gusty};
-use funicular_study::request::Request;
-use serde_json::{Map, Value};
+use funicular_study::analyses::gust::{AirDamping, GustRow, Gusty};
 
 /// Modes that the table shows.
 const SHOWN: usize = 8;
-
-/// Request of a response to gusts. Errors of measured spectra name the line in the file.
-pub(super) fn request(cli: &Cli, further: Map<String, Value>) -> Result<Request> {
-    let mut request = cli.request(further)?;
-    if let (Request::Gust(of), Some(path)) = (&mut request, cli.files::<GustArgs>()?.spectrum) {
-        of.spectrum = Some(number_table::read(&path, "the spectra", gust::check_spectrum)?);
-    }
-    Ok(request)
-}
-
-/// Runs `gust`: prints the response, or draws its spectra.
-pub(super) fn run(request: &Request, args: &GustArgs, mut guard: Guard) -> Result<()> {
-    if let Some(spectrum) = &args.spectrum {
-        guard.reads("the spectra", spectrum);
-    }
-    analysis::print_or_draw(request, &args.drawn.output, args.drawn.figure, None, guard)
-}
 
 impl Printed for Gusty {
     fn text(&self) -> String {

@@ -1,65 +1,30 @@
 //! `identify`: files of measurements, text and CSV.
 
 use super::profile_table::{Profiled, profiles};
-use super::result_files::{OtherFile, ResultFiles};
 use crate::args::{Cli, IdentifyArgs};
-use crate::errors;
 use crate::output::Printed;
-use crate::pose_csv;
-use crate::progress::TerminalProgress;
 use crate::table::{Table, counted, significant};
 use anyhow::{Context, Result, bail};
-use std::fmt::Write as _;
-
-use funicular_files::Guard;
+use funicular_answers::inputs::FilesRead;
 use funicular_formats::measurements::{self, FileOptions};
-use funicular_study::analyses::identify::{self, FittedValue, Identified, ProposedMeasurement, StaticRow};
-use funicular_study::request::{Experiment, FitValue, IdentifyRequest, Request, ResponsePoints};
-use funicular_study::wording::{Words, worded};
-use serde_json::{Map, Value};
+use funicular_study::analyses::identify::{FittedValue, Identified, ProposedMeasurement, StaticRow};
+use funicular_study::request::{Experiment, FitValue, IdentifyRequest, ResponsePoints};
+use serde_json::Value;
+use std::fmt::Write as _;
 use std::fs::File;
 use std::io::Read;
 use std::path::Path;
 
-/// Runs `identify`: prints the values, writes the robot file and the page.
-pub(super) fn run(of: &IdentifyRequest, args: &IdentifyArgs, guard: &mut Guard) -> Result<()> {
-    for file in args.measured.iter().chain(&args.experiments) {
-        guard.reads("the measurements", file);
-    }
-    if let Some(poses) = &args.poses {
-        guard.reads("the poses", poses);
-    }
-
-    let fitted = OtherFile::robot("fitted", args.fitted.as_deref());
-    let files = ResultFiles::open(&args.sink, fitted, args.page.as_deref(), guard)?;
-    let mut watch = TerminalProgress::new();
-    let found = identify::run(of, &mut watch)?;
-    drop(watch);
-    files.write(
-        &found,
-        || Ok(found.robot_file.clone().into_bytes()),
-        || {
-            let page = funicular_pages::pages::identify::page(&found, super::page::command_line()?)?;
-            Ok(worded(&page, Words::Program))
-        },
-    )
-}
-
-/// Request with the measurements of all files.
-pub(super) fn request(cli: &Cli, mut further: Map<String, Value>) -> Result<Request> {
+/// Adds the measurements of all files, and the values known beforehand, to a request.
+pub(super) fn complete(of: &mut IdentifyRequest, cli: &Cli, read: &mut FilesRead) -> Result<()> {
     let args: IdentifyArgs = cli.files()?;
-    further.insert("experiments".to_owned(), Value::Array(Vec::new()));
-    let mut request = cli.request(further)?;
-    if let Request::Identify(of) = &mut request {
-        of.experiments = experiments(cli, &args)?;
-        of.poses = pose_csv::read_if_given(args.poses.as_deref(), &of.robot)?;
-        add_priors(&mut of.fit, &args.prior)?;
-    }
-    Ok(request)
+    of.experiments = experiments(cli, &args, read)?;
+    add_priors(&mut of.fit, &args.prior)
 }
 
 /// Measurements of all files, and those that are given themselves.
-fn experiments(cli: &Cli, args: &IdentifyArgs) -> Result<Vec<Experiment>> {
+fn experiments(cli: &Cli, args: &IdentifyArgs, read: &mut FilesRead) -> Result<Vec<Experiment>> {
+    args.measured.iter().chain(&args.experiments).for_each(|file| read.add("the measurements", file));
     let mut experiments = match &args.experiments {
         Some(path) => read_experiments(path)?,
         None => Vec::new(),
@@ -67,7 +32,7 @@ fn experiments(cli: &Cli, args: &IdentifyArgs) -> Result<Vec<Experiment>> {
     let mut own: Experiment = serde_json::from_value(Value::Object(cli.given::<Experiment>()))?;
     let points: ResponsePoints = serde_json::from_value(Value::Object(cli.given::<ResponsePoints>()))?;
     for path in &args.measured {
-        read_measured(path, args, points, &mut own)?;
+        read.notes.extend(read_measured(path, args, points, &mut own)?);
     }
     let is_measured = !own.responses.is_empty()
         || !own.frequencies.is_empty()
@@ -112,8 +77,8 @@ fn bytes_of(path: &Path) -> Result<Vec<u8>> {
     Ok(bytes)
 }
 
-/// Adds the measurements of a file.
-fn read_measured(path: &Path, args: &IdentifyArgs, points: ResponsePoints, to: &mut Experiment) -> Result<()> {
+/// Adds the measurements of a file, and returns notes about them.
+fn read_measured(path: &Path, args: &IdentifyArgs, points: ResponsePoints, to: &mut Experiment) -> Result<Vec<String>> {
     let shown = path.display().to_string();
     let bytes = bytes_of(path)?;
     let options = FileOptions {
@@ -123,10 +88,9 @@ fn read_measured(path: &Path, args: &IdentifyArgs, points: ResponsePoints, to: &
         output_point_m: points.output_point_m,
     };
     let found = measurements::read(&shown, &bytes, &options)?;
-    found.notes.iter().for_each(|note| errors::note(note));
     to.responses.extend(found.responses);
     to.frequencies.extend(found.frequencies);
-    Ok(())
+    Ok(found.notes)
 }
 
 /// Experiments of a JSON file.

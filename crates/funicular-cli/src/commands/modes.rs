@@ -2,7 +2,6 @@
 
 use crate::output::Printed;
 use crate::table::{Table, counted, decimals, short};
-use funicular_formats::uff_writing::modes_file;
 use funicular_study::analyses::modes::{FirstPlatformMode, Modes, Participation, RIGID};
 
 impl Printed for Modes {
@@ -27,10 +26,6 @@ impl Printed for Modes {
             certificate(self),
             first_platform(self)
         )
-    }
-
-    fn uff(&self) -> anyhow::Result<Vec<u8>> {
-        Ok(modes_file(self))
     }
 }
 

@@ -1,69 +1,12 @@
-//! `settle`: text, CSV, a page, and the file of the commanded lengths.
+//! `settle`: text.
 
-use crate::args::{Cli, DrawArgs, SettleArgs};
-use crate::errors;
-use crate::number_table;
-use crate::output::{Content, FigureSink, Printed, Sink, Target, as_csv};
+use crate::output::Printed;
 use crate::table::{Table, counted, decimals, significant};
-use anyhow::Result;
-use funicular_files::Guard;
-use funicular_files::endings::Kind;
-use funicular_pages::figures;
-use funicular_study::analyses::settle::{self, Commanded, Held, Settled, SettlingMode, Shaping, after};
-use funicular_study::request::{NumberColumns, Request, SettleRequest};
-use funicular_study::wording::{Words, worded};
-use serde_json::{Map, Value};
+use funicular_study::analyses::settle::{Commanded, Held, Settled, SettlingMode, Shaping, after};
 use std::fmt::Write as _;
 
 /// Modes that the table shows.
 const SHOWN: usize = 12;
-
-/// Request of a decay. Errors of its trajectory name the line in the file.
-pub(super) fn request(cli: &Cli, further: Map<String, Value>) -> Result<Request> {
-    let mut request = cli.request(further)?;
-    if let (Request::Settle(of), Some(path)) = (&mut request, cli.files::<SettleArgs>()?.trajectory) {
-        let robot = of.robot.read()?.robot;
-        let check = |columns: &NumberColumns| settle::check_trajectory(columns, &robot);
-        of.trajectory = Some(number_table::read(&path, "the trajectory", check)?);
-    }
-    Ok(request)
-}
-
-/// Runs `settle`: prints or draws the decay, and writes the commanded lengths.
-pub(super) fn run(of: &SettleRequest, args: &SettleArgs, mut guard: Guard) -> Result<()> {
-    if let Some(trajectory) = &args.trajectory {
-        guard.reads("the trajectory", trajectory);
-    }
-    // Errors of the robot file are reported before errors of the destinations.
-    let robot = of.robot.read()?.robot;
-    let DrawArgs { output, figure } = &args.drawn;
-    let path = output.output_file.as_deref().filter(|_| output.format.is_none());
-    let drawn = FigureSink::open(path, *figure, &mut guard)?;
-    let to_page = path.filter(|path| Kind::of(path) == Some(Kind::Html));
-    let page = to_page.map(|path| Target::open(Some(path), Content::PAGE, &mut guard)).transpose()?;
-    let printed = match (&drawn, &page) {
-        (None, None) => Some(Sink::open(output, &[Kind::Svg, Kind::Pdf, Kind::Html], &mut guard)?),
-        _ => None,
-    };
-    let opened = args.lengths.as_deref().map(|path| Target::open(Some(path), Content::LENGTHS, &mut guard));
-    let lengths = opened.transpose()?;
-
-    let found = settle::run(robot, of)?;
-    if let (Some(target), Some(path), Some(commanded)) = (lengths, &args.lengths, &found.commanded) {
-        target.write(&as_csv(commanded.lengths_table())?)?;
-        errors::note(&format!("wrote {}", path.display()));
-    }
-    if let Some(drawn) = drawn {
-        drawn.write(&figures::of_decay(&found))?;
-        found.warnings.iter().for_each(|warning| errors::warn(warning));
-    }
-    if let Some(page) = page {
-        let text = funicular_pages::pages::settle::page(&found, super::page::command_line()?)?;
-        page.write(worded(&text, Words::Program).as_bytes())?;
-        found.warnings.iter().for_each(|warning| errors::warn(warning));
-    }
-    printed.map_or(Ok(()), |sink| sink.write(&found))
-}
 
 impl Printed for Settled {
     fn text(&self) -> String {

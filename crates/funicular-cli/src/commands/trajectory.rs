@@ -1,18 +1,8 @@
-//! `trajectory`: text and CSV, lengths for a controller, and a page.
+//! `trajectory`: text.
 
-use super::result_files::{OtherFile, ResultFiles};
-use crate::args::{Cli, TrajectoryArgs};
-use crate::number_table;
-use crate::output::{Printed, as_csv};
-use crate::pose_csv;
-use crate::progress::TerminalProgress;
+use crate::output::Printed;
 use crate::table::{Table, counted, decimals, significant};
-use anyhow::Result;
-use funicular_files::Guard;
 use funicular_study::analyses::trajectory::{self, Stations, TrajectoryResult, TrajectoryRow};
-use funicular_study::request::{NumberColumns, Request, TrajectoryRequest};
-use funicular_study::wording::{Words, worded};
-use serde_json::{Map, Value};
 use std::fmt::Write as _;
 
 /// Rows that the table shows.
@@ -20,46 +10,6 @@ const SHOWN: usize = 21;
 
 /// Changes of limits that the text lists.
 const CHANGES: usize = 6;
-
-/// Request of a trajectory. Errors of its path name the line in the file.
-pub(super) fn request(cli: &Cli, further: Map<String, Value>) -> Result<Request> {
-    let mut request = cli.request(further)?;
-    let files = cli.files::<TrajectoryArgs>()?;
-    if let Request::Trajectory(of) = &mut request {
-        of.via = pose_csv::read_if_given(files.via.as_deref(), &of.robot)?;
-        if let Some(path) = &files.path {
-            let robot = of.robot.read()?.robot;
-            let check = |columns: &NumberColumns| trajectory::check_path(columns, &robot);
-            of.path = Some(number_table::read(path, "the path", check)?);
-        }
-    }
-    Ok(request)
-}
-
-/// Runs `trajectory`: prints the motion, and writes the lengths and the page.
-pub(super) fn run(of: &TrajectoryRequest, args: &TrajectoryArgs, guard: &mut Guard) -> Result<()> {
-    for (what, path) in [("the path", &args.path), ("the poses", &args.via)] {
-        if let Some(path) = path {
-            guard.reads(what, path);
-        }
-    }
-    // Errors of the robot file are reported before errors of the destinations.
-    let robot = of.robot.read()?.robot;
-    let lengths = OtherFile::lengths(args.lengths.as_deref());
-    let files = ResultFiles::open(&args.sink, lengths, args.page.as_deref(), guard)?;
-
-    let mut watch = TerminalProgress::new();
-    let found = trajectory::run(robot.clone(), of, &mut watch)?;
-    drop(watch);
-    files.write(
-        &found,
-        || as_csv(found.lengths_table()),
-        || {
-            let page = funicular_pages::pages::trajectory::page(&robot, &found, super::page::command_line()?)?;
-            Ok(worded(&page, Words::Program))
-        },
-    )
-}
 
 impl Printed for TrajectoryResult {
     fn text(&self) -> String {

@@ -1,18 +1,7 @@
-//! `validate`: its run, text and CSV.
+//! `validate`: text.
 
-use crate::interrupt;
-use crate::output::{Printed, Sink};
-use anyhow::Result;
-use funicular_validation::{Validated, markdown, run};
-
-/// Makes all comparisons and prints them. One out of tolerance is an error.
-pub(super) fn print(sink: &Sink) -> Result<()> {
-    let computes = interrupt::stop_analysis();
-    let found = run()?;
-    drop(computes);
-    sink.write(&found)?;
-    Ok(found.verdict()?)
-}
+use crate::output::Printed;
+use funicular_validation::{Validated, markdown};
 
 impl Printed for Validated {
     fn text(&self) -> String {

@@ -43,6 +43,7 @@ mod validate;
 mod wind;
 mod wording;
 mod workspace;
+mod written_files;
 
 use assert_cmd::Command;
 use serde_json::Value;

@@ -164,7 +164,7 @@ fn a_reduced_model_is_read_by_others_as_it_was_made() {
     assert_eq!(refused.status.code(), Some(2));
     assert!(stderr(&refused).contains("is not empty"), "{}", stderr(&refused));
     let refused = run(&with(&arguments, &place("model.h5")));
-    assert!(stderr(&refused).contains("neither an .npz, .mat or .fmu file nor a folder"), "{}", stderr(&refused));
+    assert!(stderr(&refused).contains("neither ends in .npz, .mat or .fmu nor is a folder"), "{}", stderr(&refused));
     let refused = run(&[&SMALL[..], &["--form", "second-order", "--cable-model", "shallow-dynamic"]].concat());
     assert_eq!(refused.status.code(), Some(2));
     assert!(stderr(&refused).contains("choose the cable model `catenary-dynamic`"), "{}", stderr(&refused));

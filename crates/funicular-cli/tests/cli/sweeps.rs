@@ -297,7 +297,7 @@ fn a_slip_is_warned_of_once_per_run_and_before_the_rows() {
     let arguments: Vec<&str> = line.split(' ').chain([path.to_str().unwrap(), "--resume"]).collect();
 
     // The rows are computed, then found complete.
-    for end in ["3 rows in ", " already contains all of 3 rows"] {
+    for end in ["(3 rows)", " already contains all of 3 rows"] {
         let output = run(&arguments);
         let said = stderr(&output);
         let lines: Vec<&str> = said.lines().collect();

@@ -5,7 +5,7 @@ use super::chart::{Chart, Entry, Layer, Panel, Sample};
 use super::drawing::{BLACK, Stroke};
 use super::space::{RobotShape, Space};
 use super::style::{self, GREY, ModelStyle, Symbol};
-use super::{Figure, FigureChoice, FigureContent, calibration, gusts, sections, settling, simulated};
+use super::{Figure, FigureContent, calibration, gusts, sections, settling, simulated};
 use crate::figure_style::{MODE_TICKS, ModeTick, rgb};
 use anyhow::{Result, bail};
 use funicular::cable::CableModel;
@@ -13,17 +13,18 @@ use funicular::cable_motion::CableStations;
 use funicular::dynamics::{Dynamics, Linearisation};
 use funicular::math::Vec3;
 use funicular::modes::{self, Mode};
-use funicular::robot::Robot;
 use funicular_study::Watch;
-use funicular_study::analyses::calibrate::{self, Calibrated};
+use funicular_study::analyses::calibrate::Calibrated;
+use funicular_study::analyses::compare::Compared;
+use funicular_study::analyses::frf;
+use funicular_study::analyses::gust::Gusty;
 use funicular_study::analyses::modes::with_rigid_cables;
 use funicular_study::analyses::settle::Settled;
-use funicular_study::analyses::simulate::{self, Simulated};
+use funicular_study::analyses::simulate::Simulated;
 use funicular_study::analyses::workspace::Workspace;
-use funicular_study::analyses::{compare, frf, gust, settle, statics};
 use funicular_study::at_rest::{self, AtRest, ModesBelow};
 use funicular_study::names::Named;
-use funicular_study::request::{self, Request};
+use funicular_study::request;
 use funicular_study::text::{counted, decimals, significant};
 
 /// Figure with its warnings.
@@ -32,50 +33,6 @@ pub struct RequestFigure {
     pub figure: Figure,
     /// Sentences that the user should know before trusting the figure.
     pub warnings: Vec<String>,
-}
-
-/// Makes the figure of a request: the robot at its equilibrium for `statics`, the spectrum or the shape of one mode for
-/// `modes`, magnitude and phase for `frf`, the decay for `settle`, pose and tensions over time for `simulate`, the spectra
-/// for `gust`, the differences between the cable models for `compare`, the anchors with their ellipses for `calibrate`.
-///
-/// # Errors
-/// A command without a figure, a choice that does not fit the command, or the errors of the command.
-pub fn of_request(
-    request: &Request,
-    robot: Robot,
-    choice: &FigureChoice,
-    watch: &mut dyn Watch,
-) -> Result<RequestFigure> {
-    if choice.mode.is_some() && !matches!(request, Request::Modes(_)) {
-        bail!("⟪figure_mode⟫ chooses a mode shape of `modes`: leave it out for `{}`", request.command());
-    }
-    match request {
-        Request::Statics(of) => equilibrium(robot, of),
-        Request::Modes(of) => natural_frequencies(robot, of, choice),
-        Request::Frf(of) => response(robot, of, watch),
-        Request::Settle(of) => {
-            let found = settle::run(robot, of)?;
-            Ok(RequestFigure { figure: of_decay(&found), warnings: found.warnings })
-        }
-        Request::Gust(of) => {
-            let found = gust::run(robot, of)?;
-            Ok(chart(gusts::chart(&found), found.warnings))
-        }
-        Request::Compare(of) => comparison(robot, of),
-        Request::Calibrate(of) => {
-            let found = calibrate::run(of, watch)?;
-            Ok(RequestFigure { figure: of_calibration(&found), warnings: found.warnings })
-        }
-        Request::Simulate(of) => {
-            let found = simulate::run(robot, of, watch)?;
-            Ok(RequestFigure { figure: of_simulation(&found), warnings: found.warnings })
-        }
-        other => bail!(
-            "`{}` has no figure of its own: `statics`, `modes`, `frf`, `settle`, `simulate`, `gust`, `workspace`, \
-             `compare`, `calibrate` and `plot` write .svg and .pdf; give another ending",
-            other.command()
-        ),
-    }
 }
 
 /// Makes the figure of a decay that has been computed before.
@@ -109,21 +66,28 @@ fn entry(text: impl Into<String>, sample: Sample) -> Entry {
     Entry { text: text.into(), sample }
 }
 
-/// Robot at its equilibrium.
-fn equilibrium(robot: Robot, of: &request::StaticsRequest) -> Result<RequestFigure> {
-    if of.all {
-        bail!("a figure shows one equilibrium: leave out ⟪all⟫");
-    }
-    // The command's own results have the warnings.
-    let warnings = statics::run(robot.clone(), of)?.warnings;
-    let at_rest = at_rest::equilibrium(robot, &of.robot, &of.state, &of.tensions)?;
+/// Makes the figure of the robot at its equilibrium.
+///
+/// # Errors
+/// The errors of `statics`.
+pub fn of_statics(of: &request::StaticsRequest) -> Result<Figure> {
+    let at_rest = at_rest::equilibrium(of.robot.read()?.robot, &of.robot, &of.state, &of.tensions)?;
     let space = Space::new(&at_rest.robot, &at_rest.equilibrium, None, Vec::new());
-    Ok(RequestFigure { figure: Figure(FigureContent::Space(Box::new(space))), warnings })
+    Ok(Figure(FigureContent::Space(Box::new(space))))
 }
 
-/// Spectrum of the natural frequencies, or the shape of one mode.
-fn natural_frequencies(robot: Robot, of: &request::ModesRequest, choice: &FigureChoice) -> Result<RequestFigure> {
-    let at_rest = at_rest::equilibrium(robot, &of.robot, &of.state, &of.tensions)?.vibrating().into_owned();
+/// Makes the figure of the spectra of a response to gusts.
+pub fn of_gust(found: &Gusty) -> Figure {
+    Figure(FigureContent::Chart(gusts::chart(found)))
+}
+
+/// Makes the spectrum of the natural frequencies, or the shape of one mode, whose number counts from 1.
+///
+/// # Errors
+/// The errors of `modes`, and a number that the list does not have.
+pub fn of_modes(of: &request::ModesRequest, mode: Option<usize>) -> Result<RequestFigure> {
+    let at_rest =
+        at_rest::equilibrium(of.robot.read()?.robot, &of.robot, &of.state, &of.tensions)?.vibrating().into_owned();
     let (dynamics, found, warnings) = if of.rigid_cables {
         let (found, warnings) = with_rigid_cables(&at_rest, of)?;
         (None, found, warnings)
@@ -133,7 +97,7 @@ fn natural_frequencies(robot: Robot, of: &request::ModesRequest, choice: &Figure
         let ModesBelow { dynamics, modes, warnings } = at_rest.modes_below(linearisation, limit, modes::MAX_MODES)?;
         (Some(dynamics), modes, warnings)
     };
-    let Some(number) = choice.mode else {
+    let Some(number) = mode else {
         return Ok(chart(spectrum(&at_rest.robot.name, &found), warnings));
     };
 
@@ -280,8 +244,12 @@ const MAX_DECADES: f64 = 8.0;
 /// Minimum distance between the numbers at two peaks, as a fraction of the axis.
 const LABEL_DISTANCE: f64 = 0.05;
 
-/// Magnitude and phase of a frequency response, with its natural frequencies.
-fn response(robot: Robot, of: &request::FrfRequest, watch: &mut dyn Watch) -> Result<RequestFigure> {
+/// Makes the figure of magnitude and phase of a frequency response, with its natural frequencies.
+///
+/// # Errors
+/// The errors of `frf`, and responses with several units.
+pub fn of_frf(of: &request::FrfRequest, watch: &mut dyn Watch) -> Result<RequestFigure> {
+    let robot = of.robot.read()?.robot;
     // A curve has every peak at its height, whatever the requested frequencies.
     let at_rest = at_rest::equilibrium(robot.clone(), &of.robot, &of.state, &of.tensions)?;
     let linearisation = at_rest::linearisation(&of.model, at_rest.equilibrium.model);
@@ -428,9 +396,8 @@ const MIN_DIFFERENCE: f64 = 1e-4;
 const LACKING: f64 = 60.0;
 const LINE: f64 = 1.8;
 
-/// Differences between the natural frequencies of each cable model and those of the reference.
-fn comparison(robot: Robot, of: &request::CompareRequest) -> Result<RequestFigure> {
-    let found = compare::run(robot, of)?;
+/// Makes the figure of the differences between the natural frequencies of each cable model and those of the reference.
+pub fn of_compare(found: &Compared) -> Figure {
     let reference = found.models.iter().find(|model| model.cable_model == found.reference);
     let all: Vec<f64> = reference.map_or_else(Vec::new, |model| model.modes.iter().map(|m| m.frequency_hz).collect());
     let (mut layers, mut legend) = (Vec::new(), Vec::new());
@@ -466,17 +433,13 @@ fn comparison(robot: Robot, of: &request::CompareRequest) -> Result<RequestFigur
             .map(|(at, text)| (at, text.to_owned()))
             .to_vec(),
     );
-    let warnings = found.warnings;
-    Ok(chart(
-        Chart {
-            title: format!("{}: cable models", found.robot),
-            x: ChartAxis::linear("natural frequency [Hz]", 0.0, found.below_hz),
-            panels: vec![Panel::new(y, 0.55, layers)],
-            legend,
-            colour_bar: None,
-        },
-        warnings,
-    ))
+    Figure(FigureContent::Chart(Chart {
+        title: format!("{}: cable models", found.robot),
+        x: ChartAxis::linear("natural frequency [Hz]", 0.0, found.below_hz),
+        panels: vec![Panel::new(y, 0.55, layers)],
+        legend,
+        colour_bar: None,
+    }))
 }
 
 /// Symbol of a cable model, in its colour of all figures.

@@ -1,35 +1,43 @@
 //! Figures as files: what their SVG and PDF contain.
 
 use super::drawing::{Drawing, Item};
-use super::{Figure, FigureChoice, FigureContent, RequestFigure, Size, of_request, style::Type, width_mm};
-use funicular::robot::Robot;
-use funicular_study::{Request, Silent};
+use super::{Figure, FigureContent, Size, of_compare, of_frf, of_modes, of_statics, style::Type, width_mm};
+use funicular_study::{Request, Results, Silent, run};
 use serde_json::json;
 
 mod measured;
 
-fn made(request: serde_json::Value, mode: Option<usize>) -> RequestFigure {
-    let mut request = request;
+fn request_of(mut request: serde_json::Value) -> Request {
     request["robot"] = json!({"name": "robot.toml", "text": funicular_robots::YUAN2014_4MM});
-    let request = Request::from_json(&request.to_string()).unwrap();
-    let robot = Robot::from_toml(funicular_robots::YUAN2014_4MM).unwrap();
-    of_request(&request, robot, &FigureChoice { mode }, &mut Silent).unwrap()
+    Request::from_json(&request.to_string()).unwrap()
+}
+
+fn made(request: serde_json::Value, mode: Option<usize>) -> Figure {
+    match &request_of(request) {
+        Request::Statics(of) => of_statics(of).unwrap(),
+        Request::Modes(of) => of_modes(of, mode).unwrap().figure,
+        Request::Frf(of) => of_frf(of, &mut Silent).unwrap().figure,
+        request => match run(request, &mut Silent).unwrap() {
+            Results::Compare(found) => of_compare(&found),
+            _ => panic!("a command without a figure here"),
+        },
+    }
 }
 
 fn response() -> Figure {
     let request = json!({
         "command": "frf", "from_hz": 0.1, "to_hz": 10.0, "points": 1200, "input": "fz", "output": "az",
     });
-    made(request, None).figure
+    made(request, None)
 }
 
 fn all() -> Vec<(&'static str, Figure)> {
     vec![
-        ("statics", made(json!({"command": "statics"}), None).figure),
-        ("modes", made(json!({"command": "modes", "below_hz": 6.0}), None).figure),
-        ("shape", made(json!({"command": "modes", "below_hz": 2.0}), Some(2)).figure),
+        ("statics", made(json!({"command": "statics"}), None)),
+        ("modes", made(json!({"command": "modes", "below_hz": 6.0}), None)),
+        ("shape", made(json!({"command": "modes", "below_hz": 2.0}), Some(2))),
         ("frf", response()),
-        ("compare", made(json!({"command": "compare", "below_hz": 3.0}), None).figure),
+        ("compare", made(json!({"command": "compare", "below_hz": 3.0}), None)),
     ]
 }
 
@@ -153,12 +161,11 @@ fn columns_of_journals_have_names_and_sizes_have_limits() {
 
 #[test]
 fn a_mode_that_is_not_in_the_list_is_refused() {
-    let mut request = json!({"command": "modes", "below_hz": 2.0});
-    request["robot"] = json!({"name": "robot.toml", "text": funicular_robots::YUAN2014_4MM});
-    let request = Request::from_json(&request.to_string()).unwrap();
-    let robot = Robot::from_toml(funicular_robots::YUAN2014_4MM).unwrap();
+    let Request::Modes(request) = request_of(json!({"command": "modes", "below_hz": 2.0})) else {
+        panic!("the request is of modes")
+    };
     for mode in [0, 99] {
-        let said = of_request(&request, robot.clone(), &FigureChoice { mode: Some(mode) }, &mut Silent).err().unwrap();
+        let said = of_modes(&request, Some(mode)).err().unwrap();
         assert!(said.to_string().contains("give 1 to 8"), "{said}");
     }
 }

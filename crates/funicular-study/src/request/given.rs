@@ -59,9 +59,13 @@ pub fn check_given(command: &str, given: &Object) -> Result<()> {
     Ok(())
 }
 
-/// True for a key that the user gave: a switch that is on, or a value.
+/// True for a key that the user gave: a switch that is on, a value, or a list of values.
 fn is_given(given: &Object, name: &str) -> bool {
-    given.get(name).is_some_and(|value| !matches!(value, Value::Null | Value::Bool(false)))
+    given.get(name).is_some_and(|value| match value {
+        Value::Null | Value::Bool(false) => false,
+        Value::Array(values) => !values.is_empty(),
+        _ => true,
+    })
 }
 
 /// Checks a list of experiments.

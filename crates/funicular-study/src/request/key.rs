@@ -135,8 +135,40 @@ pub enum Kind {
     OneOrMore(ProgramForm),
     /// List of such values, separated by commas.
     Commas(ProgramForm),
-    /// Data of this JSON Schema that the program reads from files, with options that it declares itself.
+    /// Data of this JSON Schema.
     Data(fn() -> Value),
+}
+
+/// Way of reading the value of a key from a file.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Reader {
+    /// Columns of numbers in a CSV file.
+    Columns,
+    /// Columns of numbers in a CSV file, in which cells may be empty.
+    GappedColumns,
+    /// Poses in a CSV file.
+    Poses,
+    /// Events in a TOML file, which names tables.
+    Scenario,
+    /// Robot file with changes of its own.
+    Robot,
+    /// Text of another program.
+    Source,
+    /// Texts of another program; the files are arguments without an option.
+    Sources,
+    /// Files of rows, of which the request has the paths; arguments without an option.
+    Paths,
+    /// File of rows, of which the request has the path; an argument without an option.
+    Path,
+}
+
+/// File from which the program reads the value of a key.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct InputFile {
+    /// Way of reading it.
+    pub reader: Reader,
+    /// Name in messages, such as "the readings".
+    pub role: &'static str,
 }
 
 /// One option of a command.
@@ -164,6 +196,8 @@ pub struct Key {
     pub excludes: &'static [&'static str],
     /// Option of the program; empty if the program has none.
     pub option: String,
+    /// File from which the program reads the value; none for a value that stands in the command line.
+    pub file: Option<InputFile>,
 }
 
 impl Key {
@@ -189,7 +223,13 @@ impl Key {
             needs: None,
             excludes: &[],
             option: String::new(),
+            file: None,
         }
+    }
+
+    /// Names the file from which the program reads the value.
+    pub(crate) fn from_file(self, reader: Reader, role: &'static str) -> Self {
+        Self { file: Some(InputFile { reader, role }), ..self }
     }
 
     /// Refuses requests without this key.
@@ -235,10 +275,11 @@ impl Key {
             self.default = default.cloned().unwrap_or_default();
         }
         if self.option.is_empty()
-            && !matches!(
-                self.kind,
-                Kind::Data(_) | Kind::Poses | Kind::Columns | Kind::GappedColumns | Kind::ByCable(_)
-            )
+            && (self.file.is_some()
+                || !matches!(
+                    self.kind,
+                    Kind::Data(_) | Kind::Poses | Kind::Columns | Kind::GappedColumns | Kind::ByCable(_)
+                ))
         {
             self.option = name.replace('_', "-");
         }
@@ -353,7 +394,7 @@ macro_rules! declared {
 
             #[allow(unused_imports, unused_variables, reason = "not every group has every kind, or a key")]
             fn keys() -> Vec<crate::request::key::Key> {
-                use crate::request::key::{Kind::*, ProgramForm, Range::*, name};
+                use crate::request::key::{Kind::*, ProgramForm, Range::*, Reader, name};
                 use crate::request::shape;
                 let defaults = serde_json::to_value(Self::default()).unwrap_or_default();
                 let keys: Vec<Vec<crate::request::key::Key>> = vec![

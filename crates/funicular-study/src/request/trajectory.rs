@@ -15,7 +15,8 @@ declared! {
         robot: RobotText = RobotText::default() => (Data(shape::robot)).required();
         /// Path: columns t_s [s], x_m, y_m, z_m [m] and, where the platform turns, roll_deg, pitch_deg, yaw_deg; a
         /// spline of the fifth degree passes the rows.
-        path: Option<NumberColumns> = None => (Columns).under("Path");
+        path: Option<NumberColumns> = None => (Columns).under("Path").excludes(&["pose", "lengths_m"])
+            .from_file(Reader::Columns, "the path");
         /// Smooth the rows of ⟪path⟫ by less than this distance [m]: half a unit of their last digit takes their
         /// rounding out. Angles change by less than what moves the attachments as far.
         row_tolerance_m: Option<f64> = None => (Number(Positive)).under("Path")
@@ -24,7 +25,8 @@ declared! {
         /// to rest.
         move_to: Option<Pose> = None => (Pose).under("Path");
         /// Poses on the way to ⟪move_to⟫: position [m] and roll, pitch, yaw [degrees].
-        via: Option<Vec<[f64; 6]>> = None => (Poses).under("Path").needs("move_to");
+        via: Option<Vec<[f64; 6]>> = None => (Poses).under("Path").needs("move_to")
+            .from_file(Reader::Poses, "the poses");
         /// Pick and place: lift the platform by this height [m], carry it to ⟪move_to⟫, and lower it there.
         lift_m: Option<f64> = None => (Number(Positive)).under("Path").needs("move_to");
         /// Part of the time of slowing down by which the next move begins earlier, so that the path rounds the corner:

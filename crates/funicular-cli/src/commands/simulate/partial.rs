@@ -3,6 +3,7 @@
 
 use crate::errors;
 use anyhow::{Context, Result, bail};
+use funicular_answers::outputs::as_csv;
 use funicular_files::atomic_file::TemporaryFile;
 use funicular_files::endings::Kind;
 use funicular_files::{Begin, Checksum, Guard};
@@ -23,7 +24,7 @@ const FLUSH: Duration = Duration::from_secs(1);
 const MARK: &str = concat!("funicular simulate 2, ", env!("CARGO_PKG_VERSION"), "\n");
 
 /// Files of a run that has not ended; none for a result that is no CSV file.
-pub(super) struct PartialRows {
+pub(in crate::commands) struct PartialRows {
     files: Option<OpenFiles>,
     names: RowNames,
     /// Request whose rows these are, as it stands in the state.
@@ -54,7 +55,7 @@ impl OpenFiles {
 
 impl PartialRows {
     /// Files beside the result, with the run that has begun if it is to be continued.
-    pub(super) fn beside(
+    pub(in crate::commands) fn beside(
         path: Option<&Path>,
         of: &SimulateRequest,
         names: RowNames,
@@ -143,7 +144,7 @@ impl PartialRows {
     }
 
     /// Removes the files after the whole result has been written.
-    pub(super) fn remove(self) {
+    pub(in crate::commands) fn remove(self) {
         if let Some(OpenFiles { rows, path, state, .. }) = self.files {
             drop(rows);
             // The result is complete; files that stay do no harm.
@@ -162,7 +163,7 @@ fn begun_bytes(text: &[u8], rows: usize) -> usize {
 impl RowKeeper for PartialRows {
     fn row(&mut self, row: &SimulatedRow) -> Result<()> {
         let Some(files) = &mut self.files else { return Ok(()) };
-        let csv = crate::output::as_csv(ResultTable::new(SimulatedRow::columns(&self.names), [row]))?;
+        let csv = as_csv(ResultTable::new(SimulatedRow::columns(&self.names), [row]))?;
         // The header stands before the first row only.
         let header = csv.iter().position(|byte| *byte == b'\n').map_or(0, |end| end + 1);
         files.write(&csv[if files.rows.is_none() { 0 } else { header }..])

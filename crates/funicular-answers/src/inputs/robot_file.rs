@@ -1,17 +1,21 @@
 //! Reading of the robot file's text. The study crate interprets it.
 
-use crate::args::ChangeArgs;
-use crate::read_files;
+use super::FilesRead;
 use anyhow::{Context, Result, bail};
-use funicular_files::{Guard, beside};
-use funicular_study::request::RobotText;
+use funicular_files::beside;
+use funicular_study::request::{Change, RobotText};
 use funicular_study::robot_file::{self, MAX_BYTES};
+use std::cell::RefCell;
 use std::fs::File;
 use std::io::{self, Read};
 use std::path::Path;
 
-/// Reads the text of the robot file that the arguments name, or without a path the one that is built into the program.
-pub(crate) fn read(path: Option<&Path>, changes: &ChangeArgs) -> Result<RobotText> {
+/// Reads the text of a robot file with changes, or without a path the robot that is built into the program. `role` is
+/// the name of the file in messages.
+///
+/// # Errors
+/// A file that cannot be read.
+pub fn read(path: Option<&Path>, changes: &[Change], role: &'static str, read: &mut FilesRead) -> Result<RobotText> {
     let (name, text) = match path {
         None => {
             let RobotText { name, text, .. } = RobotText::embedded();
@@ -19,40 +23,30 @@ pub(crate) fn read(path: Option<&Path>, changes: &ChangeArgs) -> Result<RobotTex
         }
         Some(path) if path.as_os_str() == "-" => {
             let name = "<stdin>".to_owned();
+            read.add(role, Path::new("/dev/stdin"));
             let text = limited(io::stdin().lock(), &name)?;
-            let text = with_meshes(&name, text, Path::new(""))?;
+            let text = with_meshes(&name, text, Path::new(""), read)?;
             (name, text)
         }
         Some(path) => {
             let name = path.display().to_string();
             let text = limited(open(path, &name)?, &name)?;
-            read_files::note("the robot file", path);
-            let text = with_meshes(&name, text, path.parent().unwrap_or(Path::new("")))?;
+            read.add(role, path);
+            let text = with_meshes(&name, text, path.parent().unwrap_or(Path::new("")), read)?;
             (name, text)
         }
     };
-    Ok(RobotText { name, text, set: changes.set.clone() })
+    Ok(RobotText { name, text, set: changes.to_vec() })
 }
 
 /// Text of a robot file in this folder with the meshes that it names.
-fn with_meshes(name: &str, text: String, folder: &Path) -> Result<String> {
-    let read = beside(folder);
+fn with_meshes(name: &str, text: String, folder: &Path, read: &mut FilesRead) -> Result<String> {
+    let bytes_of = beside(folder);
+    let files = RefCell::new(read);
     robot_file::with_meshes(name, text, |mesh| {
-        read_files::note("the mesh", &folder.join(mesh));
-        read(mesh)
+        files.borrow_mut().add("the mesh", &folder.join(mesh));
+        bytes_of(mesh)
     })
-}
-
-/// Guard of a command's files that knows the robot file, also if it is standard input, and what has been read by the
-/// names in other files.
-pub(crate) fn guard(path: Option<&Path>) -> Guard {
-    let mut guard = Guard::default();
-    if let Some(path) = path {
-        let path = if path.as_os_str() == "-" { Path::new("/dev/stdin") } else { path };
-        guard.reads("the robot file", path);
-    }
-    read_files::tell(&mut guard);
-    guard
 }
 
 fn open(path: &Path, name: &str) -> Result<File> {

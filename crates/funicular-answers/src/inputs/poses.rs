@@ -1,11 +1,9 @@
 //! Reading of poses from a CSV file.
 
-use crate::errors;
 use anyhow::{Context, Result, anyhow, bail};
 use funicular::robot::{PlatformMotion, Pose, Robot};
 use funicular_formats::csv_lines::CsvText;
 use funicular_study::at_rest::refuse_orientation;
-use funicular_study::request::RobotText;
 use funicular_study::written::number;
 use std::fs;
 use std::path::Path;
@@ -13,22 +11,17 @@ use std::path::Path;
 /// Columns of a file of poses.
 const COLUMNS: [&str; 6] = ["x_m", "y_m", "z_m", "roll_deg", "pitch_deg", "yaw_deg"];
 
-/// Reads the poses of a file for the robot of a request; `None` if no file is given.
-pub(crate) fn read_if_given(path: Option<&Path>, robot: &RobotText) -> Result<Option<Vec<[f64; 6]>>> {
-    path.map(|path| read(path, &robot.read()?.robot)).transpose()
-}
-
 /// Reads position [m] and roll, pitch, yaw [degrees] of every line. Other columns are ignored, and a note names them.
 ///
 /// # Errors
 /// A file that cannot be read or has no poses; a pose column that is missing, is there twice or has another unit; a
 /// value that is not a number; or an angle of a point mass.
-fn read(path: &Path, robot: &Robot) -> Result<Vec<[f64; 6]>> {
+pub(super) fn read(path: &Path, robot: &Robot, notes: &mut Vec<String>) -> Result<Vec<[f64; 6]>> {
     let shown = path.display();
     let bytes = fs::read(path).with_context(|| format!("cannot read the poses {shown}"))?;
     let name = shown.to_string();
     let text = CsvText::open(&name, &bytes)?;
-    let places = places(&text.header).map_err(|reason| anyhow!("{shown} {reason}"))?;
+    let places = places(&text.header, notes).map_err(|reason| anyhow!("{shown} {reason}"))?;
 
     let is_point_mass = robot.platform.motion == PlatformMotion::PointMass;
     let mut poses = Vec::new();
@@ -54,7 +47,7 @@ fn read(path: &Path, robot: &Robot) -> Result<Vec<[f64; 6]>> {
 }
 
 /// Place of each column. An unknown column is reported, and refused if its name is close to that of a pose column.
-fn places(header: &[String]) -> Result<[Option<usize>; 6], String> {
+fn places(header: &[String], notes: &mut Vec<String>) -> Result<[Option<usize>; 6], String> {
     let mut places = [None; 6];
     let mut others = Vec::new();
 
@@ -84,7 +77,7 @@ fn places(header: &[String]) -> Result<[Option<usize>; 6], String> {
         ));
     }
     if !others.is_empty() {
-        errors::note(&format!("columns that do not belong to a pose are ignored: {}", others.join(", ")));
+        notes.push(format!("columns that do not belong to a pose are ignored: {}", others.join(", ")));
     }
 
     Ok(places)
@@ -96,7 +89,7 @@ mod tests {
 
     #[test]
     fn columns_are_found_in_any_order_and_those_of_a_pose_in_another_unit_refused() {
-        let of = |line: &str| places(&line.split(',').map(str::to_owned).collect::<Vec<_>>());
+        let of = |line: &str| places(&line.split(',').map(str::to_owned).collect::<Vec<_>>(), &mut Vec::new());
         assert_eq!(of("t_s,z_m,x_m,y_m,yaw_deg"), Ok([Some(2), Some(3), Some(1), None, None, Some(4)]));
         assert_eq!(of("x_m,y_m,z_m,x_dot_m_s"), Ok([Some(0), Some(1), Some(2), None, None, None]));
         for (line, says) in [

@@ -12,7 +12,7 @@ use std::path::Path;
 ///
 /// # Errors
 /// A file that cannot be read, or a fault of its table; the message names the line.
-pub(crate) fn read(
+pub(super) fn read(
     path: &Path,
     what: &str,
     check: impl FnOnce(&NumberColumns) -> Result<(), TableFault>,
@@ -24,7 +24,7 @@ pub(crate) fn read(
 ///
 /// # Errors
 /// Those of [`read`].
-pub(crate) fn read_with_gaps(
+pub(super) fn read_with_gaps(
     path: &Path,
     what: &str,
     check: impl FnOnce(&GappedColumns) -> Result<(), TableFault>,

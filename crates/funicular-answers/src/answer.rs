@@ -1,0 +1,111 @@
+//! Run of a request with results, whatever its command: on several threads where the work has parts, with rows or
+//! samples in a file that survives interruptions.
+
+use anyhow::{Context, Result, bail};
+use funicular::robot::Robot;
+use funicular_files::{Begin, UncertaintyOutcome, UncertaintyRun, WorkspaceRun};
+use funicular_study::analyses::simulate::{self, BegunRun, RowKeeper};
+use funicular_study::analyses::uncertainty::UncertaintyStudy;
+use funicular_study::analyses::workspace::WorkspaceStudy;
+use funicular_study::request::Request;
+use funicular_study::text::counted;
+use funicular_study::{Cancelled, Results, Watch, run_on};
+use std::num::NonZeroUsize;
+use std::path::Path;
+use std::sync::atomic::{AtomicBool, Ordering};
+use thiserror::Error;
+
+/// Work that was stopped from outside, with what remains of it.
+#[derive(Debug, Error)]
+#[error("{0}")]
+pub struct Stopped(pub String);
+
+/// Way of running a request.
+pub struct Running<'a> {
+    /// Observer of the work.
+    pub watch: &'a mut dyn Watch,
+    /// Number of threads, for the commands that use several.
+    pub threads: NonZeroUsize,
+    /// Flag that stops work on several threads.
+    pub cancel: &'a AtomicBool,
+    /// File for the sampled robots of `uncertainty`, and the treatment of the work of an earlier run.
+    pub samples: Option<(&'a Path, Begin)>,
+    /// True if the results are drawn as a figure, which some do not have.
+    pub has_figure: bool,
+    /// Keeper of the rows of `simulate`, and the run that has begun.
+    pub keeper: Option<(&'a mut dyn RowKeeper, Option<BegunRun>)>,
+}
+
+/// Results, and the reason why they are a part of what was wanted.
+pub struct Answer {
+    /// Results.
+    pub results: Results,
+    /// Error of work that was stopped with these results.
+    pub stopped: Option<anyhow::Error>,
+}
+
+impl Running<'_> {
+    /// Progress of work on several threads, which the observer can stop.
+    fn report(&mut self, done: usize, total: usize, what: &'static str) {
+        self.watch.progress(done, total, what);
+        if self.watch.is_cancelled() {
+            self.cancel.store(true, Ordering::Relaxed);
+        }
+    }
+}
+
+/// Runs a request whose robot, if it has one, has been read before.
+///
+/// # Errors
+/// The errors of the command; [`Stopped`] for work that was stopped without results.
+pub fn run(request: &Request, robot: Option<Robot>, how: Running<'_>) -> Result<Answer> {
+    let of_robot = |robot: Option<Robot>| robot.with_context(|| format!("`{}` needs a robot", request.command()));
+    match request {
+        Request::Workspace(of) => {
+            let study = WorkspaceStudy::new(of_robot(robot)?, of)?;
+            if how.has_figure && !study.has_sections() {
+                bail!("a figure of a workspace shows its sections: give ⟪section⟫, as in z=0.5,1,1.5");
+            }
+            workspace(&study, how)
+        }
+        Request::Uncertainty(of) => uncertainty(&UncertaintyStudy::new(of)?, how),
+        Request::Simulate(of) => {
+            let robot = of_robot(robot)?;
+            let found = match how.keeper {
+                Some((keeper, begun)) => simulate::run_with(robot, of, how.watch, keeper, begun)?,
+                None => simulate::run(robot, of, how.watch)?,
+            };
+            let stopped = found.stopped_at_s.map(|_| Cancelled.into());
+            Ok(Answer { results: Results::Simulate(Box::new(found)), stopped })
+        }
+        _ => Ok(Answer { results: run_on(request, robot, how.watch)?, stopped: None }),
+    }
+}
+
+fn workspace(study: &WorkspaceStudy, mut how: Running<'_>) -> Result<Answer> {
+    let (threads, cancel) = (how.threads, how.cancel);
+    let mut positions = 0;
+    let mut report = |done: usize, total: usize, what: &'static str| {
+        positions = done;
+        how.report(done, total, what);
+    };
+    let found = WorkspaceRun { threads, cancel }.run(study, &mut report)?;
+    let found = found.ok_or_else(|| {
+        Stopped(format!(
+            "stopped after {}, before the first steps of the grid were done: there is no set yet; give a ⟪grid⟫ with \
+             fewer values",
+            counted(positions, "position")
+        ))
+    })?;
+    let is_stopped = cancel.load(Ordering::Relaxed);
+    let stopped = is_stopped.then(|| Stopped("stopped: the result is what was found until then".to_owned()).into());
+    Ok(Answer { results: Results::Workspace(Box::new(found)), stopped })
+}
+
+fn uncertainty(study: &UncertaintyStudy, mut how: Running<'_>) -> Result<Answer> {
+    let run = UncertaintyRun { threads: how.threads, samples: how.samples, cancel: how.cancel };
+    match run.run(study, &mut |done, total, what| how.report(done, total, what))? {
+        UncertaintyOutcome::Complete(found) => Ok(Answer { results: Results::Uncertainty(*found), stopped: None }),
+        UncertaintyOutcome::Stopped(sentence) => Err(Stopped(sentence).into()),
+    }
+}

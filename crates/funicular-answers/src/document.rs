@@ -1,0 +1,171 @@
+//! Commands whose result is a file itself: robot files, schemas, pages, files of other programs.
+
+use crate::outputs::{self, size_of_page};
+use anyhow::{Result, bail};
+use funicular_files::SweepFile;
+use funicular_files::endings::Kind;
+use funicular_formats::export::{self, ExportFormat};
+use funicular_formats::{import, new_robot};
+use funicular_pages::pages;
+use funicular_study::names::SchemaSubject;
+use funicular_study::request::{ExportRequest, Request, SchemaRequest};
+use funicular_study::wording::{Words, worded};
+use funicular_study::{Watch, schema};
+use serde_json::Value;
+use std::path::{Path, PathBuf};
+
+/// Default destination of a file.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Default {
+    /// Standard output.
+    Stdout,
+    /// File of this name.
+    File(&'static str),
+    /// File of the rows, with the ending .html.
+    BesideRows,
+}
+
+/// Commands whose result is a file, with the default destination and the meaning of their `-o`.
+const DOCUMENTS: [(&str, Default, &str); 8] = [
+    ("new", Default::Stdout, "Write the robot file to FILE, which must not exist yet; - is standard output"),
+    ("schema", Default::Stdout, TO_FILE),
+    ("import", Default::Stdout, TO_FILE),
+    ("export", Default::Stdout, TO_FILE),
+    ("report", Default::File("funicular-report.html"), TO_PAGE),
+    ("live", Default::File("funicular-live.html"), TO_PAGE),
+    ("paper", Default::File("funicular-paper.html"), TO_PAGE),
+    ("plot", Default::BesideRows, TO_PAGE_OR_FIGURE),
+];
+
+const TO_FILE: &str = "Write to FILE, completely or not at all; - is standard output";
+const TO_PAGE_OR_FIGURE: &str = "Write the page to FILE, completely or not at all; - is standard output [default: \
+                                 FILE.parquet with the ending .html]. FILE.svg and FILE.pdf hold one figure";
+const TO_PAGE: &str = "Write the page to FILE, completely or not at all; - is standard output";
+
+/// Default destination of a command whose result is a file, and the meaning of its `-o`; `None` for other commands.
+pub fn destination(command: &str) -> Option<(Default, &'static str)> {
+    DOCUMENTS.iter().find(|(name, _, _)| *name == command).map(|(_, default, about)| (*default, *about))
+}
+
+/// Content of the file of a command.
+#[derive(Debug, Clone, Copy)]
+pub struct Form {
+    /// Name in messages: "the page".
+    pub name: &'static str,
+    /// Content in messages: "a page".
+    pub in_words: &'static str,
+    /// Kinds of files that hold it.
+    pub kinds: &'static [Kind],
+    /// True if a file that exists is never replaced.
+    pub is_new: bool,
+}
+
+/// Content of the file of a request; `None` for a command that has results.
+pub fn form(request: &Request) -> Option<Form> {
+    const ROBOT: Form = Form { name: "the robot file", in_words: "a robot file", kinds: &[Kind::Toml], is_new: false };
+    const PAGE: Form = Form { name: "the page", in_words: "a page", kinds: &[Kind::Html], is_new: false };
+    Some(match request {
+        Request::New(_) => Form { is_new: true, ..ROBOT },
+        Request::Schema(_) => Form { name: "the schema", in_words: "a JSON Schema", kinds: &[Kind::Json], ..ROBOT },
+        Request::Import(of) if of.trajectory.is_some() => {
+            Form { name: "the table", in_words: "a table", kinds: &[Kind::Csv], ..ROBOT }
+        }
+        Request::Import(_) => ROBOT,
+        Request::Export(of) => of_export(of),
+        Request::Report(_) | Request::Live(_) | Request::Paper(_) | Request::Plot(_) => PAGE,
+        _ => return None,
+    })
+}
+
+/// Content of an exported file.
+fn of_export(of: &ExportRequest) -> Form {
+    let (in_words, kinds): (_, &[Kind]) = match of.to {
+        ExportFormat::Opensees => ("a Python script for OpenSees", &[Kind::Python]),
+        ExportFormat::Moordyn if of.scenario.is_some() => ("a Python script for MoorDyn", &[Kind::Python]),
+        ExportFormat::Moordyn => ("an input file of MoorDyn", &[Kind::Text]),
+        ExportFormat::Mujoco => ("a model of MuJoCo", &[Kind::Xml]),
+        ExportFormat::Sdf => ("a world of Gazebo", &[Kind::Sdf]),
+        ExportFormat::Urdf => ("a robot in URDF", &[Kind::Urdf]),
+        ExportFormat::Vtk => ("curves and polygons of VTK", &[Kind::Vtp]),
+        ExportFormat::C => ("C source", &[Kind::C]),
+        ExportFormat::Json => ("a table of lengths in JSON", &[Kind::Json]),
+    };
+    Form { name: "the exported robot", in_words, kinds, is_new: false }
+}
+
+/// Destination of a document without another one; `None` is standard output.
+pub fn default_path(request: &Request) -> Option<PathBuf> {
+    match (destination(request.command())?.0, request) {
+        (Default::File(name), _) => Some(name.into()),
+        (Default::BesideRows, Request::Plot(of)) => Some(Path::new(&of.file).with_extension("html")),
+        _ => None,
+    }
+}
+
+/// File that a command has made.
+pub struct Document {
+    /// Content.
+    pub text: String,
+    /// Size in words, of pages.
+    pub size: Option<String>,
+    /// Sentences that the user should know before using it.
+    pub warnings: Vec<String>,
+    /// Notes about a file that was written.
+    pub notes: Vec<String>,
+}
+
+/// Text of a schema. That of requests has the files that each command writes.
+fn schema_of(of: &SchemaRequest) -> Result<String> {
+    let text = schema::of_request(of, vec![funicular_validation::tables()]);
+    if of.of != SchemaSubject::Request {
+        return Ok(text);
+    }
+    let mut schema: Value = serde_json::from_str(&text)?;
+    for form in schema["oneOf"].as_array_mut().into_iter().flatten() {
+        let command = form["title"].as_str().unwrap_or_default().to_owned();
+        if let (Some(files), Some(keys)) = (outputs::schema(&command), form["properties"].as_object_mut()) {
+            keys.insert(outputs::FILES.to_owned(), files);
+        }
+    }
+    Ok(format!("{schema:#}\n"))
+}
+
+/// Makes the file of a request. `call` makes it again, and `words` are those for the names of options.
+///
+/// # Errors
+/// The errors of the command, and a command that has results.
+pub fn make(request: &Request, call: &str, words: Words, watch: &mut dyn Watch) -> Result<Document> {
+    let text = |text: String, warnings: Vec<String>| Document { text, size: None, warnings, notes: Vec::new() };
+    let page =
+        |html: String, warnings: Vec<String>| Document { size: Some(size_of_page(html.len())), ..text(html, warnings) };
+    Ok(match request {
+        Request::New(of) => {
+            let made = new_robot::run(of, words)?;
+            let notes = vec![made.pose_line()];
+            Document { notes, ..text(made.text, made.warnings) }
+        }
+        Request::Schema(of) => text(schema_of(of)?, Vec::new()),
+        Request::Import(of) => {
+            let import::Imported { text: made, assumed, lost } = import::run(of, words)?;
+            let assumed = assumed.iter().map(|fact| format!("assumed: {fact}"));
+            text(made, assumed.chain(lost.iter().map(|fact| format!("not carried over: {fact}"))).collect())
+        }
+        Request::Export(of) => {
+            let made = export::of_request(of.robot.read()?.robot, of)?;
+            text(made.text, made.warnings)
+        }
+        Request::Report(of) => {
+            let made = pages::report::of_request(of, of.robot.read()?, call.to_owned())?;
+            page(worded(&made.html, words), made.warnings)
+        }
+        // The page words its messages itself.
+        Request::Live(of) => page(pages::live::live(of)?, Vec::new()),
+        Request::Paper(_) => page(worded(&pages::paper::paper(call.to_owned())?, words), Vec::new()),
+        Request::Plot(of) => {
+            let rows = SweepFile::open(Path::new(&of.file))?;
+            let made = pages::plot::plot(&rows, of.file.clone(), call.to_owned(), watch)?;
+            page(worded(&made.html, words), made.notes)
+        }
+        other => bail!("the result of `{}` is no file of its own", other.command()),
+    })
+}

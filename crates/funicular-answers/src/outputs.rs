@@ -1,0 +1,732 @@
+//! Files that commands write besides their result: one table, from which the program has its options, Python its
+//! keywords and a request in JSON its `files`.
+
+use crate::destination::{Bytes, Content, Destination};
+use crate::matrices;
+use anyhow::{Result, anyhow, bail};
+use funicular_files::endings::{self, Kind};
+use funicular_files::{Guard, SweepFile};
+use funicular_formats::surface::{self, SurfaceFormat};
+use funicular_formats::uff_writing::{frf_file, modes_file};
+use funicular_pages::figures::{self, Figure, RequestFigure, Size};
+use funicular_pages::pages;
+use funicular_pages::pages::plot::SweepFigureChoice;
+use funicular_study::analyses::workspace::Workspace;
+use funicular_study::columns::ResultTable;
+use funicular_study::request::{Request, keys_of};
+use funicular_study::text::counted;
+use funicular_study::wording::{Words, worded};
+use funicular_study::{Results, Watch};
+use serde_json::{Map, Value, json};
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+/// File that a command writes besides its result.
+pub struct Output {
+    /// Name: of the option, written with `-` for `_`, of the keyword and of the key in `files` of a request.
+    pub key: &'static str,
+    /// Meaning.
+    pub about: &'static str,
+    /// Name of the file in messages: "the page".
+    pub name: &'static str,
+    /// Content of the file in messages: "a page".
+    pub in_words: &'static str,
+    /// Kinds of files that hold it.
+    pub kinds: &'static [Kind],
+    /// True if `-o` with such an ending means this file.
+    pub by_ending: bool,
+    /// True if there may be several such files.
+    pub several: bool,
+    /// True if a folder can hold it as well.
+    pub folder: bool,
+    /// Key of the request without which there is no such file.
+    pub needs: Option<&'static str>,
+    /// Refuses a request without such a file, before the work.
+    check: fn(&Given, &Path) -> Result<()>,
+    /// True if it is made of the request alone, without results.
+    of_request: bool,
+    make: Make,
+}
+
+/// Way of making a file.
+#[derive(Clone, Copy)]
+enum Make {
+    /// HTML page.
+    Page(fn(&Answered<'_>) -> Result<String>),
+    /// Figure that is drawn in the format of the file.
+    Figure(fn(&Answered<'_>, &FigureOptions, &mut dyn Watch) -> Result<Drawn>),
+    /// Bytes by the kind of the file.
+    Bytes(fn(&Answered<'_>, Option<Kind>) -> Result<Made>),
+}
+
+/// Request with its results, from which files are made.
+#[derive(Clone, Copy)]
+pub struct Answered<'a> {
+    /// Request.
+    pub request: &'a Request,
+    /// Results; none for a command whose result is a file.
+    pub results: Option<&'a Results>,
+    /// Command or code that makes the file again, for pages.
+    pub call: &'a str,
+    /// Words for the names of options.
+    pub words: Words,
+}
+
+/// Size of figures, and choice of what they show.
+#[derive(Debug, Clone, Default)]
+pub struct FigureOptions {
+    /// Width [mm].
+    pub width_mm: Option<f64>,
+    /// Size of the texts [pt].
+    pub font_size_pt: Option<f64>,
+    /// Number of the mode of `modes` whose shape is drawn.
+    pub mode: Option<usize>,
+    /// Quantity and slice of a map or sweep.
+    pub of_rows: SweepFigureChoice,
+}
+
+impl FigureOptions {
+    /// Keys of the options that are given.
+    pub fn given(&self) -> impl Iterator<Item = &'static str> {
+        let SweepFigureChoice { quantity, plane, at } = &self.of_rows;
+        let all = [
+            (self.width_mm.is_some(), "figure_width_mm"),
+            (self.font_size_pt.is_some(), "font_size_pt"),
+            (self.mode.is_some(), "figure_mode"),
+            (quantity.is_some(), "quantity"),
+            (plane.is_some(), "plane"),
+            (!at.is_empty(), "at"),
+        ];
+        all.into_iter().filter(|(is_given, _)| *is_given).map(|(_, key)| key)
+    }
+}
+
+/// Keys of a request that are given, as JSON.
+pub type Given = Map<String, Value>;
+
+/// Content of a file, ready to be written.
+pub(crate) struct Made {
+    pub(crate) bytes: Bytes,
+    /// Sentences about the file that the user should know.
+    pub(crate) warnings: Vec<String>,
+    /// Notes for the user.
+    pub(crate) notes: Vec<String>,
+    /// Size of the content in words.
+    pub(crate) size: Option<String>,
+}
+
+impl From<Vec<u8>> for Made {
+    fn from(bytes: Vec<u8>) -> Self {
+        Self { bytes: Bytes::File(bytes), warnings: Vec::new(), notes: Vec::new(), size: None }
+    }
+}
+
+/// Figure with sentences about it.
+struct Drawn {
+    figure: Figure,
+    warnings: Vec<String>,
+    notes: Vec<String>,
+}
+
+fn plain(figure: Figure) -> Drawn {
+    Drawn { figure, warnings: Vec::new(), notes: Vec::new() }
+}
+
+impl From<RequestFigure> for Drawn {
+    fn from(RequestFigure { figure, warnings }: RequestFigure) -> Self {
+        Self { figure, warnings, notes: Vec::new() }
+    }
+}
+
+/// Size of a page in words.
+pub(crate) fn size_of_page(bytes: usize) -> String {
+    format!("{:.1} MB", bytes as f64 / 1e6)
+}
+
+/// Results of one command, from those of any.
+macro_rules! of {
+    ($Variant:ident, $at:ident, $found:ident => $made:expr) => {
+        match $at.results {
+            Some(Results::$Variant($found)) => $made,
+            _ => bail!("`{}` has no such file", $at.request.command()),
+        }
+    };
+}
+
+fn always(_: &Given, _: &Path) -> Result<()> {
+    Ok(())
+}
+
+type BytesOf = fn(&Answered<'_>, Option<Kind>) -> Result<Made>;
+
+/// File that `-o` does not name by its ending. `words` are its name and its content in messages.
+const fn file(
+    key: &'static str,
+    about: &'static str,
+    words: [&'static str; 2],
+    kinds: &'static [Kind],
+    make: Make,
+) -> Output {
+    let [name, in_words] = words;
+    Output {
+        key,
+        about,
+        name,
+        in_words,
+        kinds,
+        by_ending: false,
+        several: false,
+        folder: false,
+        needs: None,
+        check: always,
+        of_request: false,
+        make,
+    }
+}
+
+const fn page(about: &'static str, make: fn(&Answered<'_>) -> Result<String>) -> Output {
+    Output { by_ending: true, ..file("page", about, ["the page", "a page"], &[Kind::Html], Make::Page(make)) }
+}
+
+const fn figure(
+    about: &'static str,
+    make: fn(&Answered<'_>, &FigureOptions, &mut dyn Watch) -> Result<Drawn>,
+) -> Output {
+    let words = ["the figure", "a figure"];
+    Output { by_ending: true, ..file("figure", about, words, &[Kind::Svg, Kind::Pdf], Make::Figure(make)) }
+}
+
+/// Figure that is made of the request alone.
+const fn drawn(
+    about: &'static str,
+    make: fn(&Answered<'_>, &FigureOptions, &mut dyn Watch) -> Result<Drawn>,
+) -> Output {
+    Output { of_request: true, ..figure(about, make) }
+}
+
+const fn robot_file(key: &'static str, about: &'static str, make: BytesOf) -> Output {
+    let words = ["the robot file", "a robot file"];
+    Output { by_ending: true, ..file(key, about, words, &[Kind::Toml], Make::Bytes(make)) }
+}
+
+const fn universal_file(make: BytesOf) -> Output {
+    let (about, words) = ("Write the result as a Universal File", ["the Universal File", "a Universal File"]);
+    Output { by_ending: true, ..file("universal_file", about, words, &[Kind::Uff], Make::Bytes(make)) }
+}
+
+const fn lengths(about: &'static str, make: BytesOf) -> Output {
+    file("lengths", about, ["the lengths", "CSV"], &[Kind::Csv], Make::Bytes(make))
+}
+
+/// Surface of a workspace in the format of its file.
+fn surface_of(found: &Workspace, kind: Option<Kind>) -> Result<Made> {
+    let format = match kind {
+        Some(Kind::Stl) => SurfaceFormat::Stl,
+        Some(Kind::Ply) => SurfaceFormat::Ply,
+        _ => SurfaceFormat::Vtp,
+    };
+    let bytes = surface::of_workspace(found, format)?;
+    Ok(Made { size: Some(counted(found.triangles.len(), "triangle")), ..bytes.into() })
+}
+
+/// Table as CSV with a header.
+///
+/// # Errors
+/// A cell that cannot be written.
+pub fn as_csv(ResultTable { columns, mut rows }: ResultTable<'_>) -> Result<Vec<u8>> {
+    let mut table = csv::Writer::from_writer(Vec::new());
+    table.write_record(columns.iter().map(|column| &column.name))?;
+    rows.try_for_each(|row| table.serialize(row))?;
+    table.into_inner().map_err(|error| anyhow!("{}", error.error()))
+}
+
+/// Files of each command besides its result, in the order in which they are opened and written.
+static OUTPUTS: &[(&str, &[Output])] = &[
+    (
+        "statics",
+        &[Output {
+            check: |given, _| match given.get("all") {
+                Some(Value::Bool(true)) => bail!("a figure shows one equilibrium: leave out ⟪all⟫"),
+                _ => Ok(()),
+            },
+            ..drawn("Draw the robot at its equilibrium", |at, _, _| match at.request {
+                Request::Statics(of) => Ok(plain(figures::of_statics(of)?)),
+                other => bail!("`{}` has no such file", other.command()),
+            })
+        }],
+    ),
+    (
+        "modes",
+        &[
+            drawn("Draw the spectrum, or the shape of one mode", |at, options, _| match at.request {
+                Request::Modes(of) => Ok(figures::of_modes(of, options.mode)?.into()),
+                other => bail!("`{}` has no such file", other.command()),
+            }),
+            universal_file(|at, _| of!(Modes, at, found => Ok(modes_file(found).into()))),
+        ],
+    ),
+    (
+        "frf",
+        &[
+            drawn("Draw magnitude and phase", |at, _, watch| match at.request {
+                Request::Frf(of) => Ok(figures::of_frf(of, watch)?.into()),
+                other => bail!("`{}` has no such file", other.command()),
+            }),
+            universal_file(|at, _| of!(Frf, at, found => Ok(frf_file(found)?.into()))),
+        ],
+    ),
+    (
+        "settle",
+        &[
+            page(
+                "Write a page with the decay of the point and its modes",
+                |at| of!(Settle, at, found => pages::settle::page(found, at.call.to_owned())),
+            ),
+            figure(
+                "Draw the decay of the point",
+                |at, _, _| of!(Settle, at, found => Ok(plain(figures::of_decay(found)))),
+            ),
+            Output {
+                needs: Some("sample_time_s"),
+                ..lengths(
+                    "Write the commanded lengths: t_s, and unstrained_length_NAME_m of every cable [m]",
+                    |at, _| {
+                        of!(Settle, at, found => match &found.commanded {
+                            Some(commanded) => Ok(as_csv(commanded.lengths_table())?.into()),
+                            None => bail!("a release has no commanded lengths: leave out ⟪lengths⟫"),
+                        })
+                    },
+                )
+            },
+        ],
+    ),
+    (
+        "gust",
+        &[figure(
+            "Draw the spectra of motions and tensions",
+            |at, _, _| of!(Gust, at, found => Ok(plain(figures::of_gust(found)))),
+        )],
+    ),
+    (
+        "compare",
+        &[figure(
+            "Draw the differences between the cable models",
+            |at, _, _| of!(Compare, at, found => Ok(plain(figures::of_compare(found)))),
+        )],
+    ),
+    (
+        "uncertainty",
+        &[page(
+            "Write a page with the deviations and what they come from",
+            |at| of!(Uncertainty, at, found => pages::uncertainty::page(found, at.call.to_owned())),
+        )],
+    ),
+    (
+        "trajectory",
+        &[
+            lengths(
+                "Write the lengths for a controller: t_s, and unstrained_length_NAME_m of every cable [m], a trajectory \
+                 for `settle`",
+                |at, _| of!(Trajectory, at, found => Ok(as_csv(found.lengths_table())?.into())),
+            ),
+            page("Write a page with the moving robot, and tensions, speeds and powers over time", |at| {
+                of!(Trajectory, at, found => {
+                    let Some(robot) = at.request.robot() else { bail!("a trajectory belongs to a robot") };
+                    pages::trajectory::page(&robot.read()?.robot, found, at.call.to_owned())
+                })
+            }),
+        ],
+    ),
+    (
+        "simulate",
+        &[
+            figure(
+                "Draw pose and tensions over time",
+                |at, _, _| of!(Simulate, at, found => Ok(plain(figures::of_simulation(found)))),
+            ),
+            file(
+                "animation",
+                "Write the moving robot as an animated drawing, which any browser shows in true time",
+                ["the animation", "an animated drawing"],
+                &[Kind::Svg],
+                Make::Bytes(
+                    |at, _| of!(Simulate, at, found => Ok(figures::animation_of_simulation(found).into_bytes().into())),
+                ),
+            ),
+            page(
+                "Write a page with the moving robot, pose and tensions over time, and the spectrum of the motion",
+                |at| of!(Simulate, at, found => pages::simulate::page(found, at.call.to_owned())),
+            ),
+        ],
+    ),
+    (
+        "reduce",
+        &[Output {
+            folder: true,
+            check: matrices::check,
+            ..file(
+                "matrices",
+                "Write the matrices to an .npz or .mat file, or as CSV files to a new folder; FILE.fmu is a unit for \
+                 Simulink and Modelica",
+                ["the matrices", "matrices"],
+                &[Kind::Npz, Kind::Mat, Kind::Fmu],
+                Make::Bytes(|at, kind| of!(Reduce, at, found => matrices::made(found, at, kind))),
+            )
+        }],
+    ),
+    (
+        "identify",
+        &[
+            robot_file(
+                "fitted",
+                "Write the robot file with the identified values",
+                |at, _| of!(Identify, at, found => Ok(found.robot_file.clone().into_bytes().into())),
+            ),
+            page(
+                "Write a page with measured and fitted curves",
+                |at| of!(Identify, at, found => pages::identify::page(found, at.call.to_owned())),
+            ),
+        ],
+    ),
+    (
+        "calibrate",
+        &[
+            figure(
+                "Draw the anchors with their ellipses",
+                |at, _, _| of!(Calibrate, at, found => Ok(plain(figures::of_calibration(found)))),
+            ),
+            robot_file(
+                "calibrated",
+                "Write the robot file with the calibrated anchors and attachments",
+                |at, _| of!(Calibrate, at, found => Ok(found.robot_file.clone().into_bytes().into())),
+            ),
+            page(
+                "Write a page with the anchors and their ellipses, the residuals, rows that can be clicked away and the \
+                 proposed poses",
+                |at| of!(Calibrate, at, found => pages::calibrate::page(found, at.call.to_owned())),
+            ),
+        ],
+    ),
+    (
+        "design",
+        &[
+            robot_file(
+                "designed",
+                "Write the robot file with the chosen values",
+                |at, _| of!(Design, at, found => Ok(found.robot_file.clone().into_bytes().into())),
+            ),
+            page(
+                "Write a page with the poses before and after, the moved points and the gains of more room",
+                |at| of!(Design, at, found => pages::design::page(found, at.call.to_owned())),
+            ),
+        ],
+    ),
+    (
+        "workspace",
+        &[
+            figure(
+                "Draw the sections",
+                |at, _, _| of!(Workspace, at, found => Ok(plain(figures::of_sections(found)?))),
+            ),
+            Output {
+                by_ending: true,
+                several: true,
+                ..file(
+                    "surface",
+                    "Write the closed surface of the set [m] to FILE.stl, FILE.ply or FILE.vtp (ParaView)",
+                    ["the surface", "a surface"],
+                    &[Kind::Stl, Kind::Ply, Kind::Vtp],
+                    Make::Bytes(|at, kind| of!(Workspace, at, found => surface_of(found, kind))),
+                )
+            },
+            page(
+                "Write a page with the surface in space, the volumes and the sections",
+                |at| of!(Workspace, at, found => pages::workspace::page(found, at.call.to_owned())),
+            ),
+        ],
+    ),
+    (
+        "plot",
+        &[drawn("Draw one quantity for a paper", |at, options, _| match at.request {
+            Request::Plot(of) => {
+                let rows = SweepFile::open(Path::new(&of.file))?;
+                let made = pages::plot::figure(&rows, &of.file, &options.of_rows)?;
+                Ok(Drawn { figure: made.figure, warnings: Vec::new(), notes: made.notes })
+            }
+            other => bail!("`{}` has no such file", other.command()),
+        })],
+    ),
+];
+
+/// Files that a command writes besides its result, in the order in which they are opened and written.
+pub fn of(command: &str) -> &'static [Output] {
+    OUTPUTS.iter().find(|(name, _)| *name == command).map_or(&[], |(_, outputs)| outputs)
+}
+
+/// Every kind of file that some command writes besides its result, each once.
+pub fn all() -> impl Iterator<Item = &'static Output> {
+    let each = OUTPUTS.iter().flat_map(|(_, outputs)| *outputs);
+    each.enumerate()
+        .filter(|(k, of)| OUTPUTS.iter().flat_map(|(_, all)| *all).position(|one| one.key == of.key) == Some(*k))
+        .map(|(_, of)| of)
+}
+
+/// File that `-o` means by its ending.
+pub fn by_ending(command: &str, path: &Path) -> Option<&'static Output> {
+    let kind = Kind::of(path)?;
+    of(command).iter().find(|output| output.by_ending && output.kinds.contains(&kind))
+}
+
+/// Makes the page of results.
+///
+/// # Errors
+/// Results without a page.
+pub fn page_of(at: &Answered<'_>) -> Result<String> {
+    let make = of(at.request.command()).iter().find_map(|output| match output.make {
+        Make::Page(make) => Some(make),
+        _ => None,
+    });
+    let make = make.ok_or_else(|| anyhow!("`{}` has no page of its own", at.request.command()))?;
+    Ok(worded(&make(at)?, at.words))
+}
+
+/// File that is wanted: its key, and its path.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Wanted {
+    /// Key of the table.
+    pub key: String,
+    /// Path.
+    pub path: PathBuf,
+}
+
+/// Files that have been checked and can be written.
+pub struct Opened {
+    files: Vec<(&'static Output, Destination)>,
+    options: FigureOptions,
+    size: Size,
+}
+
+impl Opened {
+    /// Checks the wanted files of a request, in the order of the table, before the work.
+    ///
+    /// # Errors
+    /// Those of [`Opened::of_keys`].
+    pub fn open(request: &Request, wanted: &[Wanted], options: FigureOptions, guard: &mut Guard) -> Result<Self> {
+        let given = if wanted.is_empty() { Map::new() } else { keys_of(request)? };
+        Self::of_keys(request.command(), &given, wanted, options, guard)
+    }
+
+    /// Checks the wanted files of a command with these keys.
+    ///
+    /// # Errors
+    /// A file that the command does not have, that the request has not, that cannot be written, or that the command
+    /// reads or writes otherwise; options of a figure without one.
+    pub fn of_keys(
+        command: &str,
+        given: &Given,
+        wanted: &[Wanted],
+        options: FigureOptions,
+        guard: &mut Guard,
+    ) -> Result<Self> {
+        let outputs = of(command);
+        if let Some(other) = wanted.iter().find(|of| !outputs.iter().any(|output| output.key == of.key)) {
+            let known: Vec<String> = outputs.iter().map(|output| format!("⟪{}⟫", output.key)).collect();
+            let known = if known.is_empty() { "no other file".to_owned() } else { known.join(", ") };
+            bail!("`{command}` writes no ⟪{}⟫: besides its result it writes {known}", other.key);
+        }
+        let size = Size::new(options.width_mm, options.font_size_pt)?;
+        let mut files = Vec::new();
+        for output in outputs {
+            let paths: Vec<&Path> =
+                wanted.iter().filter(|of| of.key == output.key).map(|of| of.path.as_path()).collect();
+            if paths.len() > 1 && !output.several {
+                bail!("⟪{}⟫ and -o name a file of the same kind: leave out one of them", output.key);
+            }
+            for path in paths {
+                output.refuse(given, path)?;
+                files.push((output, output.destination(path, guard)?));
+            }
+        }
+        let has_figure = files.iter().any(|(output, _)| matches!(output.make, Make::Figure(_)));
+        if let Some(key) = options.given().next().filter(|_| !has_figure) {
+            bail!("⟪{key}⟫ belongs to a figure: write one with -o FILE.svg or -o FILE.pdf, or leave it out");
+        }
+        if options.mode.is_some() && command != "modes" {
+            bail!("⟪figure_mode⟫ chooses a mode shape of `modes`: leave it out for `{command}`");
+        }
+        Ok(Self { files, options, size })
+    }
+
+    /// True with a figure.
+    pub fn has_figure(&self) -> bool {
+        self.files.iter().any(|(output, _)| matches!(output.make, Make::Figure(_)))
+    }
+
+    /// True if some file is made of results.
+    pub fn needs_results(&self) -> bool {
+        self.files.iter().any(|(output, _)| !output.of_request)
+    }
+
+    /// True without any file.
+    pub fn is_empty(&self) -> bool {
+        self.files.is_empty()
+    }
+
+    /// Tells results where their files will be, if their text says so.
+    pub fn tell(&self, results: &mut Results) {
+        if let Results::Reduce(found) = results {
+            found.set_matrices_file(self.files.first().map(|(_, to)| to.path.display().to_string()));
+        }
+    }
+
+    /// Makes all files, in the order of the table.
+    ///
+    /// # Errors
+    /// Results without such a file.
+    pub fn make(self, at: Answered<'_>, watch: &mut dyn Watch) -> Result<Vec<Written>> {
+        let Self { files, options, size } = self;
+        let made = |(output, destination): (&Output, Destination)| {
+            let kind = Kind::of(&destination.path);
+            let Made { bytes, warnings, notes, size } = match output.make {
+                Make::Page(make) => {
+                    let page = worded(&make(&at)?, at.words);
+                    Made { size: Some(size_of_page(page.len())), ..page.into_bytes().into() }
+                }
+                Make::Figure(make) => {
+                    let Drawn { figure, warnings, notes } = make(&at, &options, watch)?;
+                    let is_pdf = kind == Some(Kind::Pdf);
+                    let bytes = if is_pdf { figure.pdf(size) } else { figure.svg(size).into_bytes() };
+                    Made { warnings, notes, ..bytes.into() }
+                }
+                Make::Bytes(make) => make(&at, kind)?,
+            };
+            Ok(Written { destination, bytes, warnings, notes, size })
+        };
+        files.into_iter().map(made).collect()
+    }
+}
+
+impl Output {
+    /// Refuses keys without such a file.
+    fn refuse(&self, given: &Given, path: &Path) -> Result<()> {
+        if let Some(needed) = self.needs
+            && given.get(needed).is_none_or(Value::is_null)
+        {
+            bail!("⟪{}⟫ means nothing without ⟪{needed}⟫: give both or neither", self.key);
+        }
+        (self.check)(given, path)
+    }
+
+    /// Checks that a file can be written.
+    fn destination(&self, path: &Path, guard: &mut Guard) -> Result<Destination> {
+        let content = Content { name: self.name, in_words: self.in_words, fitting: self.kinds };
+        let is_of_kind = Kind::of(path).is_some_and(|kind| self.kinds.contains(&kind));
+        if self.folder && !is_of_kind {
+            if path.extension().is_some() && !path.is_dir() {
+                bail!(
+                    "⟪{}⟫ {} neither ends in {} nor is a folder: give such a name, or a folder, whose name has no ending",
+                    self.key,
+                    path.display(),
+                    endings::listed(self.kinds)
+                );
+            }
+            return Destination::open_folder(path, content, self.key, guard);
+        }
+        if self.kinds.len() > 1 && !is_of_kind {
+            let (shown, endings) = (path.display(), endings::listed(self.kinds));
+            bail!("⟪{}⟫ {shown}: {} is written to a file that ends in {endings}", self.key, self.in_words);
+        }
+        Destination::open(path, content, guard)
+    }
+}
+
+/// File that has been made.
+pub struct Written {
+    destination: Destination,
+    bytes: Bytes,
+    size: Option<String>,
+    /// Sentences about the file that the user should know.
+    pub warnings: Vec<String>,
+    /// Notes for the user.
+    pub notes: Vec<String>,
+}
+
+impl Written {
+    /// Writes the file, and says so.
+    ///
+    /// # Errors
+    /// The error of the system.
+    pub fn write(&self) -> Result<String> {
+        self.destination.write(&self.bytes)?;
+        Ok(told(&self.destination.path, self.size.as_deref()))
+    }
+}
+
+/// Sentence on a file that was written, with its size in words.
+pub fn told(path: &Path, size: Option<&str>) -> String {
+    match size {
+        Some(size) => format!("wrote {} ({size})", path.display()),
+        None => format!("wrote {}", path.display()),
+    }
+}
+
+/// Key of a request in JSON with the files that it wants: an object with the keys of the table.
+pub const FILES: &str = "files";
+
+/// Takes the wanted files out of a request in JSON.
+///
+/// # Errors
+/// No object of paths; only files of which there may be several have a list of paths.
+pub fn take_wanted(request: &mut Value) -> Result<Vec<Wanted>> {
+    let files = request.as_object_mut().and_then(|keys| keys.remove(FILES));
+    let files = match files {
+        None | Some(Value::Null) => return Ok(Vec::new()),
+        Some(Value::Object(files)) => files,
+        Some(other) => bail!("`{FILES}` is {other}: give an object of paths, as in {{\"page\": \"page.html\"}}"),
+    };
+    let mut wanted = Vec::new();
+    for (key, paths) in files {
+        let paths = match paths {
+            Value::Null => continue,
+            Value::Array(paths) => paths,
+            one => vec![one],
+        };
+        for path in paths {
+            let Value::String(path) = path else { bail!("`{FILES}`, `{key}`: {path} is not the path of a file") };
+            wanted.push(Wanted { key: key.clone(), path: path.into() });
+        }
+    }
+    Ok(wanted)
+}
+
+/// Wanted files as the value of [`FILES`]; `None` without any.
+pub fn wanted_to_value(wanted: &[Wanted]) -> Option<Value> {
+    let mut files: BTreeMap<&str, Vec<Value>> = BTreeMap::new();
+    for Wanted { key, path } in wanted {
+        files.entry(key).or_default().push(path.display().to_string().into());
+    }
+    let of_paths = |mut paths: Vec<Value>| if paths.len() == 1 { paths.remove(0) } else { Value::Array(paths) };
+    let object: Map<String, Value> = files.into_iter().map(|(key, paths)| (key.to_owned(), of_paths(paths))).collect();
+    (!object.is_empty()).then_some(Value::Object(object))
+}
+
+/// Schema of the value of [`FILES`] for a command; `None` for one that writes no other file.
+pub fn schema(command: &str) -> Option<Value> {
+    let outputs = of(command);
+    if outputs.is_empty() {
+        return None;
+    }
+    let path = json!({ "type": "string", "minLength": 1 });
+    let property = |output: &Output| {
+        let about = worded(output.about, Words::Json);
+        let one = json!({ "type": "string", "minLength": 1, "description": about });
+        let some = json!({ "anyOf": [path, { "type": "array", "items": path }], "description": about });
+        (output.key.to_owned(), if output.several { some } else { one })
+    };
+    Some(json!({
+        "description": "Files that are written besides the result",
+        "type": "object",
+        "properties": outputs.iter().map(property).collect::<Map<_, _>>(),
+        "additionalProperties": false,
+    }))
+}
