@@ -145,8 +145,8 @@ fn unit(found: &ControlStateSpace, robot_file: &str, description: &[u8]) -> Resu
     Ok(Made { warnings, ..bytes.into() })
 }
 
-/// Writes a NumPy archive, with the names of inputs and outputs and the description beside the matrices. Every member is
-/// an array, because NumPy gives the bytes of any other member.
+/// Writes a NumPy archive, with the names of inputs and outputs and the description beside the matrices. Every member
+/// is an array, because NumPy gives the bytes of any other member.
 fn npz(matrices: &[(&str, &DMat)], reduced: &ReducedForm, description: &[u8]) -> Result<Vec<u8>> {
     let description = String::from_utf8_lossy(description);
     let matrices = matrices.iter().map(|(name, matrix)| (*name, npy_of_matrix(matrix)));

@@ -325,8 +325,8 @@ static OUTPUTS: &[(&str, &[Output])] = &[
         "trajectory",
         &[
             lengths(
-                "Write the lengths for a controller: t_s, and unstrained_length_NAME_m of every cable [m], a trajectory \
-                 for `settle`",
+                "Write the lengths for a controller: t_s, and unstrained_length_NAME_m of every cable [m], a \
+                 trajectory for `settle`",
                 |at, _| of!(Trajectory, at, found => Ok(as_csv(found.lengths_table())?.into())),
             ),
             page("Write a page with the moving robot, and tensions, speeds and powers over time", |at| {
@@ -401,8 +401,8 @@ static OUTPUTS: &[(&str, &[Output])] = &[
                 |at, _| of!(Calibrate, at, found => Ok(found.robot_file.clone().into_bytes().into())),
             ),
             page(
-                "Write a page with the anchors and their ellipses, the residuals, rows that can be clicked away and the \
-                 proposed poses",
+                "Write a page with the anchors and their ellipses, the residuals, rows that can be clicked away and \
+                 the proposed poses",
                 |at| of!(Calibrate, at, found => pages::calibrate::page(found, at.call.to_owned())),
             ),
         ],
@@ -624,7 +624,8 @@ impl Output {
         if self.folder && !is_of_kind {
             if path.extension().is_some() && !path.is_dir() {
                 bail!(
-                    "⟪{}⟫ {} neither ends in {} nor is a folder: give such a name, or a folder, whose name has no ending",
+                    "⟪{}⟫ {} neither ends in {} nor is a folder: give such a name, or a folder, whose name has no \
+                     ending",
                     self.key,
                     path.display(),
                     endings::listed(self.kinds)

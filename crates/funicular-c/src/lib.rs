@@ -2,8 +2,8 @@
 //!
 //! `include/funicular.h` documents the functions for their callers. Here, every exported function checks the addresses
 //! that it gets, copies the input, calls safe code of [`funicular::control_loop`], and writes the results if there are
-//! any. No reference to memory of the caller lives longer than a call. A panic, which is a mistake in this library, ends
-//! at the border: the call returns a status, and the handle is of no use any more.
+//! any. No reference to memory of the caller lives longer than a call. A panic, which is a mistake in this library,
+//! ends at the border: the call returns a status, and the handle is of no use any more.
 
 mod border;
 pub mod flat;

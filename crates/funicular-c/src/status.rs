@@ -18,7 +18,8 @@ statuses! {
     ACCEPTED = 1, "accepted: balance and limits hold, the certificate is missing";
     BEYOND_LIMITS = 2, "beyond limits: the balance holds with tensions beyond their limits";
     HELD = 3, "held: nothing was found, these are the last certified values";
-    BAD_INPUT = -1, "bad input: a number is not finite, larger than 1e9, not positive where it has to be, or a quaternion is off by more than 1e-3";
+    BAD_INPUT = -1, "bad input: a number is not finite, larger than 1e9, not positive where it has to be, or a \
+        quaternion is off by more than 1e-3";
     BAD_POINTER = -2, "bad pointer: an address is missing or not aligned";
     BAD_STRUCT = -3, "bad struct: struct_size or cables is too small";
     BAD_MODEL = -4, "bad model: the robot file cannot be read; the message says where";

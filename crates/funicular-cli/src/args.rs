@@ -129,8 +129,8 @@ pub(crate) fn program() -> Command {
         .global(true);
     let run_request = declared::described(
         RequestArgs::augment_args(Command::new("request")).args(outputs::all().map(declared::output)),
-        "Run a request in JSON: the options of any command and the text of the robot file in one object\n\nEvery command \
-         prints its request with --print-request. The keys are the names of the options, with _ instead of -.",
+        "Run a request in JSON: the options of any command and the text of the robot file in one object\n\nEvery \
+         command prints its request with --print-request. The keys are the names of the options, with _ instead of -.",
         &["funicular statics robots/cogiro.toml --pose 1,2,1.5 --print-request > request.json\n  \
            funicular request request.json --format json"],
     );
@@ -153,9 +153,10 @@ pub(crate) fn program() -> Command {
         .about("Statics and vibration of cable-driven parallel robots whose cables sag")
         .long_about(
             "Statics and vibration of cable-driven parallel robots whose cables sag.\n\nAll commands except `new`, \
-             `schema`, `import`, `merge`, `paper`, `plot`, `validate`, `request`, `completions` and `man` read a robot file (TOML). Results \
-             go to stdout, warnings and errors to stderr. Units are SI units, and the unit of every value is in its \
-             name. Exit codes: 0 done, 1 no solution, 2 bad input, 130 stopped by Ctrl-C or the end of a job.",
+             `schema`, `import`, `merge`, `paper`, `plot`, `validate`, `request`, `completions` and `man` read a robot \
+             file (TOML). Results go to stdout, warnings and errors to stderr. Units are SI units, and the unit of \
+             every value is in its name. Exit codes: 0 done, 1 no solution, 2 bad input,
+             130 stopped by Ctrl-C or the end of a job.",
         )
         .after_help("Example:\n  funicular modes robots/yuan2014-4mm.toml --below-hz 20")
         .subcommand_required(true)

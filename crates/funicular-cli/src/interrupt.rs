@@ -11,8 +11,8 @@ use std::time::Duration;
 /// Time that an analysis has for its next step. One eigenvalue problem of a large model takes longer.
 const PATIENCE: Duration = Duration::from_secs(1);
 
-/// Time after which a run whose rows are stored ends in any case. A row may take longer, and the rows before it are safe
-/// at any moment.
+/// Time after which a run whose rows are stored ends in any case. A row may take longer, and the rows before it are
+/// safe at any moment.
 const END_WITHIN: Duration = Duration::from_millis(1700);
 
 /// Flag that Ctrl-C or the end of a job sets.

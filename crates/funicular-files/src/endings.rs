@@ -204,7 +204,8 @@ mod tests {
         let said = check(Path::new("a.xlsx"), "the result", &fitting).unwrap_err().to_string();
         assert_eq!(
             said,
-            "a.xlsx would hold the result, and .xlsx means a spreadsheet; choose a name that ends in .json, .csv or .txt"
+            "a.xlsx would hold the result, and .xlsx means a spreadsheet; choose a name that ends in .json, .csv or \
+             .txt"
         );
         assert!(check(Path::new("a.html"), "a page", &[Kind::Html]).is_ok());
         let said = check(Path::new("a.csv"), "a page", &[Kind::Html]).unwrap_err().to_string();

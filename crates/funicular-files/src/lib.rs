@@ -67,7 +67,10 @@ pub enum FilesError {
         path: PathBuf,
     },
     /// The ending of a file stands for another kind of content than the one to be written.
-    #[error("{} would hold {written}, and .{ending} means {means}; choose a name that ends in {fitting}", .path.display())]
+    #[error(
+        "{} would hold {written}, and .{ending} means {means}; choose a name that ends in {fitting}",
+        .path.display()
+    )]
     OtherEnding {
         /// The file.
         path: PathBuf,

@@ -6,8 +6,8 @@ use std::io::{self, Read};
 use std::path::Path;
 
 /// Reader of the files that a robot file in this folder names, for
-/// [`with_meshes`](funicular_study::robot_file::with_meshes): no more than its limit, and one byte that shows that there
-/// is more.
+/// [`with_meshes`](funicular_study::robot_file::with_meshes): no more than its limit, and one byte that shows that
+/// there is more.
 pub fn beside(folder: &Path) -> impl Fn(&str) -> io::Result<Vec<u8>> {
     move |name| {
         let mut bytes = Vec::new();

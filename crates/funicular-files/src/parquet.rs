@@ -26,8 +26,8 @@ const PART: &str = "funicular.part";
 const COMPLETE: &str = "funicular.complete";
 
 /// Message for a file without a checksum.
-const NO_CHECKSUM: &str = "its metadata lack the checksum: another program or an older version wrote it, or it is damaged; \
-                           compute it again";
+const NO_CHECKSUM: &str = "its metadata lack the checksum: another program or an older version wrote it, or it is \
+                           damaged; compute it again";
 
 /// Writes rows and the checksum of the complete file. The bytes depend only on the record and the rows.
 pub(crate) fn write(out: impl Write + Send, record: &Record, rows: &dyn Rows, complete: bool) -> io::Result<()> {

@@ -82,8 +82,8 @@ impl UncertaintyRun<'_> {
             (Outcome::Cancelled { next }, None) => {
                 let done = (next * plan.chunk_rows()).min(plan.rows());
                 Ok(UncertaintyOutcome::Stopped(format!(
-                    "stopped after {done} of {} robots, which are not stored: give ⟪samples_file⟫ to be able to continue \
-                     later",
+                    "stopped after {done} of {} robots, which are not stored: give ⟪samples_file⟫ to be able to \
+                     continue later",
                     plan.rows()
                 )))
             }

@@ -19,8 +19,8 @@ pub struct WorkspaceRun<'a> {
 }
 
 impl WorkspaceRun<'_> {
-    /// Finds the workspace of a study; `None` if it was stopped before anything was found. `progress` gets the number of
-    /// positions that are done, and of those known to be needed.
+    /// Finds the workspace of a study; `None` if it was stopped before anything was found. `progress` gets the number
+    /// of positions that are done, and of those known to be needed.
     ///
     /// # Errors
     /// No position that meets the conditions.

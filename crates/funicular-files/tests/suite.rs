@@ -462,7 +462,8 @@ fn a_run_that_is_cancelled_or_refused_delivers_complete_chunks() {
     });
 }
 
-/// Rows of a result in a Parquet file are those of its table; what a row does not have is empty, and no file of a sweep.
+/// Rows of a result in a Parquet file are those of its table; what a row does not have is empty, and no file of a
+/// sweep.
 #[test]
 fn results_are_parquet_files() {
     let column = |name: &str, kind| Column { name: name.to_owned(), unit: "m".into(), about: "test".to_owned(), kind };

@@ -167,8 +167,8 @@ impl<'a> CsvText<'a> {
                 let count = record.get(0).and_then(|cell| cell.parse::<u64>().ok());
                 if count.is_none() || index.is_some_and(|before: u64| count != before.checked_add(1)) {
                     bail!(
-                        "{path}, line {line}: the first column has no name and does not count the rows: name it, or leave \
-                         it out (pandas: `index=False`)"
+                        "{path}, line {line}: the first column has no name and does not count the rows: name it, or \
+                         leave it out (pandas: `index=False`)"
                     );
                 }
                 index = count;
@@ -190,8 +190,8 @@ fn check_names(path: &str, form: TableForm, header: &[String]) -> Result<()> {
     {
         let shown: String = only.chars().take(MAX_SHOWN).collect();
         bail!(
-            "{path}: the first line is `{shown}`: it has to name the columns, separated by commas, semicolons or tabs; begin \
-             lines of text before it with #"
+            "{path}: the first line is `{shown}`: it has to name the columns, separated by commas, semicolons or tabs; \
+             begin lines of text before it with #"
         );
     }
     if !header.is_empty() && header.iter().all(|name| number(&form.cell(name)).is_ok()) {

@@ -117,7 +117,8 @@ pub fn refuse(request: &request::ExportRequest) -> Result<()> {
     if request.to.is_length_table() {
         if model == StaticModel::Ideal {
             bail!(
-                "ideal cables are as long as they are straight, and there is nothing to correct: leave out ⟪static_model⟫"
+                "ideal cables are as long as they are straight, and there is nothing to correct: leave out \
+                 ⟪static_model⟫"
             );
         }
     } else if has_straight_cables(request) {

@@ -107,8 +107,8 @@ pub fn texts(of: &UnitModel) -> Result<UnitTexts> {
 
     let matrices = [("A", &of.space.a), ("B", &of.space.b), ("C", &of.space.c), ("D", &of.space.d)];
     let statement = format!(
-        "state space of the robot for frequencies below {} Hz; its responses differ from those of the complete model by at \
-         most {:.3e} of their peaks",
+        "state space of the robot for frequencies below {} Hz; its responses differ from those of the complete model \
+         by at most {:.3e} of their peaks",
         of.below_hz, of.error
     );
     let guid = guid(of, &matrices.map(|(_, matrix)| matrix));

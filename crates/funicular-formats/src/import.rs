@@ -30,7 +30,8 @@ pub struct Imported {
     pub lost: Vec<String>,
 }
 
-/// Makes a robot file, or the table of a trajectory, from the files of a request. `words` names the options in messages as the front end writes them.
+/// Makes a robot file, or the table of a trajectory, from the files of a request. `words` names the options in messages
+/// as the front end writes them.
 ///
 /// # Errors
 /// The file, the line, the value and the next step; or the reason why a robot file cannot hold the robot.

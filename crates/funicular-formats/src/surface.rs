@@ -14,8 +14,8 @@ pub enum SurfaceFormat {
     Stl,
     /// Polygon File Format of Stanford, as text with every digit [m].
     Ply,
-    /// Polygons of VTK for ParaView, as text with every digit [m]. The number `cut` of a triangle is 1 on the box of the
-    /// grid and 0 on the surface of the set.
+    /// Polygons of VTK for ParaView, as text with every digit [m]. The number `cut` of a triangle is 1 on the box of
+    /// the grid and 0 on the surface of the set.
     Vtp,
 }
 
@@ -68,8 +68,8 @@ fn normal([a, b, c]: [[f32; 3]; 3]) -> [f32; 3] {
 
 fn ply(found: &Workspace) -> String {
     let mut text = format!(
-        "ply\nformat ascii 1.0\ncomment workspace in metres\nelement vertex {}\nproperty double x\nproperty double y\nproperty \
-         double z\nelement face {}\nproperty list uchar int vertex_indices\nend_header\n",
+        "ply\nformat ascii 1.0\ncomment workspace in metres\nelement vertex {}\nproperty double x\nproperty double \
+         y\nproperty double z\nelement face {}\nproperty list uchar int vertex_indices\nend_header\n",
         found.vertices_m.len(),
         found.triangles.len()
     );

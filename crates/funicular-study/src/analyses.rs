@@ -2,8 +2,8 @@
 //!
 //! Every `run` returns plain data whose serialisation is the JSON of the program. Numbers that do not exist are absent,
 //! never NaN. A `run` takes the request and a robot that was read and checked. `check` takes the robot alone.
-//! `parameters`, `identify`, `calibrate`, `design` and `uncertainty` read the robot themselves, because they need the text of its
-//! file.
+//! `parameters`, `identify`, `calibrate`, `design` and `uncertainty` read the robot themselves, because they need the
+//! text of its file.
 
 pub mod cable;
 pub mod calibrate;

@@ -30,8 +30,8 @@ pub enum Cell {
 }
 
 impl Cell {
-    /// Adds the cell to the values of its column. A number in a column of texts is written as text, and a flag in a column
-    /// of numbers is 0 or 1.
+    /// Adds the cell to the values of its column. A number in a column of texts is written as text, and a flag in a
+    /// column of numbers is 0 or 1.
     pub fn add_to(self, values: &mut Values) {
         match values {
             Values::Real(values) => values.push(match self {
@@ -440,8 +440,8 @@ pub type CommandTables = (&'static str, Vec<(&'static str, Vec<Column>)>);
 
 /// Results that are a table in files.
 pub trait Tabled {
-    /// Every table that such results can be: when it is that one, in words that follow "with", and its columns. The parts
-    /// of a robot have the name `NAME`.
+    /// Every table that such results can be: when it is that one, in words that follow "with", and its columns. The
+    /// parts of a robot have the name `NAME`.
     fn tables() -> Vec<(&'static str, Vec<Column>)>
     where
         Self: Sized;

@@ -6,8 +6,8 @@
 //! ends (program, Python package, browser) convert their input to a request and the results to their output. They make
 //! no decisions themselves.
 //!
-//! This crate uses no disk and no threads, and it compiles for WebAssembly. Files of other programs are read and written
-//! by the crate `funicular-formats`, pages and figures are made by `funicular-pages`.
+//! This crate uses no disk and no threads, and it compiles for WebAssembly. Files of other programs are read and
+//! written by the crate `funicular-formats`, pages and figures are made by `funicular-pages`.
 //!
 //! # Example
 //! ```

@@ -27,7 +27,8 @@ pub(crate) enum Measure {
     LoadFactor,
     /// Natural frequency, by its number in the ascending list, from 0.
     Frequency(usize),
-    /// Entry of the block of modes that share a frequency: first and last mode, then the two modes of the entry, from 0.
+    /// Entry of the block of modes that share a frequency: first and last mode, then the two modes of the entry, from
+    /// 0.
     SharedFrequency { first: usize, last: usize, entry: [usize; 2] },
     /// Damping ratio of the mode with this number, from 0.
     Damping(usize),
@@ -86,7 +87,8 @@ impl MeasureGroup {
         matches!(self, Self::Frequencies | Self::Damping)
     }
 
-    /// Results of the group at an equilibrium: the pose by these components, tensions at these places. None for vibration.
+    /// Results of the group at an equilibrium: the pose by these components, tensions at these places. None for
+    /// vibration.
     pub(crate) fn of_statics(self, robot: &Robot, components: &[usize], places: &[TensionPlace]) -> Vec<Measure> {
         match self {
             Self::Pose => components.iter().copied().map(Measure::Pose).collect(),

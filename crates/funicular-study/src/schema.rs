@@ -23,7 +23,10 @@ pub fn of_request(request: &SchemaRequest, more: Vec<CommandTables>) -> String {
 /// each with the words that say when it is that one.
 fn columns(more: Vec<CommandTables>) -> Value {
     let of_column = |column: Column| json!({ "name": column.name, "unit": column.unit, "about": column.about });
-    let of_table = |(with, columns): (&str, Vec<Column>)| json!({ "with": with, "columns": columns.into_iter().map(of_column).collect::<Vec<_>>() });
+    let of_table = |(with, columns): (&str, Vec<Column>)| {
+        json!({ "with": with,
+        "columns": columns.into_iter().map(of_column).collect::<Vec<_>>() })
+    };
     let of_command =
         |(name, tables): (&str, Vec<_>)| (name.to_owned(), tables.into_iter().map(of_table).collect::<Value>());
     let all = Results::tables().into_iter().chain(sweep::tables()).chain(more);

@@ -37,8 +37,8 @@ pub fn short(value: f64, digits: usize) -> String {
 /// Text of a missing number.
 pub const NONE: &str = "–";
 
-/// Number of digits of a value that shows one or two digits of its standard deviation, from 2 to 10; 6 if the deviation is
-/// unknown or one of the two is zero.
+/// Number of digits of a value that shows one or two digits of its standard deviation, from 2 to 10; 6 if the deviation
+/// is unknown or one of the two is zero.
 pub(crate) fn digits_for(value: f64, deviation: Option<f64>) -> usize {
     const WITHOUT_DEVIATION: usize = 6;
     match deviation.map(|deviation| (value / deviation).abs().log10().floor()) {

@@ -85,8 +85,8 @@ fn uniform(state: &mut u64) -> f64 {
     (*state >> 11) as f64 / (1_u64 << 53) as f64
 }
 
-/// Masses up to 40 % away, some of the lowest modes, and errors from none to the assumed 1 %: the true mass is the best or
-/// the second best one, or the result has no interval. An interval that is given holds it.
+/// Masses up to 40 % away, some of the lowest modes, and errors from none to the assumed 1 %: the true mass is the best
+/// or the second best one, or the result has no interval. An interval that is given holds it.
 #[test]
 fn no_interval_is_both_tight_and_wrong() {
     let mut state = 20_141;

@@ -76,8 +76,8 @@ fn with_heights_of(text: &str, heights: &[f64]) -> String {
     text
 }
 
-/// Nine poses of CoGiRo, attachments within 5 cm: a separate program, with its own cables and a general linear solver, has
-/// brought the worst first frequency from 1.587 Hz to 1.677 Hz, with the four corners equal.
+/// Nine poses of CoGiRo, attachments within 5 cm: a separate program, with its own cables and a general linear solver,
+/// has brought the worst first frequency from 1.587 Hz to 1.677 Hz, with the four corners equal.
 #[test]
 fn attachments_of_cogiro_raise_its_worst_frequency_as_a_separate_program_found() {
     let axis = |size: f64| [-size, 0.0, size];
@@ -126,8 +126,8 @@ fn no_random_design_is_better_than_the_optimum() {
     assert!(best > found.before, "{best} {}", found.before);
 }
 
-/// CoGiRo with its pulleys and winches at three poses, with every rule that has derivatives: the file that is written has
-/// the frequencies that are told, and no random design within the bounds is better.
+/// CoGiRo with its pulleys and winches at three poses, with every rule that has derivatives: the file that is written
+/// has the frequencies that are told, and no random design within the bounds is better.
 #[test]
 fn a_redundant_robot_on_winches_has_designs_by_every_rule() {
     let text = funicular_robots::COGIRO_WINCHES;
@@ -245,8 +245,8 @@ fn frequencies_leave_a_band() {
     assert!(found.band_sides.is_empty(), "{:?}", found.band_sides);
 }
 
-/// A frequency a little below the middle of a band leaves it upwards if the robot is better so; all choices are told. The
-/// result is that of the search with this choice, and no frequency is in the band.
+/// A frequency a little below the middle of a band leaves it upwards if the robot is better so; all choices are told.
+/// The result is that of the search with this choice, and no frequency is in the band.
 #[test]
 fn frequencies_leave_a_band_to_the_farther_side_if_that_is_better() {
     let change = json!([{"path": "cables.*.attachment_m", "plus_minus": 0.1}]);

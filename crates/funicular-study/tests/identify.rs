@@ -153,7 +153,8 @@ fn intervals_hold_as_often_as_they_say() {
             .iter()
             .enumerate()
             .map(|(i, hz)| {
-                json!({"frequency_hz": hz * (1.0 + 0.002 * noise.next()), "std_hz": 0.002 * hz, "label": format!("{}", i + 1)})
+                json!({"frequency_hz": hz * (1.0 + 0.002 * noise.next()), "std_hz": 0.002 * hz,
+                    "label": format!("{}", i + 1)})
             })
             .collect();
         let fit: Vec<Value> = truth.iter().map(|(path, _)| json!({"path": path})).collect();
@@ -218,18 +219,24 @@ impl Trial<'_> {
                     };
                     // Each part has half of the variance.
                     let mut noisy = |values: &[f64]| -> Vec<f64> {
-                        values.iter().zip(&std).map(|(value, std)| value + std * noise.next() / 2.0_f64.sqrt()).collect()
+                        values
+                            .iter()
+                            .zip(&std)
+                            .map(|(value, std)| value + std * noise.next() / 2.0_f64.sqrt())
+                            .collect()
                     };
                     let (real, imag) = (noisy(&pair.real), noisy(&pair.imag));
                     json!({
                         "input": pair.input, "output": pair.output, "input_point_m": input_point_m,
-                        "output_point_m": output_point_m, "frequency_hz": exact.frequency_hz, "real": real, "imag": imag,
+                        "output_point_m": output_point_m, "frequency_hz": exact.frequency_hz, "real": real,
+                        "imag": imag,
                         "std": std,
                     })
                 })
                 .collect();
             let found = identified(&json!({
-                "command": "identify", "robot": (self.robot)(&[]), "fit": fit, "starts": 1, "cable_model": self.cable_model,
+                "command": "identify", "robot": (self.robot)(&[]), "fit": fit, "starts": 1,
+                "cable_model": self.cable_model,
                 "experiments": [{"responses": measured}],
             }));
             for (row, (_, value)) in found.values.iter().zip(self.truth) {
@@ -242,9 +249,9 @@ impl Trial<'_> {
     }
 }
 
-/// 12 repetitions of four values, as few as show a wrong factor of the noise: deviations that are too small by √2, as with
-/// the variance of the magnitude for each part, hold 83 %, and deviations that are too large by √2 have χ²/n = 0.5. The
-/// deviation of the fraction is 3.1 % if the values were independent.
+/// 12 repetitions of four values, as few as show a wrong factor of the noise: deviations that are too small by √2, as
+/// with the variance of the magnitude for each part, hold 83 %, and deviations that are too large by √2 have χ²/n =
+/// 0.5. The deviation of the fraction is 3.1 % if the values were independent.
 #[test]
 fn intervals_from_responses_hold_as_often_as_they_say() {
     let truth = [
@@ -277,8 +284,8 @@ fn lossy(set: &[(&str, f64)]) -> Value {
 
 const LOSS_FACTOR: &str = "materials.rope.axial_loss_factor";
 
-/// As [`intervals_from_responses_hold_as_often_as_they_say`], with the loss of the stretch, the only damping of the model
-/// catenary-static, which is half of that of the robot of the request.
+/// As [`intervals_from_responses_hold_as_often_as_they_say`], with the loss of the stretch, the only damping of the
+/// model catenary-static, which is half of that of the robot of the request.
 #[test]
 fn intervals_of_a_loss_factor_from_responses_hold_as_often_as_they_say() {
     let truth = [("platform.mass_kg", 21.5), (LOSS_FACTOR, 0.02), ("materials.rope.axial_stiffness_n", 1.9e5)];
@@ -294,8 +301,8 @@ fn intervals_of_a_loss_factor_from_responses_hold_as_often_as_they_say() {
     assert!((chi2 - 1.0).abs() < 0.1, "{chi2}");
 }
 
-/// Loss factor from damping ratios of decays alone, with noise of 10 %: 100 repetitions, whose fraction has a deviation of
-/// 2 %. The fitted ratios are of first order, the measured ones those of damped modes.
+/// Loss factor from damping ratios of decays alone, with noise of 10 %: 100 repetitions, whose fraction has a deviation
+/// of 2 %. The fitted ratios are of first order, the measured ones those of damped modes.
 #[test]
 fn intervals_of_a_loss_factor_from_decays_hold_as_often_as_they_say() {
     const NOISE_OF_DECAY: f64 = 0.1;
@@ -444,7 +451,8 @@ fn damping_in_per_cent_is_met_with_a_hint() {
         let measured: Vec<Value> = list
             .map(|(i, mode)| {
                 json!({
-                    "frequency_hz": mode.frequency_hz, "damping_ratio": damping(mode.damping_ratio), "label": format!("{}", i + 1),
+                    "frequency_hz": mode.frequency_hz, "damping_ratio": damping(mode.damping_ratio),
+                    "label": format!("{}", i + 1),
                 })
             })
             .collect();
@@ -463,9 +471,9 @@ fn damping_in_per_cent_is_met_with_a_hint() {
     assert!(!has(&found, "above 0.05") && !has(&found, "identified robot: "), "{:?}", found.warnings);
 }
 
-/// Ten values of the six-cable robot from three responses, 200 times: docs/identification.md has the result. Half an hour
-/// without optimisation; `cargo test --release -p funicular-study --test identify -- --ignored --nocapture two_hundred`
-/// takes minutes.
+/// Ten values of the six-cable robot from three responses, 200 times: docs/identification.md has the result. Half an
+/// hour without optimisation; `cargo test --release -p funicular-study --test identify -- --ignored --nocapture
+/// two_hundred` takes minutes.
 #[test]
 #[ignore = "200 fits; it takes minutes with optimisation"]
 fn two_hundred_repetitions_hold_as_often_as_they_say() {
@@ -539,16 +547,18 @@ fn a_common_factor_of_masses_and_stiffness_is_said_to_be_unknown() {
 
 #[test]
 fn static_measurements_tell_mass_and_center() {
-    let Ok(Results::Statics(rest)) = results(
-        &json!({"command": "statics", "robot": robot(&[("platform.mass_kg", 26.0), ("platform.center_of_mass_m.y", -0.03)])}),
-    ) else {
+    let Ok(Results::Statics(rest)) =
+        results(&json!({"command": "statics", "robot": robot(&[("platform.mass_kg", 26.0),
+            ("platform.center_of_mass_m.y", -0.03)])}))
+    else {
         panic!("statics was requested")
     };
     let tensions: Vec<f64> = rest.cables.iter().map(|cable| cable.tension_platform_n).collect();
     let pose = json!({"position_m": rest.pose.position_m, "quaternion_wxyz": rest.pose.quaternion_wxyz});
     let found = identified(&json!({
         "command": "identify", "robot": robot(&[]), "starts": 1,
-        "fit": [{"path": "platform.mass_kg", "minimum": 5.0, "maximum": 60.0}, {"path": "platform.center_of_mass_m.y", "prior": 0.0, "prior_std": 1e3}],
+        "fit": [{"path": "platform.mass_kg", "minimum": 5.0, "maximum": 60.0},
+            {"path": "platform.center_of_mass_m.y", "prior": 0.0, "prior_std": 1e3}],
         "experiments": [{"measured_pose": pose, "measured_tensions_n": tensions}],
     }));
     assert!(
@@ -637,7 +647,8 @@ fn requests_that_cannot_be_answered_say_why() {
         ),
         (
             "experiments",
-            json!([{"responses": [{"input": "gz", "output": "az", "frequency_hz": [1.0], "real": [1.0], "imag": [0.0]}]}]),
+            json!([{"responses": [{"input": "gz", "output": "az", "frequency_hz": [1.0], "real": [1.0],
+                "imag": [0.0]}]}]),
             "`input` gz: not an input",
         ),
         ("starts", json!(0), "0 starts are not possible"),

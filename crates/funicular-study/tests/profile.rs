@@ -151,8 +151,8 @@ fn winches() -> String {
     std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/pulleys/winches.toml")).unwrap()
 }
 
-/// Natural frequencies 1 to 16 of the robot with example winches, with a modulus of 1.85e10 Pa and noise of 0.3 %, which
-/// makes the springs of the drums best if they are rigid: springs and ropes are in series.
+/// Natural frequencies 1 to 16 of the robot with example winches, with a modulus of 1.85e10 Pa and noise of 0.3 %,
+/// which makes the springs of the drums best if they are rigid: springs and ropes are in series.
 const RIDGE: [f64; 16] = [
     0.9983, 1.1862, 1.2230, 1.2675, 1.3472, 1.8090, 1.8251, 1.8889, 2.0220, 2.0592, 2.1281, 2.1371, 2.3670, 2.4138,
     2.4444, 2.4619,

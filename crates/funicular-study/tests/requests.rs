@@ -38,7 +38,8 @@ fn requests() -> Vec<Value> {
     let share = json!({ "platform_share": 0.7 });
     let center = json!({ "payload_center_m": [0.0, 0.1, -0.2] });
     let required = json!({
-        "required_shape": "ellipsoid", "required_force_n": [100.0, 100.0, 50.0], "required_moment_n_m": [10.0, 10.0, 5.0],
+        "required_shape": "ellipsoid", "required_force_n": [100.0, 100.0, 50.0],
+        "required_moment_n_m": [10.0, 10.0, 5.0],
         "required_payload_min_kg": 1.0, "required_payload_max_kg": 30.0, "required_payload_center_m": [0.0, 0.0, -0.3],
         "required_payload_center_reach_m": [0.05, 0.05, 0.1], "required_acceleration_m_s2": [1.0, 1.0, 0.5],
         "required_angular_acceleration_rad_s2": [0.1, 0.1, 0.2], "required_wind_speed_m_s": 8.0,
@@ -56,7 +57,8 @@ fn requests() -> Vec<Value> {
         "rope_inertia": true, "sample_time_s": 0.1, "station_time_s": 0.05, "length_tolerance_m": 1e-3,
     });
     let turned = json!({
-        "pose": { "position_m": [1.0, 2.0, 1.5], "quaternion_wxyz": [0.6, 0.0, 0.0, 0.8] }, "hold_lengths_of_pose": true,
+        "pose": { "position_m": [1.0, 2.0, 1.5], "quaternion_wxyz": [0.6, 0.0, 0.0, 0.8] },
+        "hold_lengths_of_pose": true,
     });
     let tensions = json!({
         "tension_rule": "closest", "target_tension_n": [900.0], "min_tension_n": 5.0, "max_tension_n": 4000.0,
@@ -101,7 +103,8 @@ fn requests() -> Vec<Value> {
                 &points,
                 &signals,
                 &share,
-                &json!({ "below_hz": 20.0, "stations": 21, "damped": false, "rigid_cables": true, "decay_percent": 10.0 }),
+                &json!({ "below_hz": 20.0, "stations": 21, "damped": false, "rigid_cables": true,
+                    "decay_percent": 10.0 }),
             ],
         ),
         of(
@@ -137,11 +140,13 @@ fn requests() -> Vec<Value> {
                 &tensions,
                 &model,
                 &json!({
-                    "output": ["z", "tension:1"], "output_point_m": [0.1, 0.0, 0.0], "duration_s": 300.0, "below_hz": 5.0,
+                    "output": ["z", "tension:1"], "output_point_m": [0.1, 0.0, 0.0], "duration_s": 300.0,
+                    "below_hz": 5.0,
                     "turbulence": "kaimal", "intensity": [0.15, 0.12, 0.075], "length_scale_m": [85.0, 28.0, 6.9],
                     "coherence_decay": [3.0, 8.0, 8.0],
                     "spectrum": {
-                        "frequency_hz": [0.01, 1.0], "along_m2_s": [40.0, 0.2], "lateral_m2_s": [20.0, 0.2], "up_m2_s": [10.0, 0.1],
+                        "frequency_hz": [0.01, 1.0], "along_m2_s": [40.0, 0.2], "lateral_m2_s": [20.0, 0.2],
+                        "up_m2_s": [10.0, 0.1],
                     },
                 }),
             ],
@@ -155,7 +160,8 @@ fn requests() -> Vec<Value> {
                 &model,
                 &points,
                 &json!({
-                    "release_n": [0.0, 0.0, -20.0], "release_n_m": [0.5, 0.0, 0.0], "tolerance_m": 1e-4, "below_hz": 20.0,
+                    "release_n": [0.0, 0.0, -20.0], "release_n_m": [0.5, 0.0, 0.0], "tolerance_m": 1e-4,
+                    "below_hz": 20.0,
                     "stop_m_s": [0.1, 0.0, 0.0], "stop_rad_s": [0.0, 0.0, 0.2], "move_m": [0.0, 0.05, 0.0],
                     "move_deg": [0.0, 1.0, 0.0], "profile_s": [1.2, 0.3, 0.1], "shaper": "ei:0.05",
                     "shape_modes_hz": [1.02, 1.36], "sample_time_s": 0.01,
@@ -195,9 +201,11 @@ fn requests() -> Vec<Value> {
                 &json!({
                     "at_least": [{ "quantity": "load-factor", "value": 1.0 }],
                     "at_most": [{ "quantity": "tension_max_n", "value": 3e3 }],
-                    "grid": [{ "axis": "x", "from": -1.0, "to": 1.0, "count": 9 }, { "axis": "yaw", "values": [-5.0, 5.0] }],
+                    "grid": [{ "axis": "x", "from": -1.0, "to": 1.0, "count": 9 },
+                        { "axis": "yaw", "values": [-5.0, 5.0] }],
                     "step_m": 0.3, "orientations": "some", "vertex_tolerance_m": 1e-5, "rays": 66,
-                    "center_m": [0.0, 0.1, 1.0], "compare": robot["robot"], "section": [{ "axis": "z", "values": [1.5] }], "up_to_hz": 50.0,
+                    "center_m": [0.0, 0.1, 1.0], "compare": robot["robot"],
+                    "section": [{ "axis": "z", "values": [1.5] }], "up_to_hz": 50.0,
                 }),
             ],
         ),
@@ -333,7 +341,8 @@ fn requests() -> Vec<Value> {
                         }],
                         "cut": [{ "cable": "2", "at_tension_n": 300.0 }],
                     },
-                    "duration_s": 1.0, "sample_time_s": 0.01, "tolerance_m": 1e-6, "elements": 2, "degree": 6, "once": true,
+                    "duration_s": 1.0, "sample_time_s": 0.01, "tolerance_m": 1e-6, "elements": 2, "degree": 6,
+                    "once": true,
                     "damping_frequency_hz": 1.2, "stretch_damping_time_s": 1e-4, "hold_platform": false, "gust_seed": 1,
                 }),
             ],
@@ -346,10 +355,13 @@ fn requests() -> Vec<Value> {
                 &json!({
                     "readings": { "length_1_m": [1.0, null], "x_m": [0.0, 0.1], "y_m": [0.0, 0.0], "z_m": [0.5, 0.5] },
                     "unknowns": ["anchors", "offsets"], "hold_anchors": ["2"], "frame": ["1", "3"], "leave_out": [2.0],
-                    "length_std_m": 5e-4, "position_std_m": 0.01, "rotation_std_deg": 0.5, "tension_std_n": 2.0, "tension_range_n": [20.0, 120.0],
-                    "prior": [{ "path": "offsets", "prior": 0.0, "prior_std": 0.02 }, { "path": "cables.1.anchor_m", "prior_std": 0.05 }],
+                    "length_std_m": 5e-4, "position_std_m": 0.01, "rotation_std_deg": 0.5, "tension_std_n": 2.0,
+                    "tension_range_n": [20.0, 120.0],
+                    "prior": [{ "path": "offsets", "prior": 0.0, "prior_std": 0.02 },
+                        { "path": "cables.1.anchor_m", "prior_std": 0.05 }],
                     "profile": ["anchors"], "static_model": "catenary", "starts": 4, "propose": 2,
-                    "grid": [{ "axis": "x", "from": -1.0, "to": 1.0, "count": 9 }, { "axis": "yaw", "values": [-5.0, 5.0] }],
+                    "grid": [{ "axis": "x", "from": -1.0, "to": 1.0, "count": 9 },
+                        { "axis": "yaw", "values": [-5.0, 5.0] }],
                     "poses": [[0.0, 0.0, 0.5, 0.0, 0.0, 0.0]], "propose_for": ["anchors"], "propose_by": "determinant",
                     "wanted_std_m": 0.005,
                 }),
@@ -380,7 +392,8 @@ fn requests() -> Vec<Value> {
                 &model,
                 &json!({
                     "profile": ["platform.*"], "propose": 2, "grid": grid, "poses": [[0.0, 0.0, 0.5, 0.0, 0.0, 0.0]],
-                    "propose_measuring": ["tensions", "pose"], "propose_payloads_kg": [0.0, 2.0], "propose_modes": 4, "propose_for": ["platform.mass_kg"],
+                    "propose_measuring": ["tensions", "pose"], "propose_payloads_kg": [0.0, 2.0], "propose_modes": 4,
+                    "propose_for": ["platform.mass_kg"],
                     "propose_by": "determinant", "wanted_percent": 2.0,
                     "fit": [
                         { "path": "platform.mass_kg", "minimum": 1.0, "maximum": 30.0 },
@@ -393,7 +406,8 @@ fn requests() -> Vec<Value> {
                             "measured_pose": [0.1, 0.2, 0.3, 1.0, 2.0, 3.0], "measured_tensions_n": [1.0, 0.1 + 0.2],
                             "tension_std_n": 0.5, "measured_lengths_m": [6.9, 6.8], "length_std_m": 1e-3,
                             "frequencies": [
-                                { "frequency_hz": 1.2, "damping_ratio": 0.01, "std_hz": 0.1, "weight": 2.0, "label": "1" },
+                                { "frequency_hz": 1.2, "damping_ratio": 0.01, "std_hz": 0.1, "weight": 2.0,
+                                    "label": "1" },
                             ],
                             "responses": [{
                                 "name": "a1", "input": "fz", "input_point_m": [0.1, 0.0, 0.0], "output": "az",

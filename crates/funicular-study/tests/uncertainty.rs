@@ -100,7 +100,8 @@ fn cases() -> [(&'static str, Value, usize); 4] {
         (
             funicular_robots::COGIRO,
             json!({
-                "pose": [1.0, 2.0, 1.5, 0.0, 0.0, 0.0], "max_tension_n": 5000.0, "tension_rule": "middle", "hold": "pose",
+                "pose": [1.0, 2.0, 1.5, 0.0, 0.0, 0.0], "max_tension_n": 5000.0, "tension_rule": "middle",
+                "hold": "pose",
                 "of": ["lengths", "tensions"], "deviations": ["cables.*.attachment_m=0.002", "platform.mass_kg=2%"],
                 "tolerances": ["state.position_m=0.01"],
             }),
@@ -309,8 +310,8 @@ fn a_response_that_is_proportional_to_one_number_has_its_deviation() {
     let [linear, sampled] = ["automatic", "sampled"].map(with);
     let (linear, sampled) = (&results(&linear)[0], &results(&sampled)[0]);
     assert_eq!((linear.method, linear.unit), ("linear", "dB"));
-    // A free body has 1/m + κ, κ from the lever of the force about the centre of mass: 2 % of the mass change the part 1/m.
-    // The springs, whose highest frequency is 15 Hz, add (15/500)² to the response.
+    // A free body has 1/m + κ, κ from the lever of the force about the centre of mass: 2 % of the mass change the part
+    // 1/m. The springs, whose highest frequency is 15 Hz, add (15/500)² to the response.
     let mass = funicular::robot::Robot::from_toml(&robot).unwrap().platform.mass;
     let share = 1.0 / mass / 10_f64.powf(linear.value / 20.0);
     let expected = 0.02 * share * 20.0 / std::f64::consts::LN_10;

@@ -18,7 +18,8 @@ const DEVIATIONS: f64 = 3.0;
 const CHI2: f64 = 0.102;
 
 /// Distance of the centre of mass [m] from that of the makers, and relative difference of the moments of inertia: the
-/// makers' own sets of records, with two, three and four cables, differ by up to 2.7 mm in height, and by 0.5 to 5 % in xx.
+/// makers' own sets of records, with two, three and four cables, differ by up to 2.7 mm in height, and by 0.5 to 5 % in
+/// xx.
 const CENTER: f64 = 4e-3;
 const INERTIA: f64 = 0.05;
 
@@ -31,14 +32,14 @@ pub(super) fn section(reference: &IdentificationReference, poses: &ReferenceTabl
     rows.extend(from_frequencies(&reference.makers, poses)?);
     Ok(Section {
         title: "Identification",
-        note: "Values that `identify` finds. First, ten values of the six-cable robot from responses of a separate program \
-               with known noise, from a start that is wrong by up to 50 %: the differences are in deviations of the \
-               result, and χ²/n is 1 if the deviations are right. Second, the platform of Bologna's prototype from the 208 \
-               frequencies of the section above, with its mass held, because frequencies do not change if mass and inertia \
-               have a common factor. The makers identified the same platform from records over time, by another method. \
-               The fit lowers the root mean square of the differences to 2.11 % and no further: the oscillations were \
-               large, and each peak was looked for within 7 % of the makers' model. Poses without a published measurement \
-               are not part of it.",
+        note: "Values that `identify` finds. First, ten values of the six-cable robot from responses of a separate \
+               program with known noise, from a start that is wrong by up to 50 %: the differences are in deviations \
+               of the result, and χ²/n is 1 if the deviations are right. Second, the platform of Bologna's prototype \
+               from the 208 frequencies of the section above, with its mass held, because frequencies do not change if \
+               mass and inertia have a common factor. The makers identified the same platform from records over time, \
+               by another method. The fit lowers the root mean square of the differences to 2.11 % and no further: the \
+               oscillations were large, and each peak was looked for within 7 % of the makers' model. Poses without a \
+               published measurement are not part of it.",
         rows,
     })
 }
@@ -108,7 +109,8 @@ fn from_frequencies(
     let experiments = poses.rows.iter().map(experiment).collect();
     let found = identified(
         &json!({
-            "command": "identify", "robot": {"text": funicular_robots::GRAB_4_CABLES}, "starts": 1, "rigid_cables": true,
+            "command": "identify", "robot": {"text": funicular_robots::GRAB_4_CABLES}, "starts": 1,
+            "rigid_cables": true,
             "fit": [{"path": "platform.center_of_mass_m"}, {"path": "platform.inertia_kg_m2"}],
             "experiments": [{"frequencies": [{"frequency_hz": 1.0}]}],
         }),

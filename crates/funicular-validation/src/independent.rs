@@ -159,8 +159,8 @@ impl RobotComparison<'_> {
         Dynamics::about(&self.without_strain(robot), &self.rest, linearisation, self.given.modes.below_hz)
     }
 
-    /// The robot with ropes whose stretched cables have the EA, mass and damping per length of the file. The reference takes
-    /// these numbers for shallow cables and leaves out their strain, as the paper does (docs/theory.md, equation
+    /// The robot with ropes whose stretched cables have the EA, mass and damping per length of the file. The reference
+    /// takes these numbers for shallow cables and leaves out their strain, as the paper does (docs/theory.md, equation
     /// (18a)).
     fn without_strain(&self, robot: &Robot) -> Robot {
         let mut robot = robot.clone();

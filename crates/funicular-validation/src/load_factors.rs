@@ -30,9 +30,9 @@ pub(super) fn section(reference: &LoadFactorReference) -> Result<Section> {
     }
     Ok(Section {
         title: "Load factors, computed independently",
-        note: "Largest multiple of a box of forces and moments that the cables hold in addition to the weight of the platform, \
-               at random poses; wrench closure and tension factor. The other program solves a problem per vertex of \
-               the box; here facets and the vertices that they leave open.",
+        note: "Largest multiple of a box of forces and moments that the cables hold in addition to the weight of the \
+               platform, at random poses; wrench closure and tension factor. The other program solves a problem per \
+               vertex of the box; here facets and the vertices that they leave open.",
         rows,
     })
 }

@@ -54,8 +54,8 @@ If both sides solve the same equations, only rounding or the small error of elem
 difference depends on the machine and has no meaning, so the table gives it as less than the tolerance. If the models
 differ, or if few digits were printed, the table gives the difference itself. Three causes are to be expected. The model
 `shallow-dynamic` has no *axial inertia*: a cable is too stiff along its chord by about (ω l √(m/EA))²/3. It has *one
-tension per string*, while the tension of a real cable grows towards its upper end. And the *strain* of a rope enters its
-length and mass differently in different models.
+tension per string*, while the tension of a real cable grows towards its upper end. And the *strain* of a rope enters
+its length and mass differently in different models.
 
 ";
 

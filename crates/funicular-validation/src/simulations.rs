@@ -20,9 +20,9 @@ pub(super) fn section(reference: &HistoryReference) -> Result<Section> {
     }
     Ok(Section {
         title: "Large motion in time, computed by two methods",
-        note: "A payload is released, winches move, a load drops until all cables are slack. The listed numbers are those \
-               of the last time; the difference is the largest of all times and cables over the bound that the two \
-               methods leave at each time, so that 1 passes.",
+        note: "A payload is released, winches move, a load drops until all cables are slack. The listed numbers are \
+               those of the last time; the difference is the largest of all times and cables over the bound that the \
+               two methods leave at each time, so that 1 passes.",
         rows,
     })
 }

@@ -23,10 +23,10 @@ pub(super) fn section(reference: &StretchLossReference) -> Result<Section> {
     }
     Ok(Section {
         title: "Loss of the stretch of ropes, computed independently",
-        note: "Damping ratios with a loss factor η of the axial stiffness, with η and the damping ratio ξ of the ropes, and \
-               with a damping time τ (Kelvin and Voigt); shares of the stretch in the undamped modes; the stiffness of single \
-               ropes. In the other program loss and inertia stand in one matrix; here the loss acts on a few moments of the \
-               strain. Near a veering the lists are compared as sets.",
+        note: "Damping ratios with a loss factor η of the axial stiffness, with η and the damping ratio ξ of the \
+               ropes, and with a damping time τ (Kelvin and Voigt); shares of the stretch in the undamped modes; the \
+               stiffness of single ropes. In the other program loss and inertia stand in one matrix; here the loss \
+               acts on a few moments of the strain. Near a veering the lists are compared as sets.",
         rows,
     })
 }

@@ -24,9 +24,9 @@ pub(super) fn section(reference: &SwayReference) -> Result<Section> {
     }
     Ok(Section {
         title: "Sway after a release, a stop and a shaped move, computed independently",
-        note: "Amplitudes of the platform origin mode by mode, the largest first, its position a second later, and the times from \
-               which on it is within a tolerance, exactly and by the sum of all amplitudes. Lengths are commanded with \
-               boxes of speed, acceleration and jerk, and with shapers.",
+        note: "Amplitudes of the platform origin mode by mode, the largest first, its position a second later, and the \
+               times from which on it is within a tolerance, exactly and by the sum of all amplitudes. Lengths are \
+               commanded with boxes of speed, acceleration and jerk, and with shapers.",
         rows,
     })
 }

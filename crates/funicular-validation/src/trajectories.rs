@@ -10,8 +10,8 @@ use funicular::statics::{StaticModel, TensionRule};
 use funicular::trajectory::{AlongPath, InMotion};
 use std::f64::consts::TAU;
 
-/// Maximum differences: of lengths [m], of tensions over the largest one, of rates [m/s], of powers over the largest one.
-/// The reference prints 13 digits; its rates agree with differences to 1e-10 m/s.
+/// Maximum differences: of lengths [m], of tensions over the largest one, of rates [m/s], of powers over the largest
+/// one. The reference prints 13 digits; its rates agree with differences to 1e-10 m/s.
 const LENGTHS: f64 = 1e-9;
 const TENSIONS: f64 = 1e-9;
 const RATES: f64 = 1e-9;
@@ -34,8 +34,8 @@ pub(super) fn section(reference: &TrajectoryReference) -> Result<Section> {
     }
     Ok(Section {
         title: "Motion along a path, computed independently",
-        note: "Largest differences over all cables and ten times of a closed path, with the inertia of the platform. The \
-               rates contain the change of sag, stretch and tensions.",
+        note: "Largest differences over all cables and ten times of a closed path, with the inertia of the platform. \
+               The rates contain the change of sag, stretch and tensions.",
         rows,
     })
 }

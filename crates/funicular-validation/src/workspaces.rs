@@ -19,10 +19,10 @@ pub(super) fn section(reference: &WorkspaceReference) -> Result<Section> {
     rows.extend(cogiro(reference)?);
     Ok(Section {
         title: "Workspaces",
-        note: "Volumes of a box-shaped robot along the 258 rays of a subdivided octahedron, with the closed-form tensions of \
-               the published program and with all tensions, and of CoGiRo with a box of required loads. Straight cables. \
-               The published search keeps the middle of its last bracket of 1e-4 m, and the comparison does the same; the \
-               program itself finds the ends of rays to the tolerance that is asked for.",
+        note: "Volumes of a box-shaped robot along the 258 rays of a subdivided octahedron, with the closed-form \
+               tensions of the published program and with all tensions, and of CoGiRo with a box of required loads. \
+               Straight cables. The published search keeps the middle of its last bracket of 1e-4 m, and the \
+               comparison does the same; the program itself finds the ends of rays to the tolerance that is asked for.",
         rows,
     })
 }

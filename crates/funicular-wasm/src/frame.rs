@@ -76,8 +76,8 @@ impl FrameState {
             (2, lengths) => Self::Lengths(lengths.to_vec(), None),
             (3, [_, _, _, _, _, _, _, lengths @ ..]) => Self::Lengths(lengths.to_vec(), Some(pose_of(numbers))),
             _ => bail!(
-                "kind {kind} of a state does not go with {} numbers: give 0 and none, 1 and 3, 6 or 7 numbers of a pose, \
-                 2 and one length per cable, or 3, 7 numbers of a pose and one length per cable",
+                "kind {kind} of a state does not go with {} numbers: give 0 and none, 1 and 3, 6 or 7 numbers of a \
+                 pose, 2 and one length per cable, or 3, 7 numbers of a pose and one length per cable",
                 numbers.len()
             ),
         })
@@ -211,9 +211,9 @@ impl Session {
 
     /// Ends of the rays of a level that no lower level has, from a pose to the border of the workspace: x, y, z [m],
     /// distance
-    /// [m], and 1 at the border or 0 where the box of the search ends. The text has the conditions in words, whether they are
-    /// kept at the pose and the pose is in the box, otherwise there are no rays, and the triangles between all rays so
-    /// far.
+    /// [m], and 1 at the border or 0 where the box of the search ends. The text has the conditions in words, whether
+    /// they are kept at the pose and the pose is in the box, otherwise there are no rays, and the triangles between all
+    /// rays so far.
     ///
     /// # Errors
     /// A state that is no pose, or a robot whose workspace cannot be searched.

@@ -226,7 +226,8 @@ mod tests {
         let words: Vec<String> = KINDS.iter().map(|one| format!("\"{}\"", kind(*one).1)).collect();
         [
             "// Layout of the numbers of a frame: names and counts, in their order. Do not edit:\n\
-             // `UPDATE_DOCS=1 cargo test -p funicular-wasm layout` writes this file from src/layout.rs of the module.\n"
+             // `UPDATE_DOCS=1 cargo test -p funicular-wasm layout` writes this file from src/layout.rs of the
+             // module.\n"
                 .to_owned(),
             script_of("HEADER", "Numbers before the cables.", &header()),
             script_of("CABLE", "Numbers of each cable.", &cable()),
@@ -251,8 +252,8 @@ mod tests {
 
     fn documentation() -> String {
         let sizes = format!(
-            "\nA frame has {HEADER} numbers, then {CABLE} per cable, then x, y, z of every point, then {MODE} per mode, \
-             each followed by\nthe energy fractions of the cables:\n"
+            "\nA frame has {HEADER} numbers, then {CABLE} per cable, then x, y, z of every point, then {MODE} per \
+             mode, each followed by\nthe energy fractions of the cables:\n"
         );
         [
             sizes,

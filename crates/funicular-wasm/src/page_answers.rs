@@ -37,8 +37,8 @@ fn calibrated(of: &CalibrateRequest) -> Result<Value> {
     Ok(answer)
 }
 
-/// Columns of a CSV text with gaps, as `calibrate` has them in ⟪readings⟫, in JSON: one list per column, null for an empty
-/// cell. `name` is that of the file in messages.
+/// Columns of a CSV text with gaps, as `calibrate` has them in ⟪readings⟫, in JSON: one list per column, null for an
+/// empty cell. `name` is that of the file in messages.
 ///
 /// # Errors
 /// A fault of the table; the message names line and column.
@@ -46,8 +46,8 @@ pub(crate) fn table(name: &str, text: &str) -> Result<Value> {
     Ok(json!(number_columns::read_with_gaps(name, text.as_bytes())?.columns))
 }
 
-/// Results of a simulation with its picture: times, poses as position and quaternion w, x, y, z, and the points of every
-/// rope from the platform to the anchor, three coordinates each.
+/// Results of a simulation with its picture: times, poses as position and quaternion w, x, y, z, and the points of
+/// every rope from the platform to the anchor, three coordinates each.
 fn simulated(of: &SimulateRequest) -> Result<Value> {
     let found = simulate::run(of.robot.read()?.robot, of, &mut Silent)?;
     let mut answer: Value = serde_json::from_slice(&of_results(&found, Words::Json)?)?;

@@ -433,7 +433,12 @@ fn simulations(c: &mut Criterion) {
 
 criterion_group! {
     name = jobs;
-    config = Criterion::default().warm_up_time(Duration::from_secs(1)).measurement_time(Duration::from_secs(3)).sample_size(30);
-    targets = one_catenary, statics_both_ways, tension_distribution, centre_along_a_line, control_loops, load_factors, distances, trajectory, first_frequencies, first_frequencies_of_eight_cables, responses, natural_frequencies, catenary_dynamic_cables, gradients, simulations
+    config = Criterion::default()
+        .warm_up_time(Duration::from_secs(1))
+        .measurement_time(Duration::from_secs(3))
+        .sample_size(30);
+    targets = one_catenary, statics_both_ways, tension_distribution, centre_along_a_line, control_loops, load_factors,
+    distances, trajectory, first_frequencies, first_frequencies_of_eight_cables, responses, natural_frequencies,
+    catenary_dynamic_cables, gradients, simulations
 }
 criterion_main!(jobs);

@@ -93,14 +93,15 @@ pub enum CalibrationError {
     /// Elastic cables without tensions or coordinates.
     #[error(
         "cables that stretch or sag have a true length each in every row, so that lengths alone say nothing about the \
-         robot: measure tensions too (one per row helps, all are best), or coordinates of the platform, or give a range that \
-         the tensions keep to, or take straight rigid cables where stretch and sag are below the deviation of the readings"
+         robot: measure tensions too (one per row helps, all are best), or coordinates of the platform, or give a \
+         range that the tensions keep to, or take straight rigid cables where stretch and sag are below the \
+         deviation of the readings"
     )]
     ElasticLengthsAlone,
     /// Rows whose poses their readings do not fix.
     #[error(
-        "the data of row {row} do not fix its pose ({data} data, {coordinates} coordinates): give readings of more cables or \
-         coordinates of the platform, or leave the row out"
+        "the data of row {row} do not fix its pose ({data} data, {coordinates} coordinates): give readings of more \
+         cables or coordinates of the platform, or leave the row out"
     )]
     OpenPose {
         /// Number of the row, from 1.
@@ -121,7 +122,8 @@ pub enum CalibrationError {
     NoSuchUnknown(&'static str),
     /// The search has found no minimum.
     #[error(
-        "no start of the search arrived at a minimum ({starts} starts): give anchors that are nearer, or poses of the rows"
+        "no start of the search arrived at a minimum ({starts} starts): give anchors that are nearer, or poses of the \
+         rows"
     )]
     NoMinimum {
         /// Number of starts.

@@ -75,8 +75,8 @@ enum Slope {
     Slack,
 }
 
-/// Weight over tension up to which the direction of a cable counts as constant in its integrals: the error is a twelfth of
-/// its square.
+/// Weight over tension up to which the direction of a cable counts as constant in its integrals: the error is a twelfth
+/// of its square.
 const STRAIGHT_WEIGHT: f64 = 1e-8;
 
 impl Catenary {

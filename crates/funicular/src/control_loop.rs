@@ -1,5 +1,5 @@
-//! Statics inside a control loop: pose to lengths, lengths to pose, tensions to the wrench on the platform, thousands of
-//! times a second.
+//! Statics inside a control loop: pose to lengths, lengths to pose, tensions to the wrench on the platform, thousands
+//! of times a second.
 //!
 //! A [`LoopModel`] is a robot that was checked at set-up; a [`ControlLoop`] remembers the last state, from which the
 //! next call starts. The functions reserve no memory, take no locks, print nothing, and every iteration in them has a

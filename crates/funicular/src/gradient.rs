@@ -152,8 +152,8 @@ pub enum GradientError {
     },
     /// The required wind bends the cables.
     #[error(
-        "the required wind acts on the ropes, which have a `drag_coefficient`: the load factor has derivatives with wind on the \
-         platform alone; leave the load factor out, or `wind_speed_m_s` in [required]"
+        "the required wind acts on the ropes, which have a `drag_coefficient`: the load factor has derivatives with \
+         wind on the platform alone; leave the load factor out, or `wind_speed_m_s` in [required]"
     )]
     LoadFactorInWind,
     /// Supports settle under the tensions at the limit.

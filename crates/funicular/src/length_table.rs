@@ -1,9 +1,9 @@
 //! Tables of unstrained lengths for controllers without statics: over a box of poses, polynomials that correct the
 //! lengths of straight, unstretched cables.
 //!
-//! A firmware computes `|B − p − R a|`, the distance of a cable's ends. Sag, stretch, pulleys and flexible supports change
-//! this length by a function of the pose that is smooth under a smooth rule of tensions, and small, so that a polynomial
-//! of low degree follows it (docs/theory.md, (40z12)).
+//! A firmware computes `|B − p − R a|`, the distance of a cable's ends. Sag, stretch, pulleys and flexible supports
+//! change this length by a function of the pose that is smooth under a smooth rule of tensions, and small, so that a
+//! polynomial of low degree follows it (docs/theory.md, (40z12)).
 
 use crate::math::chebyshev::{ChebyshevBasis, chebyshev_point, even_point};
 use crate::math::{Vec3, rotation};
@@ -182,8 +182,8 @@ pub enum LengthTableError {
     },
     /// A pose of the box beside which fewer cables than degrees of freedom let the platform go.
     #[error(
-        "the box is not wholly feasible: the cables are fewer than the degrees of freedom, and do not hold the platform \
-         at {pose}"
+        "the box is not wholly feasible: the cables are fewer than the degrees of freedom, and do not hold the \
+         platform at {pose}"
     )]
     LetGo {
         /// Coordinates of the pose.
@@ -191,8 +191,8 @@ pub enum LengthTableError {
     },
     /// A tolerance that no polynomial keeps.
     #[error(
-        "polynomials of total degree {degree} leave an error of {} mm at {pose}, above the tolerance of {} mm: halve the \
-         box along {axis} and write a table for each half, or allow more",
+        "polynomials of total degree {degree} leave an error of {} mm at {pose}, above the tolerance of {} mm: halve \
+         the box along {axis} and write a table for each half, or allow more",
         1e3 * error, 1e3 * tolerance
     )]
     TooCoarse {
@@ -237,8 +237,8 @@ impl StraightLine {
 }
 
 /// Table of the unstrained lengths with which a robot rests at the poses of a box, with an error of at most `tolerance`
-/// [m] at all poses that were tried. The total degree is the least that keeps it, and products that are not needed for it
-/// are left out.
+/// [m] at all poses that were tried. The total degree is the least that keeps it, and products that are not needed for
+/// it are left out.
 ///
 /// No finite number of poses proves the error elsewhere in the box: the table says how many they were. From the worst
 /// of them the error is followed to its maximum.
@@ -533,8 +533,8 @@ impl Sampled<'_> {
         Ok(())
     }
 
-    /// Largest change of a length by a change of all cables [m]; `None` if tensions within the limits do not hold a pose
-    /// then.
+    /// Largest change of a length by a change of all cables [m]; `None` if tensions within the limits do not hold a
+    /// pose then.
     fn effect(&self, tested: &Poses, change: impl Fn(&mut crate::robot::Cable)) -> Option<f64> {
         let mut robot = self.robot.clone();
         robot.cables.iter_mut().for_each(change);

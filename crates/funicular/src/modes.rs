@@ -167,7 +167,8 @@ pub const RESIDUAL_LIMIT: f64 = 1e-8;
 ///
 /// # Example
 /// ```
-/// # use funicular::{cable::CableModel, dynamics::{Dynamics, Linearisation}, modes, robot::Robot, statics::{self, StaticModel}};
+/// # use funicular::dynamics::{Dynamics, Linearisation};
+/// # use funicular::{cable::CableModel, modes, robot::Robot, statics::{self, StaticModel}};
 /// # let robot = Robot::from_toml(funicular_robots::YUAN2014_4MM)?;
 /// # let lengths = [6.863, 6.565, 6.756, 6.663, 6.801, 6.604];
 /// let rest = statics::forward(&robot, &lengths, StaticModel::Catenary, None)?;

@@ -8,7 +8,7 @@
 //! | pose from unstrained lengths | [`forward`] |
 //! | all equilibria of given lengths | [`all_equilibria`], [`another_stable_equilibrium`] |
 //! | lengths from a pose, fully constrained (as many cables as degrees of freedom) | [`inverse`] |
-//! | lengths from a pose, redundantly constrained (more cables than degrees of freedom) | [`distribute_tensions`] by a [`TensionRule`] |
+//! | lengths from a pose, redundantly constrained (more cables) | [`distribute_tensions`] by a [`TensionRule`] |
 //! | minimum and maximum payload that cables within their limits hold at a pose | [`payload_bound`] |
 //! | load factor, capacity margin and largest acceleration at a pose for the required loads | [`LoadCapacity`] |
 //! | whether straight cables could balance every load at a pose | [`wrench_closure`] |

@@ -194,7 +194,8 @@ mod tests {
             ("", None),
             ("colour", None),
             (
-                "mass_kg_per_m_and_so_on_for_more_than_a_hundred_letters_which_no_name_of_any_robot_file_or_option_ever_has_had",
+                "mass_kg_per_m_and_so_on_for_more_than_a_hundred_letters_which_no_name_of_any_robot_file_or_option_\
+                 ever_has_had",
                 None,
             ),
         ] {

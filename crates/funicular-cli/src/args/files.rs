@@ -73,7 +73,8 @@ pub(crate) struct FigureArgs {
     /// Width of the figure in FILE.svg or FILE.pdf [mm], or the column of a journal: ieee-single (88.9), ieee-double
     /// (181), elsevier-single (90), elsevier-double (190), springer-single (84), springer-double (174) [default:
     /// ieee-single]
-    #[arg(long, value_name = "MM|COLUMN", value_parser = funicular_pages::figures::width_mm, allow_hyphen_values = true)]
+    #[arg(long, value_name = "MM|COLUMN", value_parser = funicular_pages::figures::width_mm)]
+    #[arg(allow_hyphen_values = true)]
     pub(crate) figure_width_mm: Option<f64>,
 
     /// Size of the texts in the figure [pt] [default: 8]
@@ -123,7 +124,8 @@ pub(crate) struct StoredArgs {
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Output")]
 pub(crate) struct SampleArgs {
-    /// Write the sampled robots to FILE.parquet or FILE.csv when all are computed; until then they are kept in FILE.partial
+    /// Write the sampled robots to FILE.parquet or FILE.csv when all are computed; until then they are kept in
+    /// FILE.partial
     #[arg(long, value_name = "FILE")]
     pub(crate) samples_file: Option<PathBuf>,
 }
@@ -148,7 +150,8 @@ pub(crate) enum ReducedTo {
 #[derive(Debug, Args)]
 pub(crate) struct ReduceArgs {
     /// Write the model for other programs to the FILE of -o: fmu, a Functional Mock-up Unit 2.0, as --matrices FILE.fmu
-    #[arg(long, value_name = "PROGRAM", value_enum, requires = "output_file", conflicts_with_all = ["matrices", "format"])]
+    #[arg(long, value_name = "PROGRAM", value_enum, requires = "output_file")]
+    #[arg(conflicts_with_all = ["matrices", "format"])]
     pub(crate) to: Option<ReducedTo>,
 }
 
@@ -164,8 +167,8 @@ pub(crate) struct IdentifyArgs {
     #[arg(long, value_name = "FILE", help_heading = "Measurements")]
     pub(crate) measured: Vec<PathBuf>,
 
-    /// Point of the platform at a node of a Universal File [m], as in 2=0.1,0.08,0.02 (repeatable) [default: the nodes of
-    /// the file]
+    /// Point of the platform at a node of a Universal File [m], as in 2=0.1,0.08,0.02 (repeatable) [default: the nodes
+    /// of the file]
     #[arg(long, value_name = "NODE=X,Y,Z", value_parser = values::node, help_heading = "Measurements")]
     pub(crate) node: Vec<NodePoint>,
 

@@ -1,7 +1,7 @@
 //! Run of a command with results or with a file of its own: opens every file in one order, runs, prints, and writes.
 //!
-//! One rule for all commands: the text goes to standard output unless `-o` names it or `--quiet` is given, and each file
-//! that was written is told on stderr.
+//! One rule for all commands: the text goes to standard output unless `-o` names it or `--quiet` is given, and each
+//! file that was written is told on stderr.
 
 use super::simulate::PartialRows;
 use crate::args::{Cli, Format, OutputArgs, ReducedTo};

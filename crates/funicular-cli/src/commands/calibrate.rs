@@ -24,7 +24,8 @@ impl Printed for Calibrated {
         if let (Some(total), Some(inner), Some(weakest)) = (self.total_m, self.inner_total_m, self.weakest_m) {
             let _ = writeln!(
                 text,
-                "All values together: ±{} mm in this frame (the weakest combination ±{} mm), ±{} mm with inner conditions.",
+                "All values together: ±{} mm in this frame (the weakest combination ±{} mm), ±{} mm with inner \
+                 conditions.",
                 significant(1e3 * total, 4),
                 significant(1e3 * weakest, 4),
                 significant(1e3 * inner, 4)
@@ -73,7 +74,8 @@ impl Printed for Calibrated {
         if let Some(LeftOut { candidates, by_tensions, by_clearance }) = self.left_out {
             let _ = writeln!(
                 text,
-                "Of {} {by_tensions} have no tensions within the limits, and {by_clearance} are too near to a body or cable.",
+                "Of {} {by_tensions} have no tensions within the limits, and {by_clearance} are too near to a body or \
+                 cable.",
                 counted(candidates, "candidate")
             );
         }

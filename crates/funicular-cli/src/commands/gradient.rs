@@ -25,14 +25,14 @@ impl Printed for GradientTable {
         if self.results.iter().any(|result| result.derivatives.len() > SHOWN) {
             let _ = write!(
                 out,
-                "\nThe {SHOWN} largest of {} numbers are shown, by their effect over the tolerance of each number; JSON and \
-                 CSV have all.\n",
+                "\nThe {SHOWN} largest of {} numbers are shown, by their effect over the tolerance of each number; \
+                 JSON and CSV have all.\n",
                 self.parameters.len()
             );
         }
         if self.results.iter().any(|result| result.block_entry.is_some()) {
-            out += "\nModes that share a frequency have a block of derivatives: along a change, the derivatives of their \
-                    frequencies are the eigenvalues of the block.\n";
+            out += "\nModes that share a frequency have a block of derivatives: along a change, the derivatives of \
+                    their frequencies are the eigenvalues of the block.\n";
         }
 
         for refused in &self.refused {

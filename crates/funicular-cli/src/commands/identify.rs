@@ -163,8 +163,8 @@ impl Printed for Identified {
     }
 }
 
-/// Modes of the measured frequencies, the second best ones, and fits to random frequencies; empty if every frequency has
-/// a number.
+/// Modes of the measured frequencies, the second best ones, and fits to random frequencies; empty if every frequency
+/// has a number.
 fn assignment(found: &Identified) -> String {
     let Some(assignment) = &found.assignment else { return String::new() };
     let mut text = assignment.random_text().map_or_else(String::new, |sentence| format!("{sentence}\n"));

@@ -70,8 +70,8 @@ fn first_platform(found: &Modes) -> String {
             decimals(100.0 * first.platform_energy_fraction, 1)
         ),
         None => format!(
-            "No mode below {} Hz has at least {percent} % of its kinetic energy in the platform: raise --below-hz or lower \
-             --platform-share.{shared}",
+            "No mode below {} Hz has at least {percent} % of its kinetic energy in the platform: raise --below-hz or \
+             lower --platform-share.{shared}",
             found.below_hz
         ),
     }

@@ -69,7 +69,8 @@ fn state_space_text(found: &ControlStateSpace) -> String {
         None => NOT_WRITTEN.to_owned(),
         Some(path) if Kind::of(Path::new(path)) == Some(Kind::Fmu) => {
             format!(
-                "{path}: x' = A x + B u, y = C x + D u as a Functional Mock-up Unit 2.0, with robot file and description"
+                "{path}: x' = A x + B u, y = C x + D u as a Functional Mock-up Unit 2.0, with robot file and \
+                 description"
             )
         }
         Some(path) => format!("{path}: A, B, C, D of x' = A x + B f, y = C x + D f; description"),

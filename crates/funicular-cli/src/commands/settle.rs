@@ -68,8 +68,8 @@ fn of_release(held: &Held) -> String {
     let [x, y, z] = held.held_m.map(|part| significant(1e3 * part, 4));
     let lowest = &held.lowest_tension;
     format!(
-        "Displacement before the release, linear: {x}, {y}, {z} mm. The lowest tension is {} N, in cable \"{}\" {} s after \
-         it.",
+        "Displacement before the release, linear: {x}, {y}, {z} mm. The lowest tension is {} N, in cable \"{}\" {} s \
+         after it.",
         significant(lowest.tension_n, 4),
         lowest.cable,
         significant(lowest.t_s, 3),
@@ -94,8 +94,8 @@ fn of_command(of: &Commanded) -> String {
             .map_or_else(String::new, |size| format!(", without the shaper {} mm", significant(1e3 * size, 3)));
         let _ = write!(
             text,
-            "\nWith a payload of {} kg: sum of the amplitudes {} mm{without}, most of it at {} Hz; within the tolerance \
-             for good {}.",
+            "\nWith a payload of {} kg: sum of the amplitudes {} mm{without}, most of it at {} Hz; within the \
+             tolerance for good {}.",
             row.payload_kg,
             significant(1e3 * row.amplitude_m, 3),
             decimals(row.frequency_hz, 4),

@@ -8,15 +8,15 @@ impl Printed for Speeds {
     fn text(&self) -> String {
         let required = self.required.as_ref().map_or_else(
             || {
-                "  required velocities none; give --required-velocity-m-s, --required-angular-velocity-rad-s, or [required] \
-                 in the file\n"
+                "  required velocities none; give --required-velocity-m-s, --required-angular-velocity-rad-s, or \
+                 [required] in the file\n"
                     .to_owned()
             },
             required_text,
         );
         format!(
-            "{}: speeds at a pose with {} cables{}\n\n  position            ({}) m\n  roll, pitch, yaw    ({})°\n{required}  \
-             without turning     {}\n\n{}\n{}\n{}",
+            "{}: speeds at a pose with {} cables{}\n\n  position            ({}) m\n  roll, pitch, yaw \
+                ({})°\n{required}  without turning     {}\n\n{}\n{}\n{}",
             self.robot,
             self.static_model,
             self.origin.phrase(),
@@ -33,8 +33,8 @@ impl Printed for Speeds {
 /// Work of the winches for the required velocities.
 fn required_text(required: &RequiredSpeeds) -> String {
     format!(
-        "  required velocities ({}) m/s, ({}) rad/s: {}\n  speed factor        {}\n  powers              motors that drive \
-         {} W, motors that brake {} W, all together\n",
+        "  required velocities ({}) m/s, ({}) rad/s: {}\n  speed factor        {}\n  powers              motors that \
+         drive {} W, motors that brake {} W, all together\n",
         vector(&required.velocity_m_s, 3),
         vector(&required.angular_velocity_rad_s, 3),
         if required.reached { "reached" } else { "not reached" },

@@ -46,7 +46,8 @@ impl Printed for Statics {
         };
 
         format!(
-            "{}: equilibrium with {} cables, {} kg{load}{wind}{rule}\n\n  position         ({}) m\n  roll, pitch, yaw ({})°\n{nearest}{held}{balanced}\n\
+            "{}: equilibrium with {} cables, {} kg{load}{wind}{rule}\n\n  position         ({}) m\n  roll, pitch, yaw \
+             ({})°\n{nearest}{held}{balanced}\n\
              {cables}\n{drives}{stability}. {balance} after {}.\n{others}{friction}",
             self.robot,
             self.static_model,

@@ -44,8 +44,8 @@ impl Printed for Stiffness {
 
         if let Some(part) = self.antisymmetric_fraction {
             let line = format!(
-                "The drag of the wind turns with the cables: the matrix is not symmetric, its antisymmetric part is {} % of it \
-                 (Frobenius norm, moments divided by the platform's size).\n\n",
+                "The drag of the wind turns with the cables: the matrix is not symmetric, its antisymmetric part is {} \
+                 % of it (Frobenius norm, moments divided by the platform's size).\n\n",
                 significant(100.0 * part, 3)
             );
             out += &line;

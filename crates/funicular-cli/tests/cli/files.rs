@@ -170,8 +170,8 @@ const WRITERS: [&str; 26] = [
     "simulate ROBOT --duration-s 0.01 --once --animation OUT",
 ];
 
-/// A file that is read is never written over, by whatever name it is called, nor by what is beside the result until it is
-/// complete.
+/// A file that is read is never written over, by whatever name it is called, nor by what is beside the result until it
+/// is complete.
 #[cfg(unix)]
 #[test]
 fn no_file_that_is_read_is_written_over_by_any_command() {

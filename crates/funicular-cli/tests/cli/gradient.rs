@@ -118,12 +118,16 @@ fn modes_that_share_a_frequency_have_a_block_and_a_response_two_rows() {
     let cables: Vec<String> = [("1", "2.0, 0.0"), ("2", "-2.0, 0.0"), ("3", "0.0, 2.0"), ("4", "0.0, -2.0")]
         .iter()
         .map(|(name, point)| {
-            format!("[[cables]]\nname = \"{name}\"\nmaterial = \"rope\"\nanchor_m = [{point}, 3.0]\nunstrained_length_m = 2.8\n")
+            format!(
+                "[[cables]]\nname = \"{name}\"\nmaterial = \"rope\"\nanchor_m = [{point}, \
+                3.0]\nunstrained_length_m = 2.8\n"
+            )
         })
         .collect();
     let cables = cables.concat();
     let text = format!(
-        "name = \"square\"\n[platform]\nmotion = \"point-mass\"\nmass_kg = 10.0\n[materials.rope]\naxial_stiffness_n = 1e5\n\
+        "name = \"square\"\n[platform]\nmotion = \"point-mass\"\nmass_kg = 10.0\n[materials.rope]\naxial_stiffness_n = \
+         1e5\n\
          mass_kg_per_m = 0.05\n{cables}"
     );
     let options = ["gradient", "-", "--cable-model", "catenary-static", "--below-hz", "40", "--format", "json"];

@@ -514,7 +514,8 @@ fn a_platform_that_only_translates_is_a_point_mass_with_moved_anchors() {
     assert!(stderr(&output).contains("a point mass has no orientation"), "{}", stderr(&output));
 
     // A free point held by three lines.
-    let point = "a ball\n--- LINE TYPES ---\nn\nu\nrope 0.01 0.1 1e5 0 0 0 0 0 0\n--- POINTS ---\nn\nu\n1 Fixed 3 0 4 0 0 0 0\n\
+    let point = "a ball\n--- LINE TYPES ---\nn\nu\nrope 0.01 0.1 1e5 0 0 0 0 0 0\n--- POINTS ---\nn\nu\n1 Fixed 3 0 4 \
+                 0 0 0 0\n\
                  2 Fixed -2 2 4 0 0 0 0\n3 Fixed -2 -2 4 0 0 0 0\n4 Free 0 0 1 25 0 0 0\n--- LINES ---\nn\nu\n\
                  1 rope 1 4 4.2 20 -\n2 rope 4 2 4.1 20 -\n3 rope 3 4 4.1 20 -\n--- OPTIONS ---\n9.80665 g\n0 rho\n";
     let folder = tempfile::tempdir().unwrap();

@@ -50,9 +50,9 @@ fn cases() -> Vec<Case> {
 impl Case {
     /// Export of the case; `more` are further options.
     fn export(&self, to: &str, path: &str, more: &[&str]) -> std::process::Output {
+        let tolerance = self.tolerance.to_string();
         let sides: Vec<String> = self.sides.iter().map(|(axis, from, to)| format!("{axis}={from}:{to}")).collect();
         let within = sides.iter().flat_map(|side| ["--within", side.as_str()]);
-        let tolerance = self.tolerance.to_string();
         let first = ["export", &self.robot, "--to", to, "--tolerance-m", &tolerance, "-o", path];
         let arguments: Vec<&str> = first.into_iter().chain(within).chain(self.options.iter().copied()).collect();
         run(&[&arguments[..], more].concat())
@@ -69,8 +69,8 @@ impl Case {
     }
 }
 
-/// Program that reads poses and prints the result of the self-test, then for each pose flags, lengths and for each cable
-/// the largest error of the gradient against differences of lengths.
+/// Program that reads poses and prints the result of the self-test, then for each pose flags, lengths and for each
+/// cable the largest error of the gradient against differences of lengths.
 fn caller(axes: usize) -> String {
     let at = |k: Option<usize>, sign: &str| -> String {
         let each = (0..axes).map(|i| if k == Some(i) { format!("p[{i}] {sign} step") } else { format!("p[{i}]") });
@@ -91,8 +91,9 @@ fn caller(axes: usize) -> String {
          printf(\"%d\\n\", t_self_test());\n  \
          if (t_length_m(-1, {at}) != -1.0 || t_length_m(T_CABLES, {at}) != -1.0) return 1;\n  for (;;) {{\n    \
          for (k = 0; k < T_AXES; k++) if (scanf(\"%lf\", &p[k]) != 1) {{ printf(\"%.3e\\n\", worst); return 0; }}\n    \
-         printf(\"%d\", t_lengths_m({at}, l));\n    for (c = 0; c < T_CABLES; c++) {{\n      printf(\" %.17g\", l[c]);\n      \
-         if (l[c] != t_length_m(c, {at})) return 2;\n      if (t_outside({at})) continue;\n      if (t_gradient(c, {at}, g)) \
+         printf(\"%d\", t_lengths_m({at}, l));\n    for (c = 0; c < T_CABLES; c++) \
+         {{\n      printf(\" %.17g\", l[c]);\n      if (l[c] != t_length_m(c, {at})) return 2;\n      if \
+         (t_outside({at})) continue;\n      if (t_gradient(c, {at}, g)) \
          return 3;\n{differences}    }}\n    printf(\"\\n\");\n  }}\n}}\n",
         at = at(None, ""),
     )
@@ -290,7 +291,8 @@ fn names_of_any_letters_stand_in_comments_and_identifiers() {
     assert!(stdout(&output).contains("double robot_4_a_k_fig_length_m(int cable, double x_m);"), "{}", stdout(&output));
 
     // Two tables in one program, one of them by its declarations first.
-    let two = "#define A_FLOAT\n#include \"left.c\"\n#include \"right.c\"\nint main(void) { return a_self_test() + b_self_test(); }\n";
+    let two = "#define A_FLOAT\n#include \"left.c\"\n#include \"right.c\"\nint main(void) \
+        { return a_self_test() + b_self_test(); }\n";
     fs::write(folder.path().join("two.c"), two).unwrap();
     for (prefix, file, side) in [("a", "left.c", "x=-1:0"), ("b", "right.c", "x=0:1")] {
         let path = folder.path().join(file);

@@ -140,8 +140,8 @@ fn the_contents_of_the_theory_are_its_headings() {
 fn anchors_are_those_of_github_and_dead_links_are_found() {
     assert_eq!(anchor("14 Degrees of freedom, few cables and loads"), "14-degrees-of-freedom-few-cables-and-loads");
     assert_eq!(anchor("Why pulp, and not `wide` or intrinsics?"), "why-pulp-and-not-wide-or-intrinsics");
-    let text = "# A\n## B c\n## B c\n```\n# none\n[x](none.md)\n```\n`[y](none.md)` [1](#b-c-1) [2](#b-c-2) [3](none.md) \
-                [4](https://example.org/#x) [5](README.md#a)\n[6](CITATION.cff)";
+    let text = "# A\n## B c\n## B c\n```\n# none\n[x](none.md)\n```\n`[y](none.md)` [1](#b-c-1) [2](#b-c-2) \
+                [3](none.md) [4](https://example.org/#x) [5](README.md#a)\n[6](CITATION.cff)";
     assert_eq!(anchors(text), ["a", "b-c", "b-c-1"].map(str::to_owned).into());
     let path = root().join("DESIGN.md");
     let dead: Vec<String> = dead_links(&path, text).iter().map(|d| d.rsplit(' ').next().unwrap().to_owned()).collect();

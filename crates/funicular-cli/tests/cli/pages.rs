@@ -71,8 +71,8 @@ fn the_built_in_robot_is_that_of_the_file() {
 #[test]
 fn options_of_state_model_and_response_reach_the_page() {
     let page = succeed(
-        &"report -o - --pose 0,0,0.6 --mass-kg 20 --static-model spring --cable-model spring --assembly without-geometric-stiffness \
-          --in-plane-only --below-hz 12 --input mz --output vx --output-point-m 0,0,-0.2"
+        &"report -o - --pose 0,0,0.6 --mass-kg 20 --static-model spring --cable-model spring --assembly \
+          without-geometric-stiffness --in-plane-only --below-hz 12 --input mz --output vx --output-point-m 0,0,-0.2"
             .split_whitespace()
             .collect::<Vec<_>>(),
     );

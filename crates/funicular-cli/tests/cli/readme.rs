@@ -26,7 +26,8 @@ fn printed(line: &str, shown: &str) -> String {
     told + stdout(&output)
 }
 
-/// Compares two texts word by word; numbers may differ by one in the last place, and what is zero but for rounding by anything.
+/// Compares two texts word by word; numbers may differ by one in the last place, and what is zero but for rounding by
+/// anything.
 fn same(a: &str, b: &str) -> bool {
     let words = |text: &str| text.split_whitespace().map(str::to_owned).collect::<Vec<_>>();
     let number = |word: &str| word.trim_end_matches([',', '%', ')', ';', '.']).trim_start_matches('(').parse::<f64>();
@@ -139,7 +140,8 @@ fn the_listing_of_pulleys_and_winches_is_read_and_rests() {
     let (_, after) = page.split_once("```toml\n").expect("the page has a listing");
     let (listing, _) = after.split_once(END).expect("the listing ends");
     let robot = format!(
-        "name = \"listing\"\n[platform]\nmass_kg = 20.0\ninertia_kg_m2 = [1.0, 1.0, 1.0]\ncenter_of_mass_m = [0.0, 0.0, 0.0]\n\
+        "name = \"listing\"\n[platform]\nmass_kg = 20.0\ninertia_kg_m2 = [1.0, 1.0, 1.0]\ncenter_of_mass_m = [0.0, \
+         0.0, 0.0]\n\
          [materials.rope]\naxial_stiffness_n = 251e3\nmass_kg_per_m = 0.067\n{listing}"
     );
     let json = |arguments: &[&str]| -> serde_json::Value {

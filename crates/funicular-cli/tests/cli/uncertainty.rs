@@ -206,7 +206,8 @@ fn requests_that_make_no_sense_are_refused_with_the_reason() {
         ),
         (
             &["uncertainty", &few, "--deviations", "platform=1%", "--hold", "pose"],
-            "3 cables cannot hold the pose of a platform with 6 degrees of freedom by their lengths; give --hold lengths",
+            "3 cables cannot hold the pose of a platform with 6 degrees of freedom by their lengths; give --hold \
+             lengths",
         ),
         (
             &["uncertainty", "ROBOT", "--static-model", "ideal", "--deviations", "platform=1%", "--method", "linear"],

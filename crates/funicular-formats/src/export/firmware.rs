@@ -1,5 +1,5 @@
-//! Export of unstrained lengths over a box of poses for firmware: polynomials that correct the lengths of straight cables,
-//! as a C99 file and in JSON.
+//! Export of unstrained lengths over a box of poses for firmware: polynomials that correct the lengths of straight
+//! cables, as a C99 file and in JSON.
 
 mod c;
 mod json;
@@ -80,7 +80,8 @@ pub(super) fn refuse(request: &ExportRequest) -> Result<()> {
 /// Writes the table of lengths of a request; the robot is that of its file.
 ///
 /// # Errors
-/// A request that contradicts itself or the robot, a box that is not wholly feasible, or a tolerance that cannot be kept.
+/// A request that contradicts itself or the robot, a box that is not wholly feasible, or a tolerance that cannot be
+/// kept.
 pub(super) fn of_request(robot: &Robot, request: &ExportRequest) -> Result<Exported> {
     let robot = at_rest::with_limits(&at_rest::with_state(robot.clone(), &request.state)?, &request.tensions)?;
     file(&robot, request)
@@ -147,14 +148,15 @@ fn rule(robot: &Robot, given: Option<&TensionRule>, caveats: &mut Vec<String>) -
         return Ok(TensionRule::Centre);
     };
     caveats.push(format!(
-        "the tensions follow the rule `lowest`, because cable \"{}\" has no maximum tension: lengths have kinks where a \
-         limit begins to bind, and polynomials follow them slowly; give ⟪max_tension_n⟫ for the rule `centre`",
+        "the tensions follow the rule `lowest`, because cable \"{}\" has no maximum tension: lengths have kinks where \
+         a limit begins to bind, and polynomials follow them slowly; give ⟪max_tension_n⟫ for the rule `centre`",
         cable.name
     ));
     Ok(TensionRule::Lowest)
 }
 
-/// Box of poses of a request. Coordinates that it does not give are those of the pose of the state, or else no rotation.
+/// Box of poses of a request. Coordinates that it does not give are those of the pose of the state, or else no
+/// rotation.
 ///
 /// # Errors
 /// An axis that is given twice or along which the platform cannot move, an empty range, a position that nothing gives,
@@ -191,7 +193,8 @@ fn pose_box(robot: &Robot, within: &[Axis]) -> Result<PoseBox> {
     }
     if sides.is_empty() {
         bail!(
-            "⟪within⟫: no coordinate has a range, as in x=-3:3: the lengths of one pose are those of `funicular statics`"
+            "⟪within⟫: no coordinate has a range, as in x=-3:3: the lengths of one pose are those of `funicular \
+             statics`"
         );
     }
 

@@ -5,8 +5,8 @@
 //! passes them over, and a constant wrench holds the platform there until a node publishes forces of cables.
 //!
 //! # References
-//! SDFormat specification 1.9, <http://sdformat.org/spec>; URDF, <https://wiki.ros.org/urdf/XML>; the elements `drake:` in
-//! the documentation of Drake's `multibody/parsing`.
+//! SDFormat specification 1.9, <http://sdformat.org/spec>; URDF, <https://wiki.ros.org/urdf/XML>; the elements `drake:`
+//! in the documentation of Drake's `multibody/parsing`.
 
 use super::mujoco::vector;
 use super::springs::SpringRobot;
@@ -79,8 +79,8 @@ struct CableLink {
 pub(super) fn sdf(at_rest: &AtRest, given: &Equilibrium, warnings: &mut Vec<String>) -> Result<String> {
     if matches!(at_rest.robot.platform.motion, PlatformMotion::Planar(_)) {
         bail!(
-            "the platform is planar: SDF has no joint that guides a body in a plane; export it to MuJoCo, or to URDF for \
-             viewers"
+            "the platform is planar: SDF has no joint that guides a body in a plane; export it to MuJoCo, or to URDF \
+             for viewers"
         );
     }
     let mut springs = SpringRobot::of(at_rest, given, warnings);
@@ -123,8 +123,8 @@ impl Links {
         let robot = springs.robot;
         let pulleys = robot.cables.iter().any(|cable| cable.anchor.pulley.is_some());
         springs.lost.extend(pulleys.then(|| {
-            "pulleys are left out: a cable ends at its exit point, which does not move; its spring has the stiffness of \
-             arc, drum side and winch too"
+            "pulleys are left out: a cable ends at its exit point, which does not move; its spring has the stiffness \
+             of arc, drum side and winch too"
                 .to_owned()
         }));
 

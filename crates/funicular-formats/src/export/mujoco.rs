@@ -1,13 +1,13 @@
 //! Export to a model of MuJoCo (MJCF): the platform with its mass, one spatial tendon per cable, and two actuators per
-//! cable, which command its unstrained length or its tension. On request a cable is a chain of bars with its mass, and the
-//! tendon its last piece.
+//! cable, which command its unstrained length or its tension. On request a cable is a chain of bars with its mass, and
+//! the tendon its last piece.
 //!
 //! The spring of a cable is in the actuator of its length, because the rest length of a tendon's own spring cannot be
 //! commanded: the force is `k (L₀ + u − L) − c L'`, limited to tension, with the command u of zero at rest.
 //!
-//! A pulley is a body that swivels about its entry direction, with a cylinder that the tendon wraps. The tendon begins on
-//! the swivel axis, so that it touches the wheel at the entry point. On MuJoCo's smooth cylinder it would slip sideways
-//! and push the wheel away; a point of the rim that it passes holds it as the groove does.
+//! A pulley is a body that swivels about its entry direction, with a cylinder that the tendon wraps. The tendon begins
+//! on the swivel axis, so that it touches the wheel at the entry point. On MuJoCo's smooth cylinder it would slip
+//! sideways and push the wheel away; a point of the rim that it passes holds it as the groove does.
 //!
 //! # References
 //! XML reference of MuJoCo, <https://mujoco.readthedocs.io/en/stable/XMLreference.html>.
@@ -31,16 +31,16 @@ use std::f64::consts::{PI, TAU};
 /// twenty-fourth of the angle's square, relative to the frequency.
 const MAX_STEP_S: f64 = 1e-3;
 const MAX_ANGLE_PER_STEP: f64 = 0.1;
-/// Largest angle by which the fastest motion of a chain turns per step. The integration is stable up to two: it stays so
-/// under sixteen times the tension.
+/// Largest angle by which the fastest motion of a chain turns per step. The integration is stable up to two: it stays
+/// so under sixteen times the tension.
 const MAX_ANGLE_OF_CHAINS: f64 = 0.5;
 /// Number of natural frequencies that the file of chains lists.
 const FREQUENCIES: usize = 10;
 /// Frequency of a swivel without a given inertia, over the highest one of the platform: so fast that the swivel follows
 /// the platform, and slow enough for the time step.
 const SWIVEL_FREQUENCY: f64 = 4.0;
-/// Part of the mean tension that a cable has at least for this inertia, so that a cable that is nearly slack at rest does
-/// not get a swivel that is too fast for the time step when it is taut.
+/// Part of the mean tension that a cable has at least for this inertia, so that a cable that is nearly slack at rest
+/// does not get a swivel that is too fast for the time step when it is taut.
 const MIN_TENSION_SHARE: f64 = 0.1;
 /// Smallest inertia of a swivel [kg m²], above the 1e-15 that MuJoCo refuses.
 const MIN_SWIVEL_INERTIA: f64 = 1e-9;
@@ -49,8 +49,8 @@ const SIDE: f64 = 1.5;
 /// Angle of the point that holds the cable in its groove, in wrap angles at rest: so near to the exit point that the
 /// swivel is stable, and so far from it that the cable still reaches the point where it wraps less.
 const GROOVE: f64 = 0.75;
-/// Distance of this point from the rim, in radii: MuJoCo wraps nothing from a point on the rim itself. The length has an
-/// error of the power 3/2 of it.
+/// Distance of this point from the rim, in radii: MuJoCo wraps nothing from a point on the rim itself. The length has
+/// an error of the power 3/2 of it.
 const OFF_RIM: f64 = 1e-8;
 /// Size of the drawn points, and radius of drawn cables, in sizes of the platform.
 const POINT_SIZE: f64 = 0.03;

@@ -86,15 +86,15 @@ impl<'a> SpringRobot<'a> {
             let length = pairs().map(|(a, b)| (a.unstrained_length - b.unstrained_length).abs()).fold(0.0, f64::max);
             let tension = pairs().map(|(a, b)| (a.tension_platform - b.tension_platform).abs()).fold(0.0, f64::max);
             format!(
-                ". With sagging cables the attachments rest up to {moved:.2e} m from here, unstrained lengths differ by \
-                 up to {length:.2e} m and tensions by up to {tension:.2e} N"
+                ". With sagging cables the attachments rest up to {moved:.2e} m from here, unstrained lengths differ \
+                 by up to {length:.2e} m and tensions by up to {tension:.2e} N"
             )
         } else {
             String::new()
         };
         self.lost.push(format!(
-            "the cables are straight and have no mass: {rope:.3} kg of rope beside {} kg of the platform, their sag and \
-             their vibration are left out{compared}",
+            "the cables are straight and have no mass: {rope:.3} kg of rope beside {} kg of the platform, their sag \
+             and their vibration are left out{compared}",
             self.robot.platform.mass
         ));
     }

@@ -11,8 +11,8 @@ fn is_kept(c: char) -> bool {
     matches!(c, ' '..='\u{d7ff}' | '\u{e000}'..='\u{fffd}' | '\u{10000}'..) && !c.is_control()
 }
 
-/// Names of `what` as a file can hold them: characters that XML or the program does not allow become `_`, and names that
-/// are equal then get their number. A warning says which names changed.
+/// Names of `what` as a file can hold them: characters that XML or the program does not allow become `_`, and names
+/// that are equal then get their number. A warning says which names changed.
 pub(crate) fn names<'a>(
     what: &str,
     given: impl Iterator<Item = &'a str>,

@@ -67,8 +67,8 @@ pub(crate) fn read(xml: &Xml) -> Result<Draft> {
     let payload = payload(xml, robot, &mut lost)?;
     if cables.iter().any(|cable| cable.winch.is_some()) {
         assumed.push(
-            "that the drums are at the pulleys, and that winches are rigid: the file does not say how far the drums are; \
-             `drum_side_length_m` and `stiffness_n_per_m` of [winches] give other values"
+            "that the drums are at the pulleys, and that winches are rigid: the file does not say how far the drums \
+             are; `drum_side_length_m` and `stiffness_n_per_m` of [winches] give other values"
                 .to_owned(),
         );
     }

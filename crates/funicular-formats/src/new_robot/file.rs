@@ -34,9 +34,9 @@ const HMPE_BREAKING_LOAD: f64 = 580e6;
 /// modulus of the fibre, 109 GPa, would give 96.
 const HMPE_STRAIN_AT_BREAK: f64 = 0.04;
 
-/// Damping time of the stretch of an HMPE rope [s]: 473 N s over EA of 614.6 kN, of a braided rope of 4 mm in simulations
-/// of kites (KiteModels.jl, settings after U. Fechner's thesis, 2016). No measurement is behind it that was found; for
-/// wire ropes and aramid not even such a number was.
+/// Damping time of the stretch of an HMPE rope [s]: 473 N s over EA of 614.6 kN, of a braided rope of 4 mm in
+/// simulations of kites (KiteModels.jl, settings after U. Fechner's thesis, 2016). No measurement is behind it that was
+/// found; for wire ropes and aramid not even such a number was.
 const HMPE_DAMPING_TIME: f64 = 0.77e-3;
 
 /// Name of the rope in the file.
@@ -342,8 +342,8 @@ fn fibre_stiffness(section: &mut FileSection, rope: RopeType, diameter: f64) -> 
         format!(
             "The stiffness is cautious: breaking load / {strain}, because the fibre breaks at a strain of at most \
              {strain} (DSM Dyneema, CIS YA100, 2010). A rope in service is about twice as stiff. Low frequencies and \
-             large displacements are on the safe side, differences of tension between cables are not: replace the value by \
-             that of your rope."
+             large displacements are on the safe side, differences of tension between cables are not: replace the \
+             value by that of your rope."
         ),
         "MoorPy's numbers are those of mooring ropes, tens of millimetres thick: below that they are extrapolated. The \
          damping ratio is that of wire ropes, because no measurement of such a rope was found."

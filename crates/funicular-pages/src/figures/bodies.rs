@@ -37,7 +37,8 @@ impl BodySurface {
         self.triangles.iter().flatten().copied()
     }
 
-    /// Edges that a line drawing shows from a direction: those between triangles that meet at an angle, and the outline [m].
+    /// Edges that a line drawing shows from a direction: those between triangles that meet at an angle, and the outline
+    /// [m].
     pub(crate) fn edges(&self, towards: &Vec3) -> Vec<[Vec3; 2]> {
         // Corners to a micrometre, so that triangles share them.
         let key = |point: &Vec3| [point.x, point.y, point.z].map(|number| (number * 1e6).round() as i64);

@@ -104,8 +104,8 @@ fn figure(found: &Calibrated, view: &AxisView, number: usize) -> PageFigure {
         format!("figure-anchors-{number}"),
         520,
         format!(
-            "Anchors and poses, {}. Ellipses of two deviations with inner conditions and the weakest combination are {} \
-             times as large as the room.",
+            "Anchors and poses, {}. Ellipses of two deviations with inner conditions and the weakest combination are \
+             {} times as large as the room.",
             view.name,
             significant(scale, 2)
         ),

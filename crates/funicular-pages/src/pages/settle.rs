@@ -72,8 +72,8 @@ fn decay(found: &Settled) -> PageFigure {
         "Displacement of the point from its rest since the release, along the axes of the world, with the sum of the \
          amplitudes of all modes as its bound."
     } else {
-        "Displacement of the point from where the lengths of the time hold it at rest, along the axes of the world, since \
-         the end of the command, with the sum of the amplitudes of all modes as its bound afterwards."
+        "Displacement of the point from where the lengths of the time hold it at rest, along the axes of the world, \
+         since the end of the command, with the sum of the amplitudes of all modes as its bound afterwards."
     };
     PageFigure::new(
         "figure-decay",

@@ -141,8 +141,8 @@ fn pose(found: &Simulated) -> Vec<PageFigure> {
         found,
         "figure-position",
         340,
-        "Displacement of the platform's origin since the start, along the axes of the world. Dashed lines and grey bands: \
-         events.",
+        "Displacement of the platform's origin since the start, along the axes of the world. Dashed lines and grey \
+         bands: events.",
         &moved,
         json!({"yaxis": axis(&title, json!({}))}),
     )];
@@ -232,8 +232,8 @@ fn spectrum(of: &MotionSpectrum) -> PageFigure {
         data.push(with(line(&name, &x, &y, kind_colour(kind), "solid"), look));
     }
     let caption = format!(
-        "Amplitudes of the motion of the platform's origin from {} to {} s, through the window of von Hann, and below the \
-         natural frequencies of the robot at the equilibrium of its last lengths and payloads.",
+        "Amplitudes of the motion of the platform's origin from {} to {} s, through the window of von Hann, and below \
+         the natural frequencies of the robot at the equilibrium of its last lengths and payloads.",
         short(of.from_s, 4),
         short(of.until_s, 4)
     );

@@ -275,8 +275,8 @@ fn abscissa(found: &Uncertainties) -> (&'static str, impl Fn(usize, &PoseUncerta
 }
 
 fn results(found: &Uncertainties) -> PageTable {
-    let caption = "Results with standard deviations and the intervals that hold 95 % of all robots; corners of the tolerances \
-                   as changes of the result.";
+    let caption = "Results with standard deviations and the intervals that hold 95 % of all robots; corners of the \
+                   tolerances as changes of the result.";
     let columns = ResultAtPose::columns(&found.groups, true);
     PageTable::of("table-results", caption, &columns, ResultAtPose::all(found, 0, found.poses.len()))
 }

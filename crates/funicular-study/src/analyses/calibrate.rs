@@ -207,8 +207,8 @@ fn check_signs(request: &CalibrateRequest, of: &Calibration, numbers: &[usize]) 
         let wrong = row.readings.iter().zip(&of.robot.cables).find(|(reading, _)| reading.is_some_and(|of| of <= 0.0));
         if let Some((reading, cable)) = wrong {
             bail!(
-                "⟪readings⟫, row {number}: the reading {} m of cable {} is no length, which is positive; readings from an \
-                 encoder's zero need unknown offsets, ⟪unknowns⟫ anchors,offsets",
+                "⟪readings⟫, row {number}: the reading {} m of cable {} is no length, which is positive; readings from \
+                 an encoder's zero need unknown offsets, ⟪unknowns⟫ anchors,offsets",
                 significant(reading.unwrap_or_default(), 4),
                 cable.name
             );

@@ -25,7 +25,8 @@ pub(crate) enum Candidates {
 /// Candidates that a request wants, whose options `needs` say that there is a proposal.
 ///
 /// # Errors
-/// A proposal without candidates, an axis that does not exist or is there twice, or a pose that the platform cannot have.
+/// A proposal without candidates, an axis that does not exist or is there twice, or a pose that the platform cannot
+/// have.
 pub(crate) fn wanted(
     (is_wanted, needs): (bool, &str),
     given_grid: &[Axis],
@@ -77,8 +78,8 @@ fn grid(given: &[Axis]) -> Result<Candidates> {
 }
 
 impl Candidates {
-    /// Poses of the candidates; axes that are not given have the values of `middle`, or follow from the plane of a planar
-    /// platform.
+    /// Poses of the candidates; axes that are not given have the values of `middle`, or follow from the plane of a
+    /// planar platform.
     ///
     /// # Errors
     /// A pose that the platform cannot have.

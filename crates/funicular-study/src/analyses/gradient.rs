@@ -238,8 +238,8 @@ pub(crate) fn check_hold(robot: &Robot, hold: Hold) -> Result<()> {
     if hold != Hold::Lengths && robot.constraint().is_under() {
         let (cables, degrees_of_freedom) = (robot.cables.len(), robot.platform.motion.count());
         bail!(
-            "⟪hold⟫ {}: {cables} cables cannot hold the pose of a platform with {degrees_of_freedom} degrees of freedom by \
-             their lengths; give ⟪hold⟫ lengths",
+            "⟪hold⟫ {}: {cables} cables cannot hold the pose of a platform with {degrees_of_freedom} degrees of \
+             freedom by their lengths; give ⟪hold⟫ lengths",
             hold.name()
         );
     }

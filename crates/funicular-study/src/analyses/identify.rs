@@ -96,7 +96,8 @@ pub struct Identified {
     /// Measurements to make next.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub proposals: Vec<ProposedMeasurement>,
-    /// Least number of proposed measurements that reaches the wanted deviation; absent if none was wanted or no number does.
+    /// Least number of proposed measurements that reaches the wanted deviation; absent if none was wanted or no number
+    /// does.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub measurements_needed: Option<usize>,
     /// Robot file with the values.

@@ -135,9 +135,9 @@ fn pose_of(robot: &Robot, request: &LoadsRequest) -> Result<Pose> {
 }
 
 /// Warning about a load factor that counts cables which hang deeper than those of the margin.
-const SLACKER: &str = "with this multiple of the binding load a cable hangs so deep that its tension would rise with more \
-                       rope: the load factor counts such cables, the capacity margin and the acceleration do not; give a \
-                       larger `minimum_tension_n` if the cable has to stay taut";
+const SLACKER: &str = "with this multiple of the binding load a cable hangs so deep that its tension would rise with \
+                       more rope: the load factor counts such cables, the capacity margin and the acceleration do not; \
+                       give a larger `minimum_tension_n` if the cable has to stay taut";
 
 impl RequiredHeld {
     /// Load factor of a capacity, and true if it counts cables that hang deeper than those of the margin.

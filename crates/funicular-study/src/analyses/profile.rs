@@ -78,8 +78,8 @@ impl Profile {
     /// Rise of χ² at the ends of an interval of 95 %.
     pub const RISE_95: f64 = LIMIT * LIMIT;
 
-    /// Profile from the ends below and above, with the reasons why there is none, and points of value and rise of χ² in any
-    /// order.
+    /// Profile from the ends below and above, with the reasons why there is none, and points of value and rise of χ² in
+    /// any order.
     pub(crate) fn of(ends: [(Option<f64>, Option<OpenEnd>); 2], mut points: Vec<ProfilePoint>, fits: usize) -> Self {
         let [(from, open_below), (to, open_above)] = ends;
         points.sort_by(|a, b| a.value.total_cmp(&b.value));
@@ -102,8 +102,8 @@ pub(crate) struct ProfileSide {
 }
 
 impl ProfileSide {
-    /// Distance at which χ² reaches its limit, or the reason why there is none; fits points of the curve as well. `rise` is
-    /// the rise of χ² with the value held at a distance, `None` if nothing can be fitted there.
+    /// Distance at which χ² reaches its limit, or the reason why there is none; fits points of the curve as well.
+    /// `rise` is the rise of χ² with the value held at a distance, `None` if nothing can be fitted there.
     ///
     /// # Errors
     /// Those of `rise`.

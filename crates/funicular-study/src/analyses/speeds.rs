@@ -136,8 +136,8 @@ pub fn run(robot: Robot, request: &SpeedsRequest) -> Result<Speeds> {
     let robot = at_rest::with_required_velocities(robot, &request.required)?;
     if robot.constraint().is_under() {
         bail!(
-            "{} cables cannot give a platform with {} degrees of freedom every velocity: `speeds` needs at least as many \
-             cables as degrees of freedom",
+            "{} cables cannot give a platform with {} degrees of freedom every velocity: `speeds` needs at least as \
+             many cables as degrees of freedom",
             robot.cables.len(),
             robot.platform.motion.count()
         );
@@ -174,8 +174,8 @@ pub fn run(robot: Robot, request: &SpeedsRequest) -> Result<Speeds> {
 fn kink(at_rest: &AtRest, speeds: &WinchSpeeds) -> Option<String> {
     let rule = at_rest.rule.as_ref().filter(|_| at_rest.held_pose.is_none() && !speeds.follows_rule)?;
     Some(format!(
-        "the rule `{}` has no derivatives at this equilibrium: the rates are those of tensions that change least along the \
-         cables; they differ by the change of stretch and sag alone",
+        "the rule `{}` has no derivatives at this equilibrium: the rates are those of tensions that change least along \
+         the cables; they differ by the change of stretch and sag alone",
         rule.name()
     ))
 }

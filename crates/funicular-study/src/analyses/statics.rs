@@ -254,8 +254,8 @@ impl FrictionMotionRow {
 }
 
 impl FrictionCableRow {
-    /// Fields of a row with an interval of friction, or none. The tensions of the free span vary only if the lengths are
-    /// held.
+    /// Fields of a row with an interval of friction, or none. The tensions of the free span vary only if the lengths
+    /// are held.
     fn fields<R>(of: impl Fn(&R) -> Option<&Self> + Copy + 'static, lengths_held: bool) -> [Field<R>; 5] {
         let range = |name: &str, about: &str, value: fn(&Self) -> [f64; 2]| {
             let unit = if name.ends_with("_m") { "m" } else { "N" };

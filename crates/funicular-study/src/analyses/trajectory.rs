@@ -250,8 +250,8 @@ impl<'a> Planned<'a> {
 pub fn run(robot: Robot, request: &TrajectoryRequest, watch: &mut dyn Watch) -> Result<TrajectoryResult> {
     if robot.constraint().is_under() {
         bail!(
-            "{} cables do not hold the pose of a platform with {} degrees of freedom: only a robot with at least as many \
-             cables follows a path of poses",
+            "{} cables do not hold the pose of a platform with {} degrees of freedom: only a robot with at least as \
+             many cables follows a path of poses",
             robot.cables.len(),
             robot.platform.motion.count()
         );
@@ -518,8 +518,8 @@ fn warnings(
     found.extend(told::rule_that_jumps(planned, samples));
     if let Some(QuasiStatic { motion_hz, cable_hz }) = quasi_static.filter(|of| of.motion_hz > DOUBTFUL * of.cable_hz) {
         found.push(format!(
-            "the motion has parts up to {} Hz, more than {DOUBTFUL} of the {} Hz at which a cable swings, so that cables do \
-             not hang as at rest: repeat it with `simulate`",
+            "the motion has parts up to {} Hz, more than {DOUBTFUL} of the {} Hz at which a cable swings, so that \
+             cables do not hang as at rest: repeat it with `simulate`",
             significant(*motion_hz, 3),
             significant(*cable_hz, 3)
         ));
@@ -527,7 +527,8 @@ fn warnings(
     let by_differences = samples.motions.iter().filter_map(|motion| motion.no_exact_rates.as_ref());
     if let Some(reason) = by_differences.clone().next() {
         found.push(format!(
-            "the rates of the lengths are differences over 0.2 ms at {} of {} rows, where they have no derivatives: {reason}",
+            "the rates of the lengths are differences over 0.2 ms at {} of {} rows, where they have no derivatives: \
+             {reason}",
             by_differences.count(),
             samples.times.len()
         ));

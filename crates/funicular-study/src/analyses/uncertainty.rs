@@ -2,7 +2,8 @@
 //!
 //! The linear method uses the gradients of all results, and four tests decide where it is valid: whether a cable may
 //! become slack, whether natural frequencies may cross, whether modes come near and mix, and whether a response is far
-//! from linear. Where it is not valid, or where a result has no gradient, robots are sampled (docs/theory.md, section "Uncertainty").
+//! from linear. Where it is not valid, or where a result has no gradient, robots are sampled (docs/theory.md, section
+//! "Uncertainty").
 //!
 //! The work comes in parts that do not depend on each other: poses, then chunks of sampled robots. A front end runs
 //! them on its own threads and may keep the samples in a file, as those of a sweep.

@@ -69,8 +69,8 @@ impl AtRest {
         }
         let (distance, jump) = found?;
         Some(format!(
-            "{} {} µm beside this pose the tension of cable \"{}\" jumps by {} N: rates and derivatives hold on this side of \
-             the jump alone; take ⟪tension_rule⟫ {SMOOTH_RULES}",
+            "{} {} µm beside this pose the tension of cable \"{}\" jumps by {} N: rates and derivatives hold on this \
+             side of the jump alone; take ⟪tension_rule⟫ {SMOOTH_RULES}",
             self.rule_name(),
             significant(1e6 * distance, 2),
             self.robot.cables[jump.cable].name,
@@ -86,8 +86,8 @@ impl AtRest {
         }
         let jump = self.first_jump(pose, PARTS)?;
         Some(format!(
-            "{} at {} % of the {what} the tension of cable \"{}\" jumps by {} N, and the lengths with it; no winch follows \
-             that: take ⟪tension_rule⟫ {SMOOTH_RULES}",
+            "{} at {} % of the {what} the tension of cable \"{}\" jumps by {} N, and the lengths with it; no winch \
+             follows that: take ⟪tension_rule⟫ {SMOOTH_RULES}",
             self.rule_name(),
             significant(100.0 * jump.at, 4),
             self.robot.cables[jump.cable].name,

@@ -48,7 +48,8 @@ declared! {
             .under("Prior knowledge");
         /// Range within which the tensions at the anchors lie that were not measured [N]: a prior of its middle, with
         /// the deviation of equal chances, for elastic cables.
-        tension_range_n: Option<[f64; 2]> = None => (Written(ProgramForm::Band)).form("FROM:TO").under("Prior knowledge");
+        tension_range_n: Option<[f64; 2]> = None => (Written(ProgramForm::Band)).form("FROM:TO")
+            .under("Prior knowledge");
         /// Static model of the cables: ideal ones are straight and rigid.
         #[serde(with = "crate::names")]
         static_model: StaticModel = StaticModel::Ideal => (name::<StaticModel>()).form("MODEL");
@@ -69,7 +70,8 @@ declared! {
         propose_for: Vec<String> = Vec::new() => (Texts).form("NAMES").under("Proposal").otherwise("all unknowns");
         /// Criterion of the proposal.
         #[serde(with = "crate::names")]
-        propose_by: RowCriterion = RowCriterion::default() => (name::<RowCriterion>()).form("CRITERION").under("Proposal");
+        propose_by: RowCriterion = RowCriterion::default() => (name::<RowCriterion>()).form("CRITERION")
+            .under("Proposal");
         /// Largest deviation that is wanted [m]: the least number of proposed poses that reaches it.
         wanted_std_m: Option<f64> = None => (Number(Positive)).under("Proposal");
         /// Tensions at the candidates of a proposal. Candidates without tensions within the limits are left out;
@@ -79,9 +81,12 @@ declared! {
     }
     examples {
         "funicular calibrate docs/calibration/machine.toml --readings docs/calibration/belts.csv",
-        "funicular calibrate docs/calibration/machine.toml --readings docs/calibration/belts.csv --frame inner \\\n    --propose 3 --grid x=0.4:4.2:9 --grid y=0.4:3.5:8",
-        "funicular calibrate robot.toml --readings lengths.csv --unknowns anchors,offsets --length-std-m 0.0005 \\\n    --calibrated calibrated.toml",
-        "funicular calibrate robot.toml --readings lengths.csv --static-model catenary --tension-range-n 20:120 \\\n    --unknowns anchors,offsets --prior offsets=0±0.02",
+        "funicular calibrate docs/calibration/machine.toml --readings docs/calibration/belts.csv --frame inner \\\n    \
+         --propose 3 --grid x=0.4:4.2:9 --grid y=0.4:3.5:8",
+        "funicular calibrate robot.toml --readings lengths.csv --unknowns anchors,offsets --length-std-m 0.0005 \
+         \\\n    --calibrated calibrated.toml",
+        "funicular calibrate robot.toml --readings lengths.csv --static-model catenary --tension-range-n 20:120 \
+         \\\n    --unknowns anchors,offsets --prior offsets=0±0.02",
     }
 }
 

@@ -8,14 +8,15 @@ use serde::{Deserialize, Serialize};
 declared! {
     /// Values of the robot file with which the robot is stiffest, fastest or lightest at several poses.
     ///
-    /// The values move within their bounds until the goal at the worst pose, or its weighted mean, improves no further. The
-    /// poses are held, and the tensions follow ⟪tension_rule⟫. docs/design.md explains goals, demands and the result.
+    /// The values move within their bounds until the goal at the worst pose, or its weighted mean, improves no further.
+    /// The poses are held, and the tensions follow ⟪tension_rule⟫. docs/design.md explains goals, demands and the
+    /// result.
     pub struct DesignRequest {
         /// Robot file.
         robot: RobotText = RobotText::default() => (Data(shape::robot)).required();
         /// Value of the robot file to choose, with its bounds: around the present value, as in
-        /// 'cables.*.attachment_m=±0.05' (or +-), or absolute, as in platform.mass_kg=80:120; * stands for any key, and a
-        /// path to a table or vector for all numbers of it that the file gives (repeatable).
+        /// 'cables.*.attachment_m=±0.05' (or +-), or absolute, as in platform.mass_kg=80:120; * stands for any key, and
+        /// a path to a table or vector for all numbers of it that the file gives (repeatable).
         change: Vec<ChangeValue> = Vec::new() => (List(ProgramForm::Change)).form("PATH=±REACH|MIN:MAX").required();
         /// Goal of the design.
         #[serde(with = "crate::names")]
@@ -44,9 +45,12 @@ declared! {
         model: Model = Model::default() => group;
     }
     examples {
-        "funicular design robots/cogiro.toml --poses docs/design/cogiro-poses.csv --target-tension-n 350 \\\n    --change 'cables.*.attachment_m=±0.05' -o designed.toml",
-        "funicular design robots/cogiro.toml --pose 1,2,1.5 --change 'cables.*.anchor_m.z=5:6' --goal stiffness-min \\\n    --page design.html",
-        "funicular design robots/cogiro.toml --pose 0,0,1.5 --change 'cables.*.anchor_m=±0.5' --goal rope-mass \\\n    --min-stiffness-n-per-m 20000",
+        "funicular design robots/cogiro.toml --poses docs/design/cogiro-poses.csv --target-tension-n 350 \\\n    \
+         --change 'cables.*.attachment_m=±0.05' -o designed.toml",
+        "funicular design robots/cogiro.toml --pose 1,2,1.5 --change 'cables.*.anchor_m.z=5:6' --goal stiffness-min \
+         \\\n    --page design.html",
+        "funicular design robots/cogiro.toml --pose 0,0,1.5 --change 'cables.*.anchor_m=±0.5' --goal rope-mass \\\n    \
+         --min-stiffness-n-per-m 20000",
     }
 }
 

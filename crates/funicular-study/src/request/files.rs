@@ -9,8 +9,8 @@ use crate::names::{ExportFormat, LengthUnit, NewMotion, RopeType, SchemaSubject,
 declared! {
     /// Write a robot file with starting values and comments.
     ///
-    /// Without options: eight wire ropes and a platform of 100 kg. The state of the file is a stable equilibrium, so that
-    /// every command runs on it at once. docs/robot-file.md explains every key.
+    /// Without options: eight wire ropes and a platform of 100 kg. The state of the file is a stable equilibrium, so
+    /// that every command runs on it at once. docs/robot-file.md explains every key.
     pub struct NewRequest {
         /// Name of the robot.
         name: Option<String> = None => (Text);
@@ -20,7 +20,8 @@ declared! {
         #[serde(with = "crate::names")]
         motion: NewMotion = NewMotion::default() => (name::<NewMotion>()).form("MOTION");
         /// Table of the cables in place of their number: name (may be left out), anchor x, y, z in the world frame,
-        /// attachment x, y, z in the platform frame; a first line may name the columns: name, anchor_x, …, attachment_z.
+        /// attachment x, y, z in the platform frame; a first line may name the columns: name, anchor_x, …,
+        /// attachment_z.
         from_csv: Option<SourceFile> = None => (Data(shape::file))
             .from_file(Reader::Source, "the table of points");
         /// Unit of the points in the table.
@@ -28,7 +29,8 @@ declared! {
         csv_unit: Option<LengthUnit> = None => (name::<LengthUnit>()).form("UNIT")
             .otherwise("m, or the ending of the names of the columns, as in anchor_x_mm");
         /// Pose of the state x,y,z[,roll,pitch,yaw] [m, degrees], R = Rz(yaw) Ry(pitch) Rx(roll).
-        pose: Option<Pose> = None => (Pose).otherwise("a stable pose that the program finds, above the floor of the anchors");
+        pose: Option<Pose> = None => (Pose).otherwise("a stable pose that the program finds, above the floor of the \
+            anchors");
         /// Mass of the platform [kg].
         mass_kg: Option<f64> = None => (Number(Positive)).under("Platform").otherwise("100");
         /// Sides of the homogeneous box that gives the inertia [m].
@@ -54,11 +56,11 @@ declared! {
 }
 
 declared! {
-    /// Write the JSON Schema of the robot file, with which editors complete and check it, that of requests, or the columns of
-    /// results.
+    /// Write the JSON Schema of the robot file, with which editors complete and check it, that of requests, or the
+    /// columns of results.
     ///
-    /// The first line `#:schema ./robot.schema.json` of a robot file names the schema to Even Better TOML in VS Code and to
-    /// other editors with Taplo.
+    /// The first line `#:schema ./robot.schema.json` of a robot file names the schema to Even Better TOML in VS Code
+    /// and to other editors with Taplo.
     pub struct SchemaRequest {
         /// Subject of the schema.
         #[serde(with = "crate::names")]
@@ -74,18 +76,18 @@ declared! {
 declared! {
     /// Convert files of CASPR, WireX or MoorDyn to a robot file.
     ///
-    /// CASPR: the bodies file and the cables file, in any order. WireX: a .wcrfx file. MoorDyn: an input file of version 2
-    /// with one body, or one free point, on lines. No value is invented: if a file lacks one, a message names the option that
-    /// gives it. Data that a robot file cannot hold is listed, also at the head of the file. docs/import.md explains how each
-    /// number is read.
+    /// CASPR: the bodies file and the cables file, in any order. WireX: a .wcrfx file. MoorDyn: an input file of
+    /// version 2 with one body, or one free point, on lines. No value is invented: if a file lacks one, a message names
+    /// the option that gives it. Data that a robot file cannot hold is listed, also at the head of the file.
+    /// docs/import.md explains how each number is read.
     pub struct ImportRequest {
         /// Files of one robot; their format is recognised from their content.
         files: Vec<SourceFile> = Vec::new() => (Data(shape::files)).required()
             .from_file(Reader::Sources, "the source file");
         /// Name of the cable set if a CASPR file has several.
         cable_set: Option<String> = None => (Text).form("NAME").otherwise("from the file");
-        /// Name of a trajectory of a CASPR file; it is written instead of the robot, as a table that `trajectory` and `settle`
-        /// read.
+        /// Name of a trajectory of a CASPR file; it is written instead of the robot, as a table that `trajectory` and
+        /// `settle` read.
         trajectory: Option<String> = None => (Text).form("NAME");
         /// Rope values that the files do not give.
         #[serde(flatten)]
@@ -95,21 +97,25 @@ declared! {
         platform: ImportPlatform = ImportPlatform::default() => group;
     }
     examples {
-        "funicular import docs/import/tripod_bodies.xml docs/import/tripod_cables.xml \\\n    --mass-kg-per-m 0.05 --axial-stiffness-n 1e6 -o tripod.toml",
-        "funicular import docs/import/tripod_bodies.xml docs/import/tripod_trajectories.xml --trajectory lift -o lift.csv",
+        "funicular import docs/import/tripod_bodies.xml docs/import/tripod_cables.xml \\\n    --mass-kg-per-m 0.05 \
+         --axial-stiffness-n 1e6 -o tripod.toml",
+        "funicular import docs/import/tripod_bodies.xml docs/import/tripod_trajectories.xml --trajectory lift -o \
+         lift.csv",
         "funicular import robot.wcrfx --pose 0,0,1 -o robot.toml",
         "funicular import mooring.txt -o robot.toml",
     }
 }
 
 declared! {
-    /// Export the robot at its equilibrium for OpenSees, MoorDyn, MuJoCo, Gazebo or ParaView, or its lengths for firmware.
+    /// Export the robot at its equilibrium for OpenSees, MoorDyn, MuJoCo, Gazebo or ParaView, or its lengths for
+    /// firmware.
     ///
-    /// opensees: a Python script for OpenSeesPy that prints its statics and modes beside those of funicular. moordyn: an input
-    /// file of version 2, with a scenario a Python script that runs it. mujoco: a model with straight cables whose lengths and
-    /// tensions are commanded. sdf: a world of Gazebo. urdf: frame and platform for viewers. vtk: a .vtp file of cables and
-    /// platform, with modes on request. c, json: polynomials that correct the lengths of straight cables over a box of
-    /// poses, for firmware. docs/export.md describes the files and the differences between the programs.
+    /// opensees: a Python script for OpenSeesPy that prints its statics and modes beside those of funicular. moordyn:
+    /// an input file of version 2, with a scenario a Python script that runs it. mujoco: a model with straight cables
+    /// whose lengths and tensions are commanded. sdf: a world of Gazebo. urdf: frame and platform for viewers. vtk: a
+    /// .vtp file of cables and platform, with modes on request. c, json: polynomials that correct the lengths of
+    /// straight cables over a box of poses, for firmware. docs/export.md describes the files and the differences
+    /// between the programs.
     pub struct ExportRequest {
         /// Robot file.
         robot: RobotText = RobotText::default() => (Data(shape::robot)).required();
@@ -118,11 +124,11 @@ declared! {
         to: ExportFormat = ExportFormat::Opensees => (name::<ExportFormat>()).form("PROGRAM").required();
         /// Elements per cable, 1 to 1000: bars in OpenSees, segments in MoorDyn, pieces of a curve in VTK.
         segments: usize = 20 => (Count(1..=1000));
-        /// Pieces of each cable in MuJoCo, 2 to 100: a chain of bars that has the mass, the sag and the vibration of the
-        /// cable. Without it cables are straight and have no mass.
+        /// Pieces of each cable in MuJoCo, 2 to 100: a chain of bars that has the mass, the sag and the vibration of
+        /// the cable. Without it cables are straight and have no mass.
         cable_pieces: Option<usize> = None => (Count(2..=100)).otherwise("straight cables without mass");
-        /// Upper limit of the frequencies of modes in the file [Hz]: in VTK one field per mode, in OpenSees the modes to
-        /// compare with.
+        /// Upper limit of the frequencies of modes in the file [Hz]: in VTK one field per mode, in OpenSees the modes
+        /// to compare with.
         modes_below_hz: Option<f64> = None =>
             (Number(Positive)).otherwise("no modes in VTK, the first ten in OpenSees");
         /// Events that MoorDyn runs from the equilibrium on, as in `simulate`: lists `release`, `lengths`, `stop` and
@@ -131,8 +137,8 @@ declared! {
             .from_file(Reader::Scenario, "the scenario");
         /// Time that MoorDyn simulates with ⟪scenario⟫ [s].
         duration_s: Option<f64> = None => (Number(Positive)).otherwise("10 with a scenario");
-        /// Side of the box of poses for C and JSON: x, y, z [m], roll, pitch, yaw [degrees] from A to B, or at one value
-        /// (repeatable); an axis that is not given keeps the value of ⟪pose⟫ or of the pose of the robot's state.
+        /// Side of the box of poses for C and JSON: x, y, z [m], roll, pitch, yaw [degrees] from A to B, or at one
+        /// value (repeatable); an axis that is not given keeps the value of ⟪pose⟫ or of the pose of the robot's state.
         within: Vec<Axis> = Vec::new() => (List(ProgramForm::Side)).form("AXIS=A:B").under("Table of lengths");
         /// Largest error of a length in the box [m].
         tolerance_m: Option<f64> = None => (Number(Positive)).under("Table of lengths").otherwise("1e-4");
@@ -149,7 +155,8 @@ declared! {
     examples {
         "funicular export robots/yuan2014-4mm.toml --to opensees -o yuan.py && python3 yuan.py",
         "funicular export robots/cogiro.toml --to moordyn --segments 20 -o cogiro.txt",
-        "funicular export robots/yuan2014-4mm.toml --to moordyn --mass-kg 12.5 \\\n    --scenario docs/simulation/release.toml --for 2 -o drop.py && python3 drop.py",
+        "funicular export robots/yuan2014-4mm.toml --to moordyn --mass-kg 12.5 \\\n    --scenario \
+         docs/simulation/release.toml --for 2 -o drop.py && python3 drop.py",
         "funicular export robots/cogiro.toml --to mujoco -o cogiro.xml",
         "funicular export robots/cogiro.toml --to mujoco --cable-pieces 10 -o cogiro.xml",
         "funicular export robots/cogiro.toml --to vtk --pose 1,2,1.5 --modes-below-hz 10 -o cogiro.vtp",

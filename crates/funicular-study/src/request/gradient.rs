@@ -8,19 +8,19 @@ use funicular::gradient::Hold;
 declared! {
     /// Derivatives of results with respect to every number of the robot file.
     ///
-    /// All derivatives come from the solution itself, without perturbing a number; docs/gradients.md explains the tables. The
-    /// text shows the ten largest of each result, JSON and CSV all of them.
+    /// All derivatives come from the solution itself, without perturbing a number; docs/gradients.md explains the
+    /// tables. The text shows the ten largest of each result, JSON and CSV all of them.
     pub struct GradientRequest {
         /// Robot file.
         robot: RobotText = RobotText::default() => (Data(shape::robot)).required();
-        /// Results: pose, lengths, tensions, rope-length, rope-mass, stiffness-min, load-factor, frequencies, damping, response;
-        /// separated by commas.
+        /// Results: pose, lengths, tensions, rope-length, rope-mass, stiffness-min, load-factor, frequencies, damping,
+        /// response; separated by commas.
         of: Vec<String> = frequencies() => (Texts).form("RESULTS");
-        /// Numbers of the robot file, by paths that `parameters` lists, separated by commas; * stands for any key, and a path
-        /// to a table or vector for all numbers in it.
+        /// Numbers of the robot file, by paths that `parameters` lists, separated by commas; * stands for any key, and
+        /// a path to a table or vector for all numbers in it.
         by: Vec<String> = Vec::new() => (Texts).form("PATHS").otherwise("all");
-        /// Quantity that is held while a number changes; with the pose held, the tensions parallel to the chords of more
-        /// cables than degrees of freedom change least, or follow their rule.
+        /// Quantity that is held while a number changes; with the pose held, the tensions parallel to the chords of
+        /// more cables than degrees of freedom change least, or follow their rule.
         #[serde(with = "crate::names")]
         hold: Hold = Hold::default() => (name::<Hold>()).form("WHAT");
         /// Unit of the derivatives: per unit, percent or tolerance of each number.
@@ -52,9 +52,12 @@ declared! {
     }
     examples {
         "funicular gradient robots/yuan2014-4mm.toml --below-hz 2",
-        "funicular gradient robots/cogiro.toml --pose 1,2,1.5 --of tensions,stiffness-min --by cables.*.anchor_m --hold pose",
-        "funicular gradient robots/yuan2014-4mm.toml --of frequencies,damping --below-hz 1.5 --per percent -o gradients.csv",
-        "funicular gradient robots/yuan2014-4mm.toml --of response --at-hz 1.1 --input fz --output az \\\n    --by platform,materials --per tolerance --tolerances platform.mass_kg=2%",
+        "funicular gradient robots/cogiro.toml --pose 1,2,1.5 --of tensions,stiffness-min --by cables.*.anchor_m \
+         --hold pose",
+        "funicular gradient robots/yuan2014-4mm.toml --of frequencies,damping --below-hz 1.5 --per percent -o \
+         gradients.csv",
+        "funicular gradient robots/yuan2014-4mm.toml --of response --at-hz 1.1 --input fz --output az \\\n    --by \
+         platform,materials --per tolerance --tolerances platform.mass_kg=2%",
     }
 }
 

@@ -61,9 +61,13 @@ declared! {
         point: EachPoint = EachPoint::default() => group;
     }
     examples {
-        "funicular map robots/cogiro.toml --grid x=-6:6:25 --grid y=-4:4:17 --grid z=0.5:3.5:7 \\\n    --quantity tension-max,stiffness-min -o cogiro.parquet",
-        "funicular map robots/yuan2014-4mm.toml --grid x=-1:1:21 --grid y=-1:1:21 --grid z=0.5 \\\n    --quantity first-frequency,model-error:spring -o first.vti",
-        "funicular map robots/cogiro.toml --poses trajectory.csv --quantity lengths,tensions --format csv\n\nAfter an interruption or a power failure the same command with --resume continues and gives the same file.\nIn a job array: --part 3/8 -o part-3.parquet, and at the end funicular merge part-*.parquet -o all.parquet",
+        "funicular map robots/cogiro.toml --grid x=-6:6:25 --grid y=-4:4:17 --grid z=0.5:3.5:7 \\\n    --quantity \
+         tension-max,stiffness-min -o cogiro.parquet",
+        "funicular map robots/yuan2014-4mm.toml --grid x=-1:1:21 --grid y=-1:1:21 --grid z=0.5 \\\n    --quantity \
+         first-frequency,model-error:spring -o first.vti",
+        "funicular map robots/cogiro.toml --poses trajectory.csv --quantity lengths,tensions --format csv\n\nAfter an \
+         interruption or a power failure the same command with --resume continues and gives the same file.\nIn a job \
+         array: --part 3/8 -o part-3.parquet, and at the end funicular merge part-*.parquet -o all.parquet",
     }
 }
 
@@ -81,8 +85,10 @@ declared! {
         point: EachPoint = EachPoint::default() => group;
     }
     examples {
-        "funicular sweep robots/yuan2014-4mm.toml --vary platform.mass_kg=10.55:86.35:50 \\\n    --quantity pose,first-frequency,pose-error -o mass.parquet",
-        "funicular sweep robots/yuan2014-4mm.toml --pose 0,0,0.5 --vary materials.rope-4mm.diameter_m=0.002:0.008:25 \\\n    --vary platform.mass_kg=10,20,40 --quantity tension-max,sag-max --format csv",
+        "funicular sweep robots/yuan2014-4mm.toml --vary platform.mass_kg=10.55:86.35:50 \\\n    --quantity \
+         pose,first-frequency,pose-error -o mass.parquet",
+        "funicular sweep robots/yuan2014-4mm.toml --pose 0,0,0.5 --vary materials.rope-4mm.diameter_m=0.002:0.008:25 \
+         \\\n    --vary platform.mass_kg=10,20,40 --quantity tension-max,sag-max --format csv",
     }
 }
 
@@ -101,17 +107,18 @@ declared! {
 declared! {
     /// HTML page with figures of a map or sweep, which opens offline.
     ///
-    /// Grids are shown as slices with contours, the feasible set, histograms and points in space. Trajectories and sweeps of
-    /// one value are shown as curves; the curves of natural frequencies follow their modes through crossings and veering.
-    /// docs/sweeps.md explains the figures. With a FILE.svg or FILE.pdf the command writes one figure for a paper instead of
-    /// the page.
+    /// Grids are shown as slices with contours, the feasible set, histograms and points in space. Trajectories and
+    /// sweeps of one value are shown as curves; the curves of natural frequencies follow their modes through crossings
+    /// and veering. docs/sweeps.md explains the figures. With a FILE.svg or FILE.pdf the command writes one figure for
+    /// a paper instead of the page.
     pub struct PlotRequest {
         /// File that `map` or `sweep` has written.
         file: String = String::new() => (Data(shape::text)).required().form("FILE.parquet")
             .from_file(Reader::Path, "the rows in");
     }
     examples {
-        "funicular map robots/cogiro.toml --grid x=-6:6:25 --grid y=-4:4:17 --grid z=0.5:3.5:7 \\\n    --quantity tension-max,stiffness-min -o cogiro.parquet",
+        "funicular map robots/cogiro.toml --grid x=-6:6:25 --grid y=-4:4:17 --grid z=0.5:3.5:7 \\\n    --quantity \
+         tension-max,stiffness-min -o cogiro.parquet",
         "funicular plot cogiro.parquet",
         "funicular plot mass.parquet -o mass.html",
         "funicular plot cogiro.parquet --quantity tension-max --at z=1.5 -o tension.pdf",

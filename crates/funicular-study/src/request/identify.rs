@@ -56,13 +56,15 @@ declared! {
         propose_modes: usize = 6 => (Count(1..=100)).under("Proposal");
         /// Payloads of a proposal [kg], which the platform carries at each of these poses, separated by commas.
         propose_payloads_kg: Option<Vec<f64>> = None =>
-            (Commas(ProgramForm::NotNegative)).form("M1,M2,…").under("Proposal").otherwise("that of the first experiment");
+            (Commas(ProgramForm::NotNegative)).form("M1,M2,…").under("Proposal")
+                .otherwise("that of the first experiment");
         /// Values whose deviations the proposal reduces, by their paths, as in ⟪profile⟫.
         propose_for: Vec<String> = Vec::new() => (Texts).form("PATHS").under("Proposal").otherwise("all fitted values");
         /// Criterion of the proposal. Variances are relative to the values, or in usual errors of values that may be
         /// zero.
         #[serde(with = "crate::names")]
-        propose_by: RowCriterion = RowCriterion::default() => (name::<RowCriterion>()).form("CRITERION").under("Proposal");
+        propose_by: RowCriterion = RowCriterion::default() => (name::<RowCriterion>()).form("CRITERION")
+            .under("Proposal");
         /// Largest relative deviation of a positive value that is wanted [%]: the least number of proposed measurements
         /// that reaches it.
         wanted_percent: Option<f64> = None => (Number(Positive)).under("Proposal");
@@ -88,10 +90,16 @@ declared! {
         rigid_cables: bool = false => (Switch).under("Model");
     }
     examples {
-        "funicular identify docs/quick-start/hall.toml --hold-lengths-of-pose \\\n    --measured docs/identification/hall-modes.csv --fit platform.mass_kg --prior platform.mass_kg=60±10",
-        "funicular identify robot.toml --measured test.uff --node 2=0.1,0.08,0.02 --node 1=0.03,-0.02,0.05 \\\n    --fit platform.mass_kg --fit platform.center_of_mass_m --prior platform.center_of_mass_m=0±0.03 -o fitted.toml",
-        "funicular identify docs/quick-start/hall.toml --hold-lengths-of-pose \\\n    --measured docs/identification/hall-modes.csv --fit platform.mass_kg --fit materials.rope.youngs_modulus_pa \\\n    --propose 3 --grid x=-2:2:5 --propose-measuring frequencies,tensions",
-        "funicular identify robot.toml --experiments poses.json --rigid-cables --fit platform.center_of_mass_m \\\n    --fit platform.inertia_kg_m2 -o result.json --page result.html",
+        "funicular identify docs/quick-start/hall.toml --hold-lengths-of-pose \\\n    --measured \
+         docs/identification/hall-modes.csv --fit platform.mass_kg --prior platform.mass_kg=60±10",
+        "funicular identify robot.toml --measured test.uff --node 2=0.1,0.08,0.02 --node 1=0.03,-0.02,0.05 \\\n    \
+         --fit platform.mass_kg --fit platform.center_of_mass_m --prior platform.center_of_mass_m=0±0.03 -o \
+         fitted.toml",
+        "funicular identify docs/quick-start/hall.toml --hold-lengths-of-pose \\\n    --measured \
+         docs/identification/hall-modes.csv --fit platform.mass_kg --fit materials.rope.youngs_modulus_pa \\\n    \
+         --propose 3 --grid x=-2:2:5 --propose-measuring frequencies,tensions",
+        "funicular identify robot.toml --experiments poses.json --rigid-cables --fit platform.center_of_mass_m \\\n    \
+         --fit platform.inertia_kg_m2 -o result.json --page result.html",
     }
 }
 

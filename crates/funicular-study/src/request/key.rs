@@ -418,7 +418,8 @@ macro_rules! entry {
             crate::request::key::Key { option: String::new(), ..key }
         })
     };
-    ($defaults:ident, $field:ident: $Type:ty, [$($text:literal),+], ($kind:expr) $(. $method:ident ( $($argument:tt)* ))*) => {
+    ($defaults:ident, $field:ident: $Type:ty, [$($text:literal),+],
+        ($kind:expr) $(. $method:ident ( $($argument:tt)* ))*) => {
         vec![
             crate::request::key::Key::new($kind)
                 $(.$method($($argument)*))*

@@ -79,8 +79,11 @@ declared! {
         tensions: Tensions = Tensions::default() => group;
     }
     examples {
-        "funicular loads robots/cogiro.toml --pose 1,1,1.5 --required-force-n 150,150,150 --required-moment-n-m 30,30,30",
-        "funicular loads robots/cogiro.toml --pose 1,1,1.5 --required-payload-max-kg 200 --required-acceleration-m-s2 1,1,1",
-        "funicular map robots/cogiro.toml --grid x=-6:6:25 --grid y=-4:4:17 --grid z=1.5 --required-force-n 150,150,150 --quantity load-factor -o cogiro.parquet",
+        "funicular loads robots/cogiro.toml --pose 1,1,1.5 --required-force-n 150,150,150 --required-moment-n-m \
+         30,30,30",
+        "funicular loads robots/cogiro.toml --pose 1,1,1.5 --required-payload-max-kg 200 --required-acceleration-m-s2 \
+         1,1,1",
+        "funicular map robots/cogiro.toml --grid x=-6:6:25 --grid y=-4:4:17 --grid z=1.5 --required-force-n \
+         150,150,150 --quantity load-factor -o cogiro.parquet",
     }
 }

@@ -55,8 +55,8 @@ impl ReportRequest {
 declared! {
     /// HTML page on which the platform can be dragged, and everything is computed anew.
     ///
-    /// The page contains the program itself, as WebAssembly, and opens in a browser without network. docs/web.md describes
-    /// it.
+    /// The page contains the program itself, as WebAssembly, and opens in a browser without network. docs/web.md
+    /// describes it.
     pub struct LiveRequest {
         /// Robot file.
         robot: RobotText = RobotText::default() => (Data(shape::robot)).required();

@@ -156,7 +156,8 @@ fn gapped_columns() -> Value {
 
 fn mass_range() -> Value {
     let mass = number(Range::Positive);
-    json!({ "type": "array", "prefixItems": [mass, mass, { "type": "integer", "minimum": 2 }], "items": false, "minItems": 3 })
+    json!({ "type": "array", "prefixItems": [mass, mass, { "type": "integer", "minimum": 2 }], "items": false,
+        "minItems": 3 })
 }
 
 /// Values along an axis of a grid or sweep.

@@ -35,7 +35,8 @@ declared! {
         once: bool = false => (Switch).under("Accuracy");
         /// Frequency at which the damping ratio of the ropes and their loss factor hold [Hz].
         damping_frequency_hz: Option<f64> = None => (Number(Positive)).under("Damping")
-            .otherwise("the first natural frequency at the start, for a loss factor that of the mode with most stretch");
+            .otherwise("the first natural frequency at the start, for a loss factor that of the mode with most \
+                stretch");
         /// Damping time of the stretch of all ropes [s] in place of that of the robot file.
         stretch_damping_time_s: Option<f64> = None => (Number(NotNegative)).under("Damping")
             .otherwise("`axial_damping_time_s` of each rope");

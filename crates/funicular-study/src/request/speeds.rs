@@ -33,8 +33,8 @@ impl RequiredVelocities {
 }
 
 declared! {
-    /// Speeds that the winches allow at a pose: what each has to do for the required velocities, how fast the platform can
-    /// move, and the powers of the motors.
+    /// Speeds that the winches allow at a pose: what each has to do for the required velocities, how fast the platform
+    /// can move, and the powers of the motors.
     ///
     /// The platform moves so slowly that its tensions are those at rest; they follow their rule from pose to pose.
     pub struct SpeedsRequest {
@@ -51,8 +51,11 @@ declared! {
         tensions: Tensions = Tensions::default() => group;
     }
     examples {
-        "funicular speeds robots/cogiro-winches.toml --pose 1,1,1.5 --set winches.drum.max_speed_m_s=3 --required-velocity-m-s 1,1,0.5",
-        "funicular speeds robots/cogiro-winches.toml --pose 1,1,1.5 --set winches.drum.max_power_w=2000 --set winches.drum.gear_efficiency=0.9",
-        "funicular map robots/cogiro-winches.toml --grid x=-4:4:17 --grid z=1.5 --set winches.drum.max_speed_m_s=3 --required-velocity-m-s 1,1,1 --quantity speed-factor -o cogiro.parquet",
+        "funicular speeds robots/cogiro-winches.toml --pose 1,1,1.5 --set winches.drum.max_speed_m_s=3 \
+         --required-velocity-m-s 1,1,0.5",
+        "funicular speeds robots/cogiro-winches.toml --pose 1,1,1.5 --set winches.drum.max_power_w=2000 --set \
+         winches.drum.gear_efficiency=0.9",
+        "funicular map robots/cogiro-winches.toml --grid x=-4:4:17 --grid z=1.5 --set winches.drum.max_speed_m_s=3 \
+         --required-velocity-m-s 1,1,1 --quantity speed-factor -o cogiro.parquet",
     }
 }

@@ -18,8 +18,8 @@ declared! {
 declared! {
     /// List every number of a robot file: path, value, unit, range, meaning.
     ///
-    /// The paths can be used in `--set` and in `sweep --vary`. One number of a vector is named by its axis or by its index
-    /// from 0: `anchor_m.z` is `anchor_m.2`. A number that the file leaves out is listed with its default.
+    /// The paths can be used in `--set` and in `sweep --vary`. One number of a vector is named by its axis or by its
+    /// index from 0: `anchor_m.z` is `anchor_m.2`. A number that the file leaves out is listed with its default.
     pub struct ParametersRequest {
         /// Robot file.
         robot: RobotText = RobotText::default() => (Data(shape::robot)).required();
@@ -73,10 +73,11 @@ declared! {
         /// Pose x,y,z[,roll,pitch,yaw] [m, degrees] to which the platform moves, straight and with one turn; the
         /// distances are then the least on the way, and cables that cross each other are shown.
         move_to: Option<Pose> = None => (Pose);
-        /// Search a way to the end of the move through one or two other poses if something is too near on the straight one.
+        /// Search a way to the end of the move through one or two other poses if something is too near on the straight
+        /// one.
         find_way: bool = false => (Switch).needs("move_to");
-        /// Enlarge every required distance by the expected largest motions of both within ten minutes in the gusts of the
-        /// robot file.
+        /// Enlarge every required distance by the expected largest motions of both within ten minutes in the gusts of
+        /// the robot file.
         in_gusts: bool = false => (Switch);
         /// State and loads.
         #[serde(flatten)]
@@ -90,7 +91,8 @@ declared! {
         "funicular clearance robots/cogiro.toml --pose 0,0,1.5 --move-to 5,3,1.5,0,0,30",
         "funicular clearance robots/cogiro.toml --pose 0,0,1.5 --move-to 5,3,1.5,0,0,30 --find-way",
         "funicular clearance robots/cogiro.toml --pose 2,1,1.5,0,0,20 --set clearance.cables_m=0.05 --format csv",
-        "funicular map robots/cogiro.toml --grid x=-6:6:25 --grid y=-4:4:17 --grid z=1.5 --quantity clearance -o free.parquet",
+        "funicular map robots/cogiro.toml --grid x=-6:6:25 --grid y=-4:4:17 --grid z=1.5 --quantity clearance -o \
+         free.parquet",
     }
 }
 
@@ -136,7 +138,8 @@ declared! {
     examples {
         "funicular payload robots/cogiro.toml --pose 1,2,1.5",
         "funicular payload robots/cogiro.toml --pose 1,2,1.5 --payload-center-m 0,0,-0.5 --max-tension-n 3000",
-        "funicular map robots/cogiro.toml --grid x=-6:6:25 --grid y=-4:4:17 --grid z=1.5 --quantity payload-max -o cogiro.parquet",
+        "funicular map robots/cogiro.toml --grid x=-6:6:25 --grid y=-4:4:17 --grid z=1.5 --quantity payload-max -o \
+         cogiro.parquet",
     }
 }
 
@@ -150,14 +153,14 @@ declared! {
         /// Unstrained lengths [m], one per cable in the order of the file.
         lengths_m: Option<Vec<f64>> = None =>
             (PerCable(Positive)).form("L1,L2,…").excludes(&["pose"]).otherwise("from the robot file");
-        /// Pose x,y,z[,roll,pitch,yaw] [m, degrees]: hold the unstrained lengths with which the robot of the file, without
-        /// ⟪set⟫, rests there.
+        /// Pose x,y,z[,roll,pitch,yaw] [m, degrees]: hold the unstrained lengths with which the robot of the file,
+        /// without ⟪set⟫, rests there.
         pose: Option<Pose> = None => (Pose).otherwise("the [state] of the robot file");
         /// Rule and limits of the tensions at this pose.
         #[serde(flatten)]
         tensions: Tensions = Tensions::default() => group;
-        /// Maximum distance between spring pose and catenary pose at which springs are good enough [mm]; reports the masses
-        /// where they are.
+        /// Maximum distance between spring pose and catenary pose at which springs are good enough [mm]; reports the
+        /// masses where they are.
         tolerance_mm: Option<f64> = None => (Number(Positive));
     }
     examples {

@@ -49,9 +49,12 @@ declared! {
         tensions: Tensions = Tensions::default() => group;
     }
     examples {
-        "funicular trajectory robots/cogiro.toml --pose 0,0,1.5 --move-to 4,2,1.5 --speed-m-s 2 --acceleration-m-s2 2 --jerk-m-s3 20",
-        "funicular trajectory robots/cogiro.toml --pose -3,0,1 --move-to 3,1,1 --lift-m 1 --blend 1 --speed-m-s 2 \\\n    --acceleration-m-s2 2 --jerk-m-s3 20 -o motion.csv --lengths lengths.csv",
-        "funicular trajectory robots/cogiro.toml --pose 2,0,1.5 --circle-center-m 0,0,1.5 --speed-m-s 3 \\\n    --acceleration-m-s2 3 --jerk-m-s3 30 --max-tension-n 1500 --fastest",
+        "funicular trajectory robots/cogiro.toml --pose 0,0,1.5 --move-to 4,2,1.5 --speed-m-s 2 --acceleration-m-s2 2 \
+         --jerk-m-s3 20",
+        "funicular trajectory robots/cogiro.toml --pose -3,0,1 --move-to 3,1,1 --lift-m 1 --blend 1 --speed-m-s 2 \
+         \\\n    --acceleration-m-s2 2 --jerk-m-s3 20 -o motion.csv --lengths lengths.csv",
+        "funicular trajectory robots/cogiro.toml --pose 2,0,1.5 --circle-center-m 0,0,1.5 --speed-m-s 3 \\\n    \
+         --acceleration-m-s2 3 --jerk-m-s3 30 --max-tension-n 1500 --fastest",
         "funicular trajectory robots/cogiro.toml --path path.csv --sample-time-s 0.01 -o motion.html",
     }
 }

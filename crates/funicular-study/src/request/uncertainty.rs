@@ -13,23 +13,23 @@ declared! {
     /// Deviations of results from deviations or tolerances of numbers of the robot file.
     ///
     /// Results are linear in the deviations where no cable may become slack and no frequencies may cross; elsewhere the
-    /// program computes sampled robots, on all cores. Each result has its deviation, the interval that holds 95 % of all
-    /// robots, and the shares of the numbers; docs/uncertainty.md explains the tables.
+    /// program computes sampled robots, on all cores. Each result has its deviation, the interval that holds 95 % of
+    /// all robots, and the shares of the numbers; docs/uncertainty.md explains the tables.
     pub struct UncertaintyRequest {
         /// Robot file.
         robot: RobotText = RobotText::default() => (Data(shape::robot)).required();
-        /// Standard deviations PATH=VALUE or PATH=PERCENT% of normally distributed numbers, separated by commas. `parameters`
-        /// lists the paths; * stands for any key, and a path to a table or vector for all numbers in it. Each entry is a
-        /// group with its own share.
+        /// Standard deviations PATH=VALUE or PATH=PERCENT% of normally distributed numbers, separated by commas.
+        /// `parameters` lists the paths; * stands for any key, and a path to a table or vector for all numbers in it.
+        /// Each entry is a group with its own share.
         deviations: Vec<String> = Vec::new() => (Sizes).form("DEVIATIONS");
-        /// Tolerances PATH=VALUE or PATH=PERCENT% of numbers with a uniform distribution within ± their tolerance, separated
-        /// by commas.
-        tolerances: Vec<String> = Vec::new() => (Sizes).form("TOLERANCES");
-        /// Results: pose, lengths, tensions, rope-length, rope-mass, stiffness-min, load-factor, frequencies, damping, response;
+        /// Tolerances PATH=VALUE or PATH=PERCENT% of numbers with a uniform distribution within ± their tolerance,
         /// separated by commas.
+        tolerances: Vec<String> = Vec::new() => (Sizes).form("TOLERANCES");
+        /// Results: pose, lengths, tensions, rope-length, rope-mass, stiffness-min, load-factor, frequencies, damping,
+        /// response; separated by commas.
         of: Vec<String> = pose_and_tensions() => (Texts).form("RESULTS");
-        /// Quantity that is held while the numbers deviate; with the pose held, the tensions parallel to the chords of more
-        /// cables than degrees of freedom change least, or follow their rule.
+        /// Quantity that is held while the numbers deviate; with the pose held, the tensions parallel to the chords of
+        /// more cables than degrees of freedom change least, or follow their rule.
         #[serde(with = "crate::names")]
         hold: Hold = Hold::default() => (name::<Hold>()).form("WHAT");
         /// Upper limit of the frequencies [Hz]; for frequencies and damping.
@@ -50,8 +50,8 @@ declared! {
         /// Method for the deviations.
         #[serde(with = "crate::names")]
         method: UncertaintyMethod = UncertaintyMethod::default() => (name::<UncertaintyMethod>()).form("METHOD");
-        /// Number of sampled robots per pose that needs sampling, 10 to 1000000; with several groups, each group needs as
-        /// many again.
+        /// Number of sampled robots per pose that needs sampling, 10 to 1000000; with several groups, each group needs
+        /// as many again.
         samples: usize = DEFAULT_SAMPLES => (Count(0..=u64::MAX));
         /// Seed of the sample.
         seed: u32 = 0 => (Count(0..=u64::from(u32::MAX)));
@@ -66,10 +66,14 @@ declared! {
         model: Model = Model::default() => group;
     }
     examples {
-        "funicular uncertainty robots/yuan2014-4mm.toml --deviations platform.mass_kg=1%,cables.*.anchor_m=0.002 \\\n    --of pose,tensions,frequencies --below-hz 2",
-        "funicular uncertainty robots/cogiro.toml --pose 1,2,1.5 --tolerances cables.*.unstrained_length_m=0.0002 -o cogiro.html",
-        "funicular uncertainty robots/cogiro.toml --poses trajectory.csv --deviations platform.center_of_mass_m=0.005 \\\n    --of stiffness-min --hold pose -o stiffness.csv",
-        "funicular uncertainty robots/yuan2014-4mm.toml --deviations materials.*.youngs_modulus_pa=5%,platform=1% \\\n    --of frequencies,damping --below-hz 3 --samples 2000 --samples-file robots.parquet",
+        "funicular uncertainty robots/yuan2014-4mm.toml --deviations platform.mass_kg=1%,cables.*.anchor_m=0.002 \
+         \\\n    --of pose,tensions,frequencies --below-hz 2",
+        "funicular uncertainty robots/cogiro.toml --pose 1,2,1.5 --tolerances cables.*.unstrained_length_m=0.0002 -o \
+         cogiro.html",
+        "funicular uncertainty robots/cogiro.toml --poses trajectory.csv --deviations platform.center_of_mass_m=0.005 \
+         \\\n    --of stiffness-min --hold pose -o stiffness.csv",
+        "funicular uncertainty robots/yuan2014-4mm.toml --deviations materials.*.youngs_modulus_pa=5%,platform=1% \
+         \\\n    --of frequencies,damping --below-hz 3 --samples 2000 --samples-file robots.parquet",
     }
 }
 

@@ -75,12 +75,14 @@ declared! {
         /// Input: force fx, fy, fz, moment mx, my, mz, or f:ux,uy,uz, m:ux,uy,uz along a direction, world axes; a force
         /// on a cable, as in cable:3@0.5:fz; the commanded length of a cable, length:3, a force of its motor or on its
         /// drum, motor:3, drum:3; a motion of the base, base-x to base-rz, or of an anchor, anchor:3:x (repeatable).
-        input: OneOrSeveral = OneOrSeveral::One(DEFAULT_INPUT.to_owned()) => (OneOrMore(ProgramForm::Input)).form("INPUT");
+        input: OneOrSeveral = OneOrSeveral::One(DEFAULT_INPUT.to_owned()) => (OneOrMore(ProgramForm::Input))
+            .form("INPUT");
         /// Output: displacement x, y, z, rotation rx, ry, rz, velocity vx … vrz, acceleration ax … arz, or x:ux,uy,uz,
         /// v:…, a:… along a direction, world axes; the motion of a point on a cable (name, fraction of its length from
         /// the platform), as in cable:3@0.5:az; the motion of a drum or motor, drum:3, motor:3, or the tension at the
         /// platform or at the drum, tension:3, drum-tension:3 (repeatable).
-        output: OneOrSeveral = OneOrSeveral::One(DEFAULT_OUTPUT.to_owned()) => (OneOrMore(ProgramForm::Output)).form("OUTPUT");
+        output: OneOrSeveral = OneOrSeveral::One(DEFAULT_OUTPUT.to_owned()) => (OneOrMore(ProgramForm::Output))
+            .form("OUTPUT");
         /// Points of the platform.
         #[serde(flatten)]
         signal_points: ResponsePoints = ResponsePoints::default() => group;
@@ -98,11 +100,15 @@ declared! {
     }
     examples {
         "funicular frf robots/yuan2014-4mm.toml --from-hz 0.1 --to-hz 10 --points 2000 \\\n    --input fz --output ay",
-        "funicular frf robots/yuan2014-4mm.toml --from-hz 0.1 --to-hz 100 --points 5000 --log \\\n    --input f:1,0,1 --output x --output-point-m 0,0,-0.2 -o frf.csv",
+        "funicular frf robots/yuan2014-4mm.toml --from-hz 0.1 --to-hz 100 --points 5000 --log \\\n    --input f:1,0,1 \
+         --output x --output-point-m 0,0,-0.2 -o frf.csv",
         "funicular frf robots/yuan2014-4mm.toml --from-hz 0.1 --to-hz 10 --adaptive \\\n    --input fz --output ay",
-        "funicular frf robots/yuan2014-4mm.toml --from-hz 0.1 --to-hz 10 --adaptive \\\n    --input fx --input fz --output x --output cable:3@0.5:az -o frf.json",
-        "funicular frf robots/yuan2014-4mm.toml --from-hz 0.1 --to-hz 10 --points 2000 \\\n    --input fz --output az --output-point-m 0.1,0.08,0.02 -o frf.uff",
-        "funicular frf robots/yuan2014-4mm.toml --from-hz 0.1 --to-hz 10 --adaptive \\\n    --input fz --output az --figure-width-mm ieee-single -o frf.pdf",
+        "funicular frf robots/yuan2014-4mm.toml --from-hz 0.1 --to-hz 10 --adaptive \\\n    --input fx --input fz \
+         --output x --output cable:3@0.5:az -o frf.json",
+        "funicular frf robots/yuan2014-4mm.toml --from-hz 0.1 --to-hz 10 --points 2000 \\\n    --input fz --output az \
+         --output-point-m 0.1,0.08,0.02 -o frf.uff",
+        "funicular frf robots/yuan2014-4mm.toml --from-hz 0.1 --to-hz 10 --adaptive \\\n    --input fz --output az \
+         --figure-width-mm ieee-single -o frf.pdf",
     }
 }
 
@@ -144,7 +150,8 @@ declared! {
             .otherwise("the modes with the largest amplitudes, at most three, until their sum is within the tolerance");
         /// Payloads [kg] with which the vibration after the same lengths is listed as well. Their centre of mass is
         /// that of the `[required]` payload of the file, or that of the platform.
-        robust_payload_kg: Option<Vec<f64>> = None => (Commas(ProgramForm::NotNegative)).form("M1,M2,…").otherwise("none");
+        robust_payload_kg: Option<Vec<f64>> = None => (Commas(ProgramForm::NotNegative)).form("M1,M2,…")
+            .otherwise("none");
         /// Time between the samples of the commanded lengths, which are then listed [s].
         sample_time_s: Option<f64> = None => (Number(Positive)).otherwise("no samples");
         /// Points of the platform.
@@ -169,8 +176,10 @@ declared! {
         "funicular settle robots/yuan2014-4mm.toml --release-n 0,0,-20 --below-hz 10",
         "funicular settle robots/cogiro.toml --release-n 0,0,-196 --tolerance-m 1e-4 --below-hz 20 -o settling.csv",
         "funicular settle robots/yuan2014-4mm.toml --stop-m-s 0,0.2,0 --profile-s 0.4,0.1 --below-hz 10",
-        "funicular settle robots/yuan2014-4mm.toml --move-m 0,0.05,0 --profile-s 1.2,0.3,0.1 --below-hz 10 \\\n    --shaper zv --tolerance-m 1e-4 --sample-time-s 0.01 --lengths lengths.csv",
-        "funicular settle robots/yuan2014-4mm.toml --trajectory lengths.csv --below-hz 10 --robust-payload-kg 0.5,1 -o decay.html",
+        "funicular settle robots/yuan2014-4mm.toml --move-m 0,0.05,0 --profile-s 1.2,0.3,0.1 --below-hz 10 \\\n    \
+         --shaper zv --tolerance-m 1e-4 --sample-time-s 0.01 --lengths lengths.csv",
+        "funicular settle robots/yuan2014-4mm.toml --trajectory lengths.csv --below-hz 10 --robust-payload-kg 0.5,1 -o \
+         decay.html",
     }
 }
 
@@ -185,7 +194,8 @@ declared! {
         /// Output, see `frf`: a motion of the platform or of a point on a cable, or the tension at the platform,
         /// tension:3 (repeatable).
         output: Vec<String> = Vec::new() =>
-            (List(ProgramForm::Output)).form("OUTPUT").otherwise("all displacements and rotations of the platform, and all tensions");
+            (List(ProgramForm::Output)).form("OUTPUT").otherwise("all displacements and rotations of the platform, and \
+                all tensions");
         /// Point of the platform whose motion is measured, platform frame [m].
         output_point_m: Option<[f64; 3]> = None => (Vector).otherwise("the origin");
         /// Time for which the mean wind lasts, and in which peaks are expected [s].
@@ -212,7 +222,9 @@ declared! {
         model: Model = Model::default() => group;
     }
     examples {
-        "funicular gust robots/stadium-camera.toml --set materials.rope-5mm.drag_coefficient=1.2 \\\n    --set materials.rope-5mm.drag_diameter_m=0.005 --set platform.drag_area_m2=0.3 --wind-m-s 12,0,0 \\\n    --turbulence kaimal --intensity 0.15,0.12,0.075 --length-scale-m 85,28,6.9 --below-hz 2",
+        "funicular gust robots/stadium-camera.toml --set materials.rope-5mm.drag_coefficient=1.2 \\\n    --set \
+         materials.rope-5mm.drag_diameter_m=0.005 --set platform.drag_area_m2=0.3 --wind-m-s 12,0,0 \\\n    \
+         --turbulence kaimal --intensity 0.15,0.12,0.075 --length-scale-m 85,28,6.9 --below-hz 2",
     }
 }
 
@@ -228,9 +240,11 @@ declared! {
         turbulence: Option<TurbulenceSpectrum> = None => (name::<TurbulenceSpectrum>()).form("SPECTRUM").under("Gusts")
             .otherwise("from the robot file");
         /// Standard deviation of the gusts along the mean wind, lateral and up, over the mean speed.
-        intensity: Option<[f64; 3]> = None => (Vector).form("ALONG,LATERAL,UP").under("Gusts").otherwise("from the robot file");
+        intensity: Option<[f64; 3]> = None => (Vector).form("ALONG,LATERAL,UP").under("Gusts")
+            .otherwise("from the robot file");
         /// Length scales of the gusts along, lateral and up, each in the direction of the mean wind [m].
-        length_scale_m: Option<[f64; 3]> = None => (Vector).form("ALONG,LATERAL,UP").under("Gusts").otherwise("from the robot file");
+        length_scale_m: Option<[f64; 3]> = None => (Vector).form("ALONG,LATERAL,UP").under("Gusts")
+            .otherwise("from the robot file");
         /// Decay of the coherence with the distance along the mean wind, lateral and up.
         coherence_decay: Option<[f64; 3]> = None => (Vector).form("ALONG,LATERAL,UP").under("Gusts")
             .otherwise("from the robot file, or 0,10,10");
@@ -343,7 +357,8 @@ declared! {
         "funicular reduce robots/cogiro.toml --below-hz 10 --input fz --output z --order 8 --matrices model.npz",
         "funicular reduce robots/cogiro-winches.toml --below-hz 5 --input length:1 --output z --output tension:1",
         "funicular reduce robots/cogiro-winches.toml --below-hz 5 --input base-z --output z --output az",
-        "funicular reduce robots/yuan2014-4mm.toml --below-hz 5 --form second-order --matrices model\n\nIn Python: m = numpy.load('model.npz'); m['A'], m['B'], m['C'], m['D']\nIn MATLAB: load model.mat; sys = ss(A, B, C, D)",
+        "funicular reduce robots/yuan2014-4mm.toml --below-hz 5 --form second-order --matrices model\n\nIn Python: m = \
+         numpy.load('model.npz'); m['A'], m['B'], m['C'], m['D']\nIn MATLAB: load model.mat; sys = ss(A, B, C, D)",
     }
 }
 

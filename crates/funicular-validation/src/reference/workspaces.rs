@@ -49,7 +49,8 @@ impl BoxShapedRobot {
         for (number, ((right, back), height)) in (1..).zip(anchors) {
             let _ = write!(
                 text,
-                "[[cables]]\nname = \"{number}\"\nanchor_m = [{:?}, {:?}, {height:?}]\nattachment_m = [{:?}, {:?}, 0.0]\n\
+                "[[cables]]\nname = \"{number}\"\nanchor_m = [{:?}, {:?}, {height:?}]\nattachment_m = [{:?}, {:?}, \
+                 0.0]\n\
                  material = \"rope\"\n",
                 right * x,
                 back * y,

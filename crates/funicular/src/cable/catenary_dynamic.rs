@@ -589,8 +589,8 @@ impl CatenaryDynamic {
 
     /// Dynamic stiffness as by [`new`](Self::new), and the displacements of the points at the given unstrained arc
     /// lengths from the start [m]. With `loaded`, forces may act at these points; each of them then costs an element.
-    /// An `end` that can move is part of the inside of the cable. `moments` is the number of moments of the strain for a
-    /// rope with loss ([`StretchMotions`]).
+    /// An `end` that can move is part of the inside of the cable. `moments` is the number of moments of the strain for
+    /// a rope with loss ([`StretchMotions`]).
     ///
     /// # Errors
     /// [`CatenaryDynamicError`].

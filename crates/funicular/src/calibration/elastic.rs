@@ -53,8 +53,8 @@ impl Calibration {
         self.rows.iter().zip(poses).map(state).collect()
     }
 
-    /// Lengths with which the platform rests at a pose with tensions near their prior: where nothing else tells the tensions,
-    /// lengths that fit the readings exactly have tensions far from it, or slack cables.
+    /// Lengths with which the platform rests at a pose with tensions near their prior: where nothing else tells the
+    /// tensions, lengths that fit the readings exactly have tensions far from it, or slack cables.
     fn lengths_of_prior(&self, at: &CalibratedRobot, pose: &Pose) -> Option<Vec<f64>> {
         let (tension, _) = self.deviations.tension_prior?;
         let rule = TensionRule::Closest(vec![tension]);
@@ -164,8 +164,8 @@ impl Calibration {
         Some(DVec::from_vec(readings.chain(of_pose).chain(tensions).collect()))
     }
 
-    /// Rates of translation and rotation and of the tensions at the anchors along a change, at held lengths; by differences
-    /// where supports settle.
+    /// Rates of translation and rotation and of the tensions at the anchors along a change, at held lengths; by
+    /// differences where supports settle.
     fn rates(&self, at: &CalibratedRobot, rest: &Equilibrium, change: &RobotChange) -> Option<([Vec3; 2], Vec<f64>)> {
         if !at.robot.has_supports() {
             let by = derivatives::at_held_lengths(&at.robot, rest, change).ok()?;

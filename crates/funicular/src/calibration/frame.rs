@@ -32,8 +32,8 @@ pub struct CalibrationFrame {
     pub held_coordinates: Vec<usize>,
 }
 
-/// Change of the data by a motion, relative to that by the unknowns one by one, up to which the motion is free. Rounding is
-/// 1e-14; a coordinate measured 1e6 times worse than lengths is far above.
+/// Change of the data by a motion, relative to that by the unknowns one by one, up to which the motion is free.
+/// Rounding is 1e-14; a coordinate measured 1e6 times worse than lengths is far above.
 const FREE_MOTION: f64 = 1e-9;
 
 /// Part of a condition that the conditions before it do not fix, below which it is left out.
@@ -66,7 +66,8 @@ impl Calibration {
         Ok(CalibrationFrame { free: null_space(&conditions), motions, conditions, is_inner, held, held_coordinates })
     }
 
-    /// Frame with the free motions of a fit, which turn about its own anchors; inner conditions are then those of the fit.
+    /// Frame with the free motions of a fit, which turn about its own anchors; inner conditions are then those of the
+    /// fit.
     pub fn frame_about(&self, frame: &CalibrationFrame, fit: &super::CalibrationFit) -> CalibrationFrame {
         let motions = self.free_motions(&fit.values, &fit.poses, false);
         if motions.ncols() != frame.motions.ncols() {
@@ -80,8 +81,8 @@ impl Calibration {
         CalibrationFrame { free: null_space(&conditions), motions, conditions, ..frame.clone() }
     }
 
-    /// Conditions, as rows, that keep unknown anchors and attachments at their distance from a plane that contains no world
-    /// axis across which they could leave it; none in a coordinate plane, in which that coordinate is no unknown.
+    /// Conditions, as rows, that keep unknown anchors and attachments at their distance from a plane that contains no
+    /// world axis across which they could leave it; none in a coordinate plane, in which that coordinate is no unknown.
     fn plane_conditions(&self) -> DMat {
         let PlatformMotion::Planar(plane) = &self.robot.platform.motion else {
             return DMat::zeros(0, self.unknowns.len());
@@ -273,8 +274,8 @@ impl Calibration {
         (DMat::from_columns(&chosen).transpose(), held, held_coordinates)
     }
 
-    /// Conditions on points in an order: all coordinates of the first; of the second those across the direction from the
-    /// first; of the third that across the plane of the three; then all of all.
+    /// Conditions on points in an order: all coordinates of the first; of the second those across the direction from
+    /// the first; of the third that across the plane of the three; then all of all.
     fn candidates(
         &self,
         order: &[usize],

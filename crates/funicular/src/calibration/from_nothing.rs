@@ -6,9 +6,9 @@ use crate::math::{DMat, DVec};
 /// Least eigenvalue of the metric, relative to the largest one. Noise can make it negative; 1e-3 keeps an aspect of 30.
 const FLAT: f64 = 1e-3;
 
-/// Anchors and positions whose distances are the given lengths, in a frame of their own: `lengths[(j, i)]` is the length
-/// of cable i in row j [m]. Rows of the results are points with `dimension` coordinates. `None` if there are too few
-/// points for a linear solution: 6 of the more numerous ones in the plane, 10 in space.
+/// Anchors and positions whose distances are the given lengths, in a frame of their own: `lengths[(j, i)]` is the
+/// length of cable i in row j [m]. Rows of the results are points with `dimension` coordinates. `None` if there are too
+/// few points for a linear solution: 6 of the more numerous ones in the plane, 10 in space.
 ///
 /// # References
 /// Metric unfolding: P. H. Schönemann, Psychometrika 35 (1970) 349.
@@ -19,7 +19,8 @@ const FLAT: f64 = 1e-3;
 ///
 /// let anchors = [[0.0, 0.0], [3.0, 0.0], [2.5, 2.0]];
 /// let positions = [[1.0, 0.5], [2.0, 0.7], [1.5, 1.4], [0.7, 1.1], [2.2, 1.2], [1.1, 1.0], [1.9, 0.2]];
-/// let lengths = DMat::from_fn(7, 3, |j, i| (positions[j][0] - anchors[i][0] as f64).hypot(positions[j][1] - anchors[i][1]));
+/// let length = |p: [f64; 2], a: [f64; 2]| (p[0] - a[0]).hypot(p[1] - a[1]);
+/// let lengths = DMat::from_fn(7, 3, |j, i| length(positions[j], anchors[i]));
 /// let (found, _) = anchors_from_lengths(&lengths, 2).unwrap();
 /// assert!(((found.row(0) - found.row(1)).norm() - 3.0).abs() < 1e-9);
 /// ```

@@ -38,8 +38,8 @@ pub struct ReadingDeviations {
     pub angle: f64,
     /// Deviation of a measured tension [N].
     pub tension: f64,
-    /// Tension of elastic cables at the anchor that was not measured, with its standard deviation [N]; `None` if nothing is
-    /// known.
+    /// Tension of elastic cables at the anchor that was not measured, with its standard deviation [N]; `None` if
+    /// nothing is known.
     pub tension_prior: Option<(f64, f64)>,
 }
 
@@ -80,8 +80,8 @@ impl Calibration {
         DVec::from_vec(readings.chain(self.pose_data(row, pose).into_iter().map(|datum| datum.residual)).collect())
     }
 
-    /// Number of measured coordinates of the platform in a row, and of measured angles; cables that end in one point say
-    /// nothing of angles.
+    /// Number of measured coordinates of the platform in a row, and of measured angles; cables that end in one point
+    /// say nothing of angles.
     pub(super) fn pose_data_counts(&self, row: &MeasuredRow) -> [usize; 2] {
         let angles = if self.is_point { 0 } else { row.angles.iter().flatten().count() };
         [row.position.iter().flatten().count(), angles]
@@ -116,8 +116,8 @@ impl Calibration {
     }
 
     /// Residuals of a row with their derivatives: a straight length changes with its anchor by the unit vector `u`
-    /// towards it, with the platform by −(u, RA × u), with the attachment by −Rᵀu, with the radius of its pulley by the wrap
-    /// angle and `u` along the exit offset (96b).
+    /// towards it, with the platform by −(u, RA × u), with the attachment by −Rᵀu, with the radius of its pulley by the
+    /// wrap angle and `u` along the exit offset (96b).
     pub(super) fn row_terms(&self, at: &CalibratedRobot, row: &MeasuredRow, pose: &Pose) -> RowTerms {
         let residuals = self.residuals(at, row, pose);
         let (count, coordinates) = (residuals.len(), self.coordinates());

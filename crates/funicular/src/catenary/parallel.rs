@@ -212,7 +212,8 @@ mod tests {
         /// Tensions from a quarter of the weight up to a strain of one half, all slopes, ropes from rubber to steel.
         #[test]
         fn the_length_found_has_the_requested_tension(
-            slope in -1.0f64..=1.0, size in -1.0f64..3.0, weight in -4.0f64..2.0, stiffness in 2.0f64..7.0, part in 0.0f64..=1.0,
+            slope in -1.0f64..=1.0, size in -1.0f64..3.0, weight in -4.0f64..2.0, stiffness in 2.0f64..7.0,
+            part in 0.0f64..=1.0,
         ) {
             let chord = 10f64.powf(size);
             let (span, rise) = (chord * (1.0 - slope * slope).sqrt(), chord * slope);
@@ -303,7 +304,8 @@ mod tests {
                 if let Some([bend_before, length_before]) = last {
                     prop_assert!(bend_rate >= bend_before - ROUNDING, "{bend_before} {bend_rate} at {tension}");
                     let steep = slope.abs() > 0.95;
-                    prop_assert!(steep || by_tension >= length_before - ROUNDING, "{length_before} {by_tension} at {tension}");
+                    prop_assert!(steep || by_tension >= length_before - ROUNDING, "{length_before} {by_tension} at \
+                        {tension}");
                 }
                 last = Some([bend_rate, by_tension]);
             }

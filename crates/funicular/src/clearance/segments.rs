@@ -1,6 +1,7 @@
 //! Nearest points of two segments.
 //!
-//! The library takes segments within 4e-8 rad as parallel, whose distance is then wrong by that angle times their length.
+//! The library takes segments within 4e-8 rad as parallel, whose distance is then wrong by that angle times their
+//! length.
 
 use crate::math::Vec3;
 
@@ -14,8 +15,8 @@ pub(super) struct NearSegments {
     pub(super) apart_w: Vec3,
 }
 
-/// Nearest points of two segments, each given by its ends [m]. The squared distance is convex over both places, so it is
-/// least between the ends of both or at an end of one.
+/// Nearest points of two segments, each given by its ends [m]. The squared distance is convex over both places, so it
+/// is least between the ends of both or at an end of one.
 pub(super) fn nearest(own_w: &[Vec3; 2], others_w: &[Vec3; 2]) -> NearSegments {
     let (own, other) = (own_w[1] - own_w[0], others_w[1] - others_w[0]);
     let between = others_w[0] - own_w[0];

@@ -69,8 +69,8 @@ impl<'a> FreeSpan<'a> {
         Self { shape, ends_w, length, from_end, radius, parts: Default::default() }
     }
 
-    /// Span that is straight between points, from the platform to the anchor; without points it has no length, and nothing
-    /// of it is compared.
+    /// Span that is straight between points, from the platform to the anchor; without points it has no length, and
+    /// nothing of it is compared.
     pub(super) fn through(points_w: &'a [Vec3], radius: f64, from_end: f64) -> Self {
         let mut length = 0.0;
         let pieces = points_w.windows(2).map(|pair| {
@@ -154,8 +154,8 @@ impl<'a> FreeSpan<'a> {
         ]
     }
 
-    /// Part of the span that is compared, without the ends that are nearer than `from_end` to the other thing; `None` if
-    /// nothing remains. `distances` are those of the ends.
+    /// Part of the span that is compared, without the ends that are nearer than `from_end` to the other thing; `None`
+    /// if nothing remains. `distances` are those of the ends.
     pub(super) fn part(&self, distances: [f64; 2]) -> Option<&Arc> {
         let left_out = distances.map(|distance| distance < self.from_end);
         let find = || {
@@ -166,8 +166,8 @@ impl<'a> FreeSpan<'a> {
         self.parts[usize::from(left_out[0]) + 2 * usize::from(left_out[1])].get_or_init(find).as_ref()
     }
 
-    /// Distance of the surface of the cable from a body, on which one of its ends may be mounted, and the nearest points;
-    /// `None` if nothing is compared, or if the distance is surely above `enough`.
+    /// Distance of the surface of the cable from a body, on which one of its ends may be mounted, and the nearest
+    /// points; `None` if nothing is compared, or if the distance is surely above `enough`.
     pub(super) fn nearest_on(&self, body: &PlacedBody, mounted: SpanEnd, enough: f64) -> Option<(f64, [Vec3; 2])> {
         let at = |point_w: &Vec3| body.nearest_to_segment(point_w, point_w).distance;
         let part = self.part(match mounted {

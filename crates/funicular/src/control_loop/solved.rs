@@ -11,8 +11,8 @@ use crate::statics::{
 };
 use arrayvec::ArrayVec;
 
-/// Maximum numbers of Newton steps: from the last state, from the middle of the limits, and from a state near the limits
-/// to the centre. Three, ten and eight are usual.
+/// Maximum numbers of Newton steps: from the last state, from the middle of the limits, and from a state near the
+/// limits to the centre. Three, ten and eight are usual.
 pub(super) const MAX_WARM_STEPS: usize = 12;
 pub(super) const MAX_COLD_STEPS: usize = 24;
 

@@ -9,7 +9,8 @@ use thiserror::Error;
 pub enum LoopStatus {
     /// The balance, the limits and the certificate hold.
     Certified,
-    /// The balance and the limits hold; that this is the centre, the only one, or the nearest stable pose is not proved.
+    /// The balance and the limits hold; that this is the centre, the only one, or the nearest stable pose is not
+    /// proved.
     Accepted,
     /// The balance holds, and a tension is beyond its limit. Not the least possible violation.
     BeyondLimits,

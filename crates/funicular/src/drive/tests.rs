@@ -179,8 +179,8 @@ proptest! {
     }
 }
 
-/// Newton's method leaves about 50 of these cables. Where they hang slack beside a large wheel, the slow method does not
-/// converge, and paying out finds the solution.
+/// Newton's method leaves about 50 of these cables. Where they hang slack beside a large wheel, the slow method does
+/// not converge, and paying out finds the solution.
 #[test]
 fn slack_cables_beside_large_wheels_are_in_balance() {
     let mut runner = TestRunner::deterministic();

@@ -63,8 +63,8 @@ impl EndAtRest {
     }
 
     /// Motions (σ, v) for a displacement of the platform end relative to the support, world axes, and a motion of the
-    /// entry point along a drum side from the ground. `pull` is the force of the span, both ends held, on a displacement
-    /// of the platform end, with the factor h of its stiffness.
+    /// entry point along a drum side from the ground. `pull` is the force of the span, both ends held, on a
+    /// displacement of the platform end, with the factor h of its stiffness.
     pub(super) fn motion<T: Field>(
         &self,
         start_w: &Vector<T>,

@@ -51,8 +51,8 @@ impl LengthRates {
         Ok(Self::of_lengths(&Gradients::by_rule(robot, rest, rule)?.lengths()))
     }
 
-    /// Derivatives at an equilibrium whose tensions no rule has chosen: they change least along the cables, or, without a
-    /// choice, as the loads ask.
+    /// Derivatives at an equilibrium whose tensions no rule has chosen: they change least along the cables, or, without
+    /// a choice, as the loads ask.
     ///
     /// # Errors
     /// [`GradientError`], as for [`Gradients::new`] with the pose held.

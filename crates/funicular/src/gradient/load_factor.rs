@@ -1,8 +1,9 @@
 //! Gradient of the load factor.
 //!
-//! At the limit, tensions and multiple t solve `Σ Jᵢᵀfᵢ + e₀ + t v = 0`, with as many tensions at their limits as it takes
-//! to determine the rest. Multipliers y of this balance with `y·v = −1`, which the free tensions do not change, and one
-//! multiplier per limit give the derivative of t by everything else (docs/theory.md, equations (60u) and (60v)).
+//! At the limit, tensions and multiple t solve `Σ Jᵢᵀfᵢ + e₀ + t v = 0`, with as many tensions at their limits as it
+//! takes to determine the rest. Multipliers y of this balance with `y·v = −1`, which the free tensions do not change,
+//! and one multiplier per limit give the derivative of t by everything else (docs/theory.md, equations (60u) and
+//! (60v)).
 
 use super::adjoint::Adjoint;
 use super::at_limits::{AT_LIMIT, TensionBound, TensionsAtLimits};
@@ -13,21 +14,22 @@ use crate::platform::Coordinates;
 use crate::robot::{Pose, Robot, RobotChange};
 use crate::statics::{Limit, LoadCapacity, LoadCoefficients, LoadFactor, required_wrench};
 
-/// Maximum share of the multipliers in the wrench of a free tension, both of norm one. Rounding leaves 1e-12; the search
-/// for tensions that bends of sagging cables limit ends at some 1e-9.
+/// Maximum share of the multipliers in the wrench of a free tension, both of norm one. Rounding leaves 1e-12; the
+/// search for tensions that bends of sagging cables limit ends at some 1e-9.
 const MAX_SHARE: f64 = 1e-6;
 
 /// Minimum ratio of a pivot to the largest one, below which the multipliers are not determined; of unit wrenches.
 const MIN_PIVOT_RATIO: f64 = 1e-9;
 
-/// Step of the differences of a required wrench, over the size of the number. Their error is of the fourth order, 1e-12,
-/// and their rounding 1e-13.
+/// Step of the differences of a required wrench, over the size of the number. Their error is of the fourth order,
+/// 1e-12, and their rounding 1e-13.
 const STEP: f64 = 1e-3;
 
 /// Load factor of a pose with its gradient.
 ///
-/// The gradient is that of the load and of the limits that bind. Where a second load or a further tension binds as well,
-/// the load factor has a kink: it is the least of several smooth functions, and this is the gradient of one of them.
+/// The gradient is that of the load and of the limits that bind. Where a second load or a further tension binds as
+/// well, the load factor has a kink: it is the least of several smooth functions, and this is the gradient of one of
+/// them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LoadFactorGradient {
     /// Load factor.
@@ -37,8 +39,8 @@ pub struct LoadFactorGradient {
 }
 
 impl LoadFactorGradient {
-    /// Gradient at a held pose: `position_w` has the derivatives by a motion of the platform along the axes of the world
-    /// [1/m], `rotation_w` those by a turn about them [1/rad]. It needs one search, as the load factor alone.
+    /// Gradient at a held pose: `position_w` has the derivatives by a motion of the platform along the axes of the
+    /// world [1/m], `rotation_w` those by a turn about them [1/rad]. It needs one search, as the load factor alone.
     ///
     /// # Errors
     /// [`GradientError::LoadFactor`]; [`GradientError::UnlimitedLoadFactor`]; [`GradientError::LoadFactorAndSupports`];

@@ -31,7 +31,8 @@ pub struct ChosenRows {
 /// use funicular::math::{DMat, chosen_rows::{RowCriterion, choose_rows}};
 ///
 /// // Two unknowns with variances 4 and 1; the first candidate measures the sum, the second one the first of them.
-/// let covariance = DMat::from_diagonal_element(2, 2, 1.0) + DMat::from_fn(2, 2, |i, j| if i + j == 0 { 3.0 } else { 0.0 });
+/// let mut covariance = DMat::identity(2, 2);
+/// covariance[(0, 0)] = 4.0;
 /// let rows = [Some(DMat::from_row_slice(1, 2, &[1.0, 1.0])), Some(DMat::from_row_slice(1, 2, &[1.0, 0.0]))];
 /// let chosen = choose_rows(&covariance, &DMat::identity(2, 2), &rows, 1, RowCriterion::Variances);
 /// assert_eq!(chosen[0].candidate, 1);

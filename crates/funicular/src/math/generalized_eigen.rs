@@ -375,7 +375,9 @@ mod tests {
                 for i in 0..count {
                     for j in 0..count {
                         let sum: f64 =
-                            (0..n).map(|k| values[k].powi(exponent) * products[k * count + i] * products[k * count + j]).sum();
+                            (0..n)
+                                .map(|k| values[k].powi(exponent) * products[k * count + i] * products[k * count + j])
+                                .sum();
                         prop_assert!((sum - exact[(i, j)]).abs() < 1e-9, "power {exponent}: {sum} {}", exact[(i, j)]);
                     }
                 }

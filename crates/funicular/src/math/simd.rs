@@ -107,8 +107,8 @@ impl<S: Simd> Part<S> {
         self.simd.mul_add_f64s(a, b, c)
     }
 
-    /// `a b + c`, rounded once where the processor does so at no cost. Elsewhere, as in browsers, [`Self::mul_add`] is slow,
-    /// because it is computed without the processor's help.
+    /// `a b + c`, rounded once where the processor does so at no cost. Elsewhere, as in browsers, [`Self::mul_add`] is
+    /// slow, because it is computed without the processor's help.
     #[inline(always)]
     pub(crate) fn plus(self, a: S::f64s, b: S::f64s, c: S::f64s) -> S::f64s {
         self.simd.mul_add_e_f64s(a, b, c)

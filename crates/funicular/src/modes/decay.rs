@@ -34,7 +34,8 @@ pub enum DecayError {
     Model,
     /// A cable has no commanded length, by its index in the order of the file.
     #[error(
-        "cable number {} has no length that is commanded: every cable needs mass and the cable model `catenary-dynamic`", .0 + 1
+        "cable number {} has no length that is commanded: every cable needs mass and the cable model \
+         `catenary-dynamic`", .0 + 1
     )]
     NoLength(usize),
     /// A mode does not oscillate.
@@ -54,8 +55,8 @@ pub enum DecayError {
     },
     /// Two motions of the platform are one, not only their frequencies.
     #[error(
-        "two motions of the platform meet in one at {frequency_hz:.4} Hz, so that their decay is not a sum of exponentials: \
-         change the damping of ropes or platform a little, or simulate the motion"
+        "two motions of the platform meet in one at {frequency_hz:.4} Hz, so that their decay is not a sum of \
+         exponentials: change the damping of ropes or platform a little, or simulate the motion"
     )]
     Shared {
         /// Frequency [Hz].

@@ -74,9 +74,9 @@ pub fn caveat_of_stretch(robot: &Robot, modes: &[Mode], damping: &[f64], platfor
     }
     let share = share_of(mode);
     Some(format!(
-        "the mode of the platform at {:.3} Hz lives on the stretch of the ropes ({:.0} %), but the robot file gives the \
-         stretch of {} no loss, so that its damping ratio of {} lacks what damps it most: give `axial_loss_factor`; a \
-         loss factor of 0.01 adds {:.4}",
+        "the mode of the platform at {:.3} Hz lives on the stretch of the ropes ({:.0} %), but the robot file gives \
+         the stretch of {} no loss, so that its damping ratio of {} lacks what damps it most: give \
+         `axial_loss_factor`; a loss factor of 0.01 adds {:.4}",
         mode.frequency_hz,
         100.0 * share,
         ropes.join(", "),

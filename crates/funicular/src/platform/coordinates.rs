@@ -137,7 +137,8 @@ mod tests {
             let wrench = Vec6::from(wrench);
             for coordinates in all(ell) {
                 let reduced = coordinates.reduce(&wrench);
-                let difference = coordinates.reduce_symmetric(&(wrench * wrench.transpose())) - reduced * reduced.transpose();
+                let whole = coordinates.reduce_symmetric(&(wrench * wrench.transpose()));
+                let difference = whole - reduced * reduced.transpose();
                 // Entries up to 1/ℓ², a few roundings each.
                 prop_assert!(difference.amax() < 1e-14 * (1.0 + ell.powi(-2)), "{difference}");
             }

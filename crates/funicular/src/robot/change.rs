@@ -50,8 +50,8 @@ impl<T: Sum + Clone + Default> Sum for Vec<T> {
     }
 }
 
-/// Declares the rates of change of the numbers of a part of the robot. After the arrow stands the place of the number in
-/// the part; without a place, the number changes in a way of its own.
+/// Declares the rates of change of the numbers of a part of the robot. After the arrow stands the place of the number
+/// in the part; without a place, the number changes in a way of its own.
 macro_rules! numbers {
     (
         $(#[$about_part:meta])*
@@ -90,8 +90,8 @@ numbers! {
     /// the same number of cables. Derivatives of results are taken along this direction. The units are those of the
     /// robot's fields divided by the unit of the parameter.
     ///
-    /// Also the gradient of a result, [`crate::gradient`]: every field is then the derivative of the result with respect
-    /// to this number, and [`Self::dot`] with a direction the derivative along it.
+    /// Also the gradient of a result, [`crate::gradient`]: every field is then the derivative of the result with
+    /// respect to this number, and [`Self::dot`] with a direction the derivative along it.
     ///
     /// # Example
     /// ```

@@ -79,8 +79,8 @@ impl Plane {
         self.normal_w.dot(point_w) - self.offset
     }
 
-    /// Point in the plane with these coordinates along the world axes [m], of which one may be missing where the plane is
-    /// across its axis; `None` if the plane does not give what is missing.
+    /// Point in the plane with these coordinates along the world axes [m], of which one may be missing where the plane
+    /// is across its axis; `None` if the plane does not give what is missing.
     pub fn point_with(&self, given: [Option<f64>; 3]) -> Option<Vec3> {
         let mut point_w = Vec3::from(given.map(Option::unwrap_or_default));
         let missing = (0..3).filter(|axis| given[*axis].is_none());

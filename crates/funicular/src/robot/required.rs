@@ -71,8 +71,8 @@ pub enum RequiredLoadsError {
     },
     /// A component that cannot act on a point mass.
     #[error(
-        "a point mass does not turn: leave out the required moment, angular acceleration, angular velocity and centre of \
-         the payload"
+        "a point mass does not turn: leave out the required moment, angular acceleration, angular velocity and centre \
+         of the payload"
     )]
     TurnsPointMass,
     /// A listed load has no meaning for the platform.

@@ -41,8 +41,8 @@ impl Wind {
         across * (0.5 * self.air_density * across.norm())
     }
 
-    /// Drag on a cable per length and drag width [N/m²], as if it were straight along its chord. Coinciding ends have no
-    /// axis; the callers that place cables refuse them.
+    /// Drag on a cable per length and drag width [N/m²], as if it were straight along its chord. Coinciding ends have
+    /// no axis; the callers that place cables refuse them.
     pub(crate) fn drag_along_w(&self, chord_w: &Vec3) -> Vec3 {
         self.cross_pressure_w(&chord_w.try_normalize(0.0).unwrap_or_else(Vec3::zeros))
     }

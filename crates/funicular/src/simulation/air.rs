@@ -7,11 +7,11 @@ use std::borrow::Cow;
 use std::cell::RefCell;
 use std::f64::consts::TAU;
 
-/// Maximum frequency of simulated gusts [Hz]: slow against the waves that a step of the ropes resolves. Parts of a platform's
-/// motion that are faster are left out.
+/// Maximum frequency of simulated gusts [Hz]: slow against the waves that a step of the ropes resolves. Parts of a
+/// platform's motion that are faster are left out.
 pub(super) const MAX_GUST_HZ: f64 = 10.0;
-/// Minimum and maximum number of waves. There are two for each frequency that the duration tells apart; below the minimum
-/// the sum of a few waves is not normal, and the maximum is that of 100 s.
+/// Minimum and maximum number of waves. There are two for each frequency that the duration tells apart; below the
+/// minimum the sum of a few waves is not normal, and the maximum is that of 100 s.
 const WAVES: [f64; 2] = [300.0, 2000.0];
 /// Part of a coherence matrix on its diagonal that keeps it positive where places see the same gusts.
 const RIDGE: f64 = 1e-12;

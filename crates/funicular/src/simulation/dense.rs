@@ -13,8 +13,8 @@ pub(super) struct DenseOutput {
     after: MotionNumbers,
 }
 
-/// Hermite polynomial of the fifth degree with its derivatives: values, rates times h and accelerations times h² at both
-/// ends, at s in [0, 1].
+/// Hermite polynomial of the fifth degree with its derivatives: values, rates times h and accelerations times h² at
+/// both ends, at s in [0, 1].
 fn quintic([x0, v0, a0]: [f64; 3], [x1, v1, a1]: [f64; 3], s: f64) -> [f64; 3] {
     let (d, e, f) = (x1 - x0 - v0 - 0.5 * a0, v1 - v0 - a0, a1 - a0);
     let (c3, c4, c5) = (10.0 * d - 4.0 * e + 0.5 * f, -15.0 * d + 7.0 * e - f, 6.0 * d - 3.0 * e + 0.5 * f);

@@ -126,8 +126,8 @@ impl FarBorder {
         own
     }
 
-    /// Solves the columns of the rope's inner nodes for z and support; the result is what the end at the platform has of
-    /// each.
+    /// Solves the columns of the rope's inner nodes for z and support; the result is what the end at the platform has
+    /// of each.
     fn solve_columns(&mut self, far: &FarEnd, rope: &RopeMesh, factor: &Skyline) -> Vec<Vec3> {
         let places = far.places();
         let mut on_end = vec![Vec3::zeros(); self.columns.len()];
@@ -230,8 +230,8 @@ impl FarBorder {
         }
     }
 
-    /// Right-hand side of z from that of the rope, which is forward solved, and its own; what end and support receive of
-    /// both.
+    /// Right-hand side of z from that of the rope, which is forward solved, and its own; what end and support receive
+    /// of both.
     pub(super) fn forward(&mut self, rows: &[f64], needed: &[f64]) -> [Vec3; 2] {
         let inner = |a: &[f64]| rows.iter().zip(a).map(|(x, y)| x * y).sum::<f64>();
         for (k, needed) in needed.iter().enumerate() {

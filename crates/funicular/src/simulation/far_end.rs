@@ -47,7 +47,8 @@ pub(super) struct FarEnd {
     pub(super) off_tangent: f64,
 }
 
-/// Places among the coordinates of a far end: swivel (as the arc rγ), stations, integral of a servo's error, delayed error.
+/// Places among the coordinates of a far end: swivel (as the arc rγ), stations, integral of a servo's error, delayed
+/// error.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct FarPlaces {
     pub(super) swivel: Option<usize>,
@@ -134,8 +135,8 @@ impl FarEnd {
     }
 }
 
-/// The two sides of the equation of a delayed number, `T²d″/12 + Td′/2 + d = T²e″/12 − Te′/2 + e`, for a number with its
-/// rate and acceleration.
+/// The two sides of the equation of a delayed number, `T²d″/12 + Td′/2 + d = T²e″/12 − Te′/2 + e`, for a number with
+/// its rate and acceleration.
 ///
 /// # References
 /// docs/theory.md, equation (97m1).
@@ -332,8 +333,8 @@ mod tests {
     use super::delayed_weights;
     use crate::math::Complex;
 
-    /// The size of a delayed number is right at every frequency, and its angle falls behind the delay's by 1.3e-3 at one
-    /// radian.
+    /// The size of a delayed number is right at every frequency, and its angle falls behind the delay's by 1.3e-3 at
+    /// one radian.
     #[test]
     fn a_delayed_number_has_the_phase_of_the_delay() {
         let delay = 0.01;

@@ -1,6 +1,6 @@
 //! Ropes of one mesh side by side, one in each lane of the processor's vectors: their inner forces and the factors of
-//! Newton's method. What is done per rope or per wind stays in [`RopeMesh`]. It and [`Skyline`] are the oracle of what is
-//! here.
+//! Newton's method. What is done per rope or per wind stays in [`RopeMesh`]. It and [`Skyline`] are the oracle of what
+//! is here.
 //!
 //! [`Skyline`]: super::skyline::Skyline
 
@@ -81,8 +81,8 @@ impl RopePack {
         packs.into_iter().map(pack).collect()
     }
 
-    /// Adds the inner forces to `out`. Positions, velocities and forces are those of a motion, in which the numbers of the
-    /// ropes begin at `offsets`; `lengths` are their free lengths.
+    /// Adds the inner forces to `out`. Positions, velocities and forces are those of a motion, in which the numbers of
+    /// the ropes begin at `offsets`; `lengths` are their free lengths.
     pub(super) fn add_inner_forces(
         &mut self,
         ropes: &[RopeMesh],
@@ -198,8 +198,8 @@ struct Stretched<S: Simd> {
 }
 
 impl<S: Simd> Part<S> {
-    /// Stretch at a Gauss point, where the place changes with σ by `slope`, and the velocity by `slope_rate` if the ropes are
-    /// damped.
+    /// Stretch at a Gauss point, where the place changes with σ by `slope`, and the velocity by `slope_rate` if the
+    /// ropes are damped.
     ///
     /// # References
     /// docs/theory.md, equations (97a) and (97e).

@@ -1,6 +1,6 @@
 //! Symmetric positive definite matrix of one rope, stored from the first entry of each row to the diagonal, and its
-//! Cholesky factor, which fills no other place. Ropes are factored side by side ([`FactorPack`]); the factor of a single one
-//! is the oracle of tests.
+//! Cholesky factor, which fills no other place. Ropes are factored side by side ([`FactorPack`]); the factor of a
+//! single one is the oracle of tests.
 //!
 //! [`FactorPack`]: super::side_by_side::FactorPack
 

@@ -154,8 +154,8 @@ pub enum RestFault {
     },
     /// The mesh of a rope is too coarse for its bend.
     #[error(
-        "the mesh does not come to rest at the start: cable \"{cable}\" hangs there in a bend with a radius of {radius_m} \
-         m, and its nodes are {apart_m} m apart: give {elements} elements"
+        "the mesh does not come to rest at the start: cable \"{cable}\" hangs there in a bend with a radius of \
+         {radius_m} m, and its nodes are {apart_m} m apart: give {elements} elements"
     )]
     Coarse {
         /// Name of the cable with the narrowest bend for its mesh.

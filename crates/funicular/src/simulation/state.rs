@@ -1,7 +1,7 @@
 //! State of a simulation as a list of numbers, for runs that are continued later.
 //!
-//! Each part gives its numbers away one after the other, by one function for reading and for replacing them, so that both
-//! have the same order.
+//! Each part gives its numbers away one after the other, by one function for reading and for replacing them, so that
+//! both have the same order.
 
 use super::body::MovingBody;
 use super::far_end::FarEnd;

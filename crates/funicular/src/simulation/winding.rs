@@ -91,7 +91,8 @@ impl Winding {
         self.changes.iter().flat_map(|change| [change.from, change.until])
     }
 
-    /// Times between which the length is a cubic, at least nearly: those of splines, and `parts` parts of other changes [s].
+    /// Times between which the length is a cubic, at least nearly: those of splines, and `parts` parts of other changes
+    /// [s].
     pub(super) fn knots(&self, parts: usize) -> Vec<f64> {
         let mut knots = Vec::new();
         for (i, change) in self.changes.iter().enumerate() {

@@ -340,9 +340,9 @@ pub enum StaticsError {
     },
     /// Only the weight of a long loop of cable would hold the platform near the requested pose.
     #[error(
-        "no nearest pose was found with cables up to {MAX_LENGTH_RATIO} times as long as their chords: at the last one, \
-         at position ({x:.4}, {y:.4}, {z:.4}) m, cable \"{cable}\" hangs as a loop of {length:.3} m over a chord of \
-         {chord:.3} m; request another pose, or give the cable a `minimum_tension_n`"
+        "no nearest pose was found with cables up to {MAX_LENGTH_RATIO} times as long as their chords: at the last \
+         one, at position ({x:.4}, {y:.4}, {z:.4}) m, cable \"{cable}\" hangs as a loop of {length:.3} m over a chord \
+         of {chord:.3} m; request another pose, or give the cable a `minimum_tension_n`"
     )]
     NearestByLoop {
         /// Name of the cable.

@@ -71,8 +71,8 @@ const SAME_COSINE: f64 = 1e-3;
 /// Maximum number of cables that a message names.
 const MAX_NAMED: usize = 3;
 
-/// Component of a direction over the largest one, above which it is named too: two axes at 45° have 1, an axis within 27°
-/// of a direction stands for it alone.
+/// Component of a direction over the largest one, above which it is named too: two axes at 45° have 1, an axis within
+/// 27° of a direction stands for it alone.
 const NAMED_COMPONENT: f64 = 0.5;
 
 /// Component of a unit vector above which it is along the axis to the printed digits, and not mostly.

@@ -98,7 +98,8 @@ impl TensionRule {
 /// let held = statics::distribute_tensions(&robot, &pose, StaticModel::Catenary, &TensionRule::Closest(vec![400.0]))?;
 /// assert!(held.residual <= statics::RESIDUAL_LIMIT);
 /// for (i, cable) in held.cables.iter().enumerate() {
-///     assert!(TensionRange::of(&robot, i, &cable.chord_w()).margin(cable).distance() >= -1e-6 * cable.tension_platform);
+///     let margin = TensionRange::of(&robot, i, &cable.chord_w()).margin(cable);
+///     assert!(margin.distance() >= -1e-6 * cable.tension_platform);
 /// }
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```

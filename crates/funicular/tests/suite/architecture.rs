@@ -2,6 +2,7 @@
 
 mod circles;
 mod names;
+mod sizes;
 mod words;
 
 use std::collections::BTreeSet;

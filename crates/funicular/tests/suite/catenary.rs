@@ -110,7 +110,8 @@ fn any_cable() -> impl Strategy<Value = [f64; 5]> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 3000, max_global_rejects: 100_000, failure_persistence: None, ..Default::default() })]
+    #![proptest_config(ProptestConfig { cases: 3000, max_global_rejects: 100_000, failure_persistence: None,
+        ..Default::default() })]
 
     #[test]
     fn the_curve_closes_and_energy_gives_the_forces([dx, dz, length, ea, w] in any_cable()) {
@@ -151,7 +152,8 @@ proptest! {
         let (right, left) = (at(1.0, 0.0), at(-1.0, 0.0));
         let (up, down) = (at(0.0, 1.0), at(0.0, -1.0));
         let rounding = 1e-11 * cable.tension_at_end().max(w * length) / step;
-        for (exact, a, b) in [(xx, right[0], left[0]), (xz, up[0], down[0]), (zx, right[1], left[1]), (zz, up[1], down[1])] {
+        for (exact, a, b) in [(xx, right[0], left[0]), (xz, up[0], down[0]), (zx, right[1], left[1]),
+            (zz, up[1], down[1])] {
             let differenced = (a - b) / (2.0 * step);
             prop_assert!((exact - differenced).abs() < 1e-4 * (xx + zz) + rounding, "{exact} {differenced}");
         }

@@ -236,7 +236,8 @@ fn natural_frequencies_follow_every_number_of_the_robot() {
                     let allowed = 1e-5 * difference.abs() + added + 2e-11 * mode.frequency_hz / step;
                     assert!(
                         error <= allowed,
-                        "{name}, {cable_model}, mode {k} at {} Hz, {what}: {found} and {difference}, extrapolation {added:e}",
+                        "{name}, {cable_model}, mode {k} at {} Hz, {what}: {found} and {difference}, extrapolation \
+                         {added:e}",
                         mode.frequency_hz
                     );
                     compared[m] += 1;
@@ -308,12 +309,16 @@ fn symmetric_robot() -> Robot {
     let cables: Vec<String> = [("1", "2.0, 0.0"), ("2", "-2.0, 0.0"), ("3", "0.0, 2.0"), ("4", "0.0, -2.0")]
         .iter()
         .map(|(name, point)| {
-            format!("[[cables]]\nname = \"{name}\"\nmaterial = \"rope\"\nanchor_m = [{point}, 3.0]\nunstrained_length_m = 2.8\n")
+            format!(
+                "[[cables]]\nname = \"{name}\"\nmaterial = \"rope\"\nanchor_m = [{point}, \
+                3.0]\nunstrained_length_m = 2.8\n"
+            )
         })
         .collect();
     let cables = cables.concat();
     let text = format!(
-        "name = \"square\"\n[platform]\nmotion = \"point-mass\"\nmass_kg = 10.0\n[materials.rope]\naxial_stiffness_n = 1e5\n\
+        "name = \"square\"\n[platform]\nmotion = \"point-mass\"\nmass_kg = 10.0\n[materials.rope]\naxial_stiffness_n = \
+         1e5\n\
          mass_kg_per_m = 0.3\n{cables}"
     );
     Robot::from_toml(&text).unwrap()
@@ -430,8 +435,8 @@ fn changes_with_damping(robot: &Robot) -> Vec<(&'static str, RobotChange, f64)> 
     all
 }
 
-/// A robot in wind and under a load whose platform is damped and whose ropes have a damping ratio, one with viscous ropes,
-/// and one whose ropes have a loss of their stretch, too.
+/// A robot in wind and under a load whose platform is damped and whose ropes have a damping ratio, one with viscous
+/// ropes, and one whose ropes have a loss of their stretch, too.
 fn damped_robots() -> [(&'static str, Robot, f64); 3] {
     let mut with_ratio = loaded();
     with_ratio.platform.translational_damping_p = Vec3::new(3.0, 1.0, 2.0);

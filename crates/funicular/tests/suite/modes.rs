@@ -153,7 +153,8 @@ proptest! {
         catenary in any::<bool>(),
     ) {
         let rest = statics::forward(&robot, &lengths, StaticModel::Catenary, None).unwrap();
-        let (cable_model, limit) = if catenary { (CableModel::CatenaryDynamic, 6.0) } else { (CableModel::ShallowDynamic, 12.0) };
+        let (cable_model, limit) = if catenary { (CableModel::CatenaryDynamic,
+            6.0) } else { (CableModel::ShallowDynamic, 12.0) };
         let linearisation = Linearisation { cable_model, in_plane_only, ..Default::default() };
         let dynamics = match Dynamics::about(&robot, &rest, linearisation, limit) {
             Ok(dynamics) => dynamics,

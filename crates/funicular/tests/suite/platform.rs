@@ -149,7 +149,8 @@ proptest! {
         let symmetric = (slope + slope.transpose()) * 0.5;
         prop_assert!((symmetric - k).amax() < 2e-4 * k.amax().max(forces), "{}", symmetric - k);
         if matches!(rest.stability, Stability::Stable { .. }) {
-            let dynamics = Dynamics::about(&robot, &rest, Linearisation { cable_model: CableModel::CatenaryStatic, ..Default::default() }, 1.0).unwrap();
+            let dynamics = Dynamics::about(&robot, &rest, Linearisation { cable_model: CableModel::CatenaryStatic,
+                ..Default::default() }, 1.0).unwrap();
             let stiffness = dynamics.stiffness(0.0).map(|z| z.re);
             prop_assert!((stiffness - k).amax() < 1e-9 * k.amax().max(forces));
         }

@@ -1,5 +1,5 @@
-//! Speeds that winches allow: limits of one winch by hand, boxes of twists against samples, rates against differences of
-//! lengths, powers against the work of the weight.
+//! Speeds that winches allow: limits of one winch by hand, boxes of twists against samples, rates against differences
+//! of lengths, powers against the work of the weight.
 
 use funicular::gradient::LengthRates;
 use funicular::math::{Vec3, Vec6};
@@ -51,8 +51,8 @@ fn the_largest_speeds_of_one_winch_are_those_of_hand_calculations() {
         ("max_speed_m_s = 1.5", (1.5, Some(Speed)), (1.5, Some(Speed))),
         // 1000 · 0.8 / 400, and 500 / (400 · 0.8).
         ("max_power_w = 1000\nmax_brake_power_w = 500", (2.0, Some(Power)), (1.5625, Some(BrakePower))),
-        // (400 + 100 u) u = 800; lowering, 0.8 (400 − 100 v) v has its maximum, 320 W, below the limit. Beyond 4 m/s the
-        // damping is more than the weight and the motor drives: (100 v − 400) v = 800.
+        // (400 + 100 u) u = 800; lowering, 0.8 (400 − 100 v) v has its maximum, 320 W, below the limit. Beyond 4 m/s
+        // the damping is more than the weight and the motor drives: (100 v − 400) v = 800.
         (
             "damping_n_m_s_per_rad = 1.0\nmax_power_w = 1000\nmax_brake_power_w = 330",
             (-2.0 + 12.0_f64.sqrt(), Some(Power)),
@@ -128,8 +128,8 @@ fn moved(pose: &Pose, axis: usize, step: f64) -> Pose {
     moved
 }
 
-/// At a symmetric pose the rule `lowest` has a kink: two cables leave their minimum at once. The sag of these slack cables
-/// makes the rates on its two sides differ by some per cent; those of tensions that change least lie between.
+/// At a symmetric pose the rule `lowest` has a kink: two cables leave their minimum at once. The sag of these slack
+/// cables makes the rates on its two sides differ by some per cent; those of tensions that change least lie between.
 #[test]
 fn where_the_rule_has_a_kink_the_rates_lie_between_those_of_its_two_sides() {
     let robot = Robot::from_toml(funicular_robots::KNTU_PLANAR).unwrap();
@@ -197,7 +197,8 @@ prop_compose! {
     ) -> WinchLimits {
         let mut at = 0.0;
         let rising = corners.iter().map(|(step, torque)| { at += step; [at, *torque] });
-        let torque_speed = if corners.is_empty() { Vec::new() } else { [[0.0, at_rest]].into_iter().chain(rising).collect() };
+        let torque_speed = if corners.is_empty() { Vec::new() } else { [[0.0,
+            at_rest]].into_iter().chain(rising).collect() };
         WinchLimits { speed, acceleration: f64::INFINITY, torque, power, brake_power, torque_speed }
     }
 }
@@ -211,8 +212,8 @@ fn twists() -> impl Strategy<Value = Vec<[f64; 6]>> {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(64))]
 
-    /// No twist of the box needs more of any winch, or more power, than the numbers for the box; inside the box times the
-    /// factor no winch is beyond a limit, and a little outside one is.
+    /// No twist of the box needs more of any winch, or more power, than the numbers for the box; inside the box times
+    /// the factor no winch is beyond a limit, and a little outside one is.
     #[test]
     fn a_box_is_judged_by_its_worst_twist(
         efficiency in 0.5..1.0_f64, damping in prop_oneof![Just(0.0), 1.0..200.0_f64], limits in any_limits(),

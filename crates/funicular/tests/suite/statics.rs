@@ -30,7 +30,8 @@ fn load(text: &str) -> (Robot, Vec<f64>) {
 /// Platform of a crane, 1 m by 0.6 m by 0.2 m, on `cables` of four cables to the corners of a hall.
 pub(crate) fn crane(cables: usize, rope_mass: f64) -> Robot {
     let mut text = format!(
-        "name = \"crane\"\n[platform]\nmass_kg = 60\ninertia_kg_m2 = [2.0, 5.2, 6.8]\ncenter_of_mass_m = [0.03, -0.02, -0.1]\n\
+        "name = \"crane\"\n[platform]\nmass_kg = 60\ninertia_kg_m2 = [2.0, 5.2, 6.8]\ncenter_of_mass_m = [0.03, -0.02, \
+         -0.1]\n\
          [materials.rope]\naxial_stiffness_n = 4e5\nmass_kg_per_m = {rope_mass}\n"
     );
     for (i, (x, y)) in [(1.0, 1.0), (-1.0, -1.0), (-1.0, 1.0), (1.0, -1.0)].into_iter().enumerate().take(cables) {

@@ -92,8 +92,8 @@ fn a_shallow_cable_vibrates_by_its_closed_form() {
     }
 }
 
-/// A hanging cable at rest: the closed form of its strain, and slow vibration with the moments of the strain. They share
-/// neither the integrals nor the motions.
+/// A hanging cable at rest: the closed form of its strain, and slow vibration with the moments of the strain. They
+/// share neither the integrals nor the motions.
 #[test]
 fn a_hanging_cable_at_rest_is_the_limit_of_slow_vibration() {
     for text in [funicular_robots::YUAN2014_4MM, funicular_robots::COGIRO, funicular_robots::FAST] {
@@ -160,8 +160,8 @@ fn damping_is_half_of_the_loss_factor_times_the_share_of_the_stretch() {
     }
 }
 
-/// Massless ropes: every model with its loss has the same damping as the spring, up to sag, and a Kelvin–Voigt loss is a
-/// dashpot beside it.
+/// Massless ropes: every model with its loss has the same damping as the spring, up to sag, and a Kelvin–Voigt loss is
+/// a dashpot beside it.
 #[test]
 fn light_ropes_are_lossy_springs() {
     let text = funicular_robots::COGIRO.replace("mass_kg_per_m = 0.064", "mass_kg_per_m = 1e-6");

@@ -51,7 +51,8 @@ pub(super) fn cogiro(behind: Behind) -> Robot {
     for (post, size) in [("a", 1.0), ("b", 0.7), ("c", 1.3), ("d", 0.5)] {
         let _ = write!(
             tables,
-            "[supports.{post}]\nmass_kg = {}\nstiffness_n_per_m = [[{}, 2e4, 0], [2e4, 3e5, -1e4], [0, -1e4, 4e6]]\n{drums}",
+            "[supports.{post}]\nmass_kg = {}\nstiffness_n_per_m = [[{}, 2e4, 0], [2e4, 3e5, -1e4], [0, -1e4, \
+             4e6]]\n{drums}",
             20.0 * size,
             2e5 * size
         );

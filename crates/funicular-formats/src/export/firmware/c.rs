@@ -191,8 +191,8 @@ fn in_words(cable: &Cable) -> String {
     format!("{}, {minimum} to {maximum}", comment(&cable.name))
 }
 
-/// Text of the user in a comment: one line of letters, digits and signs that neither end a comment nor begin one, and that
-/// no preprocessor reads.
+/// Text of the user in a comment: one line of letters, digits and signs that neither end a comment nor begin one, and
+/// that no preprocessor reads.
 fn comment(text: &str) -> String {
     let kept = |c: char| if c.is_alphanumeric() || matches!(c, ' '..='~') { c } else { '_' };
     let text: String = one_line(text).chars().map(kept).collect();

@@ -63,9 +63,9 @@ struct TestedPose {
 }
 
 /// Meaning of the numbers, for a reader of the file alone.
-const MEANING: &str = "unstrained length = |anchor_m - p - R attachment_m| + sum of coefficients_m[k] times the product of \
-                       Chebyshev polynomials T_n(t) of the degrees exponents[k], t = (2 v - from - to)/(to - from) along \
-                       each axis; R = Rz(yaw) Ry(pitch) Rx(roll)";
+const MEANING: &str = "unstrained length = |anchor_m - p - R attachment_m| + sum of coefficients_m[k] times the \
+                       product of Chebyshev polynomials T_n(t) of the degrees exponents[k], t = (2 v - from - to)/(to \
+                       - from) along each axis; R = Rz(yaw) Ry(pitch) Rx(roll)";
 
 /// Text of a table in JSON.
 pub(super) fn text(of: &Firmware) -> Result<String> {

@@ -50,15 +50,15 @@ pub(crate) fn refuse(scenario: &Scenario) -> Result<()> {
     ];
     if let Some((kind, _, why)) = events.iter().find(|(_, count, _)| *count > 0) {
         bail!(
-            "[[{kind}]] of ⟪scenario⟫: {why}. A script for MoorDyn can have a release from rest, lengths, stops and cuts at \
-             a time: leave it out, or use `simulate`"
+            "[[{kind}]] of ⟪scenario⟫: {why}. A script for MoorDyn can have a release from rest, lengths, stops and \
+             cuts at a time: leave it out, or use `simulate`"
         );
     }
     let later = release.iter().position(|of| of.at_s.total_cmp(&release[0].at_s).is_ne());
     if let Some(k) = later {
         bail!(
-            "[[release]] number {} of ⟪scenario⟫ is at another time than the first: {kept}, so that a file can begin with \
-             one release only; leave it out, or use `simulate`",
+            "[[release]] number {} of ⟪scenario⟫ is at another time than the first: {kept}, so that a file can begin \
+             with one release only; leave it out, or use `simulate`",
             k + 1
         );
     }
@@ -96,9 +96,9 @@ impl MoorDynCourse {
             let SimulationEvent::Release { time, mass, point_p } = *event else { continue };
             if first < time {
                 bail!(
-                    "{label} of ⟪scenario⟫: at {time} s the robot is no longer at rest, and a body of MoorDyn keeps the \
-                     mass of its file, so that only a release from rest can be written; move it to the beginning, or use \
-                     `simulate`"
+                    "{label} of ⟪scenario⟫: at {time} s the robot is no longer at rest, and a body of MoorDyn keeps \
+                     the mass of its file, so that only a release from rest can be written; move it to the beginning, \
+                     or use `simulate`"
                 );
             }
             after.robot = without_payload(&after.robot, mass, point_p)

@@ -6,9 +6,9 @@
 //!
 //! The stretch of the rope is in two springs, the slide of the first bar and the tendon, so that no wave along the
 //! rope limits the time step. Let u be the motion of the platform along the rope and r the part of the free span in the
-//! compliance of the whole cable. A rope that stretches evenly moves by u (1 − r x) at the part x of its length, and has the
-//! kinetic energy of the mass m (1 − r + r²/3). Bars behind a part α of the span's compliance all move by u (1 − α r);
-//! α is such that both are equal.
+//! compliance of the whole cable. A rope that stretches evenly moves by u (1 − r x) at the part x of its length, and
+//! has the kinetic energy of the mass m (1 − r + r²/3). Bars behind a part α of the span's compliance all move by u (1
+//! − α r); α is such that both are equal.
 
 use super::super::chain::Chain;
 use super::super::springs::{CableSpring, SpringRobot, in_plane};
@@ -18,8 +18,8 @@ use std::iter::once;
 
 /// Moment of inertia of a bar about its axis, over that across it: that of a rope as thick as a ninetieth of a bar.
 const THIN: f64 = 1e-4;
-/// Part of its length that the piece at the anchor keeps when the winch takes rope in. Across it, the last joint is held
-/// by the tension over this length, so that less needs shorter time steps.
+/// Part of its length that the piece at the anchor keeps when the winch takes rope in. Across it, the last joint is
+/// held by the tension over this length, so that less needs shorter time steps.
 const KEPT_PIECE: f64 = 0.2;
 
 /// Bars of a cable and the spring of the first one.
@@ -90,8 +90,9 @@ impl ChainedRope {
 }
 
 impl RigidBar {
-    /// Bar along a step from its start, with a mass. The last one also carries half of the mass of the piece behind it, at
-    /// its end; with the same moment of inertia the errors of the waves cancel there as well, up to the fourth order.
+    /// Bar along a step from its start, with a mass. The last one also carries half of the mass of the piece behind it,
+    /// at its end; with the same moment of inertia the errors of the waves cancel there as well, up to the fourth
+    /// order.
     fn of(start: &Vec3, step: &Vec3, mass: f64, is_last: bool) -> Self {
         let length = step.norm();
         let along = step / length;

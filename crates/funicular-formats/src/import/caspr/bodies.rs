@@ -119,7 +119,8 @@ pub(super) fn read(xml: &Xml) -> Result<CasprLink> {
         let limits = ["q_min", "q_max"].map(|name| clean(joint_node.attribute(name).unwrap_or("none")));
         let [least, most] = limits;
         lost.push(format!(
-            "the limits of the platform's motion, q_min {least} and q_max {most}: as a grid they limit a map or a workspace"
+            "the limits of the platform's motion, q_min {least} and q_max {most}: as a grid they limit a map or a \
+             workspace"
         ));
     }
     if children(xml.root(), "operational_spaces").next().is_some() {

@@ -52,8 +52,8 @@ pub(crate) fn table(xml: &Xml, bodies: &Xml, name: &str) -> Result<TrajectoryTab
     if joint.has_quaternion() {
         bail!(xml.error(
             node,
-            "the coordinates of the joint are a quaternion, between whose values CASPR interpolates in a way of its own; \
-             only trajectories of angles are read"
+            "the coordinates of the joint are a quaternion, between whose values CASPR interpolates in a way of its \
+             own; only trajectories of angles are read"
         ));
     }
 

@@ -1,5 +1,5 @@
-//! The simulated robot as an animated drawing: SVG with SMIL, which browsers play without a script, in true time and again
-//! and again.
+//! The simulated robot as an animated drawing: SVG with SMIL, which browsers play without a script, in true time and
+//! again and again.
 
 use super::{FACE, RobotShape, Space, View};
 use crate::figures::drawing::{Align, BLACK, Colour, Drawing, DrawnPath, Label, Moving, PaperPoint, Stroke};
@@ -22,8 +22,8 @@ const MAX_POINTS: usize = 32;
 /// Colour of a slack cable.
 const SLACK: Colour = VERMILION;
 
-/// Text of an animated SVG file of a simulation: the robot in its frames, with a line of time and its events below. Slack
-/// cables are red.
+/// Text of an animated SVG file of a simulation: the robot in its frames, with a line of time and its events below.
+/// Slack cables are red.
 pub fn animation_of_simulation(found: &Simulated) -> String {
     let picture = &found.picture;
     let frames = thinned(picture);

@@ -20,15 +20,15 @@ pub(crate) fn complete(robot: &Robot, equilibrium: &Equilibrium) -> PageFigure {
     let drawn = Drawn::of(robot, equilibrium);
     let caption = format!(
         "The robot at its equilibrium, with one scale for all three axes. Lines: cables; squares: anchors with the \
-         cables' names; dark body: the platform, spanned by the attachments.{} Drag to rotate, scroll to zoom, point at a \
-         cable for its length and tension.",
+         cables' names; dark body: the platform, spanned by the attachments.{} Drag to rotate, scroll to zoom, point \
+         at a cable for its length and tension.",
         drawn.further
     );
     in_space(caption, &drawn.traces, &drawn.points)
 }
 
-/// Figure of a robot in motion at the first of several equilibria; and the coordinates of all traces that move, one list
-/// per equilibrium, with the indices of these traces.
+/// Figure of a robot in motion at the first of several equilibria; and the coordinates of all traces that move, one
+/// list per equilibrium, with the indices of these traces.
 pub(crate) fn moving(robot: &Robot, equilibria: &[&Equilibrium]) -> (PageFigure, Value) {
     let drawn: Vec<Drawn> = equilibria.iter().map(|equilibrium| Drawn::of(robot, equilibrium)).collect();
     over_time("The robot on its path", &drawn)
@@ -108,8 +108,8 @@ impl Drawn {
         let mut driven = "";
         for (i, (cable, state)) in robot.cables.iter().zip(&equilibrium.cables).enumerate() {
             let Some(lines) = DriveLines::of(cable, state) else { continue };
-            driven = " At pulleys the squares are the exit points. The drums, grey squares, stand where they would be if \
-                      the cable came to its pulley in a straight line.";
+            driven = " At pulleys the squares are the exit points. The drums, grey squares, stand where they would be \
+                      if the cable came to its pulley in a straight line.";
             traces.extend(drive(i, &cable.name, &lines));
             points.extend(lines.points());
         }

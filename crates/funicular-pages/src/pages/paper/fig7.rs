@@ -196,10 +196,10 @@ impl Outcome {
     /// Figure 7 of the paper.
     pub(crate) fn figure(&self) -> PageFigure {
         let caption = format!(
-            "The paper's Fig. 7 with the platform identified by us: acceleration along y per force along z, both at the \
-             attachment of cable 3, because the paper does not give the points. Ticks: all natural frequencies with the \
-             cable model shallow-dynamic; numbers: peaks of its response with at least {PROMINENCE_DB} dB [Hz]; dashed \
-             grey: the paper's peaks with dynamic stiffness."
+            "The paper's Fig. 7 with the platform identified by us: acceleration along y per force along z, both at \
+             the attachment of cable 3, because the paper does not give the points. Ticks: all natural frequencies \
+             with the cable model shallow-dynamic; numbers: peaks of its response with at least {PROMINENCE_DB} dB \
+             [Hz]; dashed grey: the paper's peaks with dynamic stiffness."
         );
         let marks = Marks {
             modes: &self.natural.modes,
@@ -245,8 +245,8 @@ pub(crate) fn chance_text(outcome: &Outcome) -> String {
     let peaks: Vec<f64> = outcome.peaks.iter().map(|peak| peak.frequency_hz).collect();
     format!(
         "The peaks computed with this set do not meet the published ones: from the peaks of the paper's dynamic model \
-         to the nearest computed peak it is {} Hz in the root mean square, from the measured ones {} Hz, and from random \
-         frequencies to the nearest of {} evenly spaced ones {} Hz.",
+         to the nearest computed peak it is {} Hz in the root mean square, from the measured ones {} Hz, and from \
+         random frequencies to the nearest of {} evenly spaced ones {} Hz.",
         fixed(nearest_rms(&DYNAMIC, &peaks), 2),
         fixed(nearest_rms(&EXPERIMENT, &peaks), 2),
         peaks.len(),
@@ -259,8 +259,8 @@ pub(crate) fn parameters(outcome: &Outcome) -> PageTable {
     let mut table = PageTable::new(
         "table-identified",
         "Parameters of the dynamic test, identified by us and not published: robots/yuan2014-dynamic-test.toml. \
-         Inertia: tensor about the centre of mass in platform axes; centre of mass relative to the platform origin; sag \
-         divided by chord at the resulting equilibrium.",
+         Inertia: tensor about the centre of mass in platform axes; centre of mass relative to the platform origin; \
+         sag divided by chord at the resulting equilibrium.",
         &[
             "<cables",
             "mass|kg",

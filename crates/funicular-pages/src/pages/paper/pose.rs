@@ -117,8 +117,8 @@ pub(crate) fn error_figure(sweeps: &[Sweep; 2], set: usize) -> PageFigure {
 
     let id = ["figure-pose-4mm", "figure-pose-8mm"][set];
     let caption = format!(
-        "The paper's Fig. 6, the error along z, {} cables: displacement of the platform along z from its ideal position \
-         over the platform's mass, and that of springs from the catenary. Circles: MoorPy 1.3.0.",
+        "The paper's Fig. 6, the error along z, {} cables: displacement of the platform along z from its ideal \
+         position over the platform's mass, and that of springs from the catenary. Circles: MoorPy 1.3.0.",
         SET_NAMES[set]
     );
     let layout = json!({

@@ -65,8 +65,8 @@ pub(super) fn first_frequencies(
         })
         .collect();
     let caption = format!(
-        "What moves the first frequencies: their changes, if one number changes by its tolerance. The numbers with the largest \
-         changes are shown. \
+        "What moves the first frequencies: their changes, if one number changes by its tolerance. The numbers with the \
+         largest changes are shown. \
          Positions and lengths have a tolerance of 1 mm, angles 0.1°, other values 1 %; {}. `funicular gradient` gives \
          all derivatives.",
         meaning(at_rest, Hold::Lengths)

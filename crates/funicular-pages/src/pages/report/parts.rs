@@ -28,8 +28,8 @@ pub(crate) fn tension_table(at_rest: &AtRest) -> PageTable {
     let columns = statics::CableRow::columns(&rows);
     let caption = format!(
         "Cables at equilibrium. Sag/chord: the shallow models hold up to 0.05, tinted rows are beyond. λ²: Irvine's \
-         parameter, which compares the stiffness of the sag with that of the rope. String: √(τ/m)/(2l), the first natural \
-         frequency of the taut cable alone.{}",
+         parameter, which compares the stiffness of the sag with that of the rope. String: √(τ/m)/(2l), the first \
+         natural frequency of the taut cable alone.{}",
         if rows.iter().any(|row| row.limits.is_some()) {
             " Margin: distance of the tension from its nearest limit; negative beyond it."
         } else {

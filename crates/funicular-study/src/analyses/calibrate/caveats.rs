@@ -41,8 +41,8 @@ fn lost_rank(of: &CalibrationReport) -> Option<String> {
     let lost = of.precision.lost.len();
     (lost > 0).then(|| {
         format!(
-            "{lost} of the combinations of values {} no effect on the readings at any of these poses: measure a pose off \
-             the plane, line or conic of the others, turn the platform, or hold a value",
+            "{lost} of the combinations of values {} no effect on the readings at any of these poses: measure a pose \
+             off the plane, line or conic of the others, turn the platform, or hold a value",
             if lost == 1 { "has" } else { "have" }
         )
     })
@@ -87,8 +87,8 @@ fn outlier(of: &CalibrationReport, row: &ReadingRow, wrong: Option<&WrongRow>) -
         },
     );
     format!(
-        "row {} does not agree with the others: without it χ² falls by {}, noise gives up to {}; the values would move by \
-         up to {}; {remedy}",
+        "row {} does not agree with the others: without it χ² falls by {}, noise gives up to {}; the values would move \
+         by up to {}; {remedy}",
         row.row,
         significant(row.chi2_drop.unwrap_or_default(), 3),
         significant(row.chi2_limit, 3),
@@ -194,8 +194,8 @@ fn open_rows(of: &CalibrationReport) -> Option<String> {
     let rows: Vec<String> = of.precision.open_rows.iter().map(|row| of.numbers[*row].to_string()).collect();
     (!rows.is_empty()).then(|| {
         format!(
-            "the readings of rows {} do not fix the pose there, because cables lie in one plane or line with the platform: \
-             these rows say nothing",
+            "the readings of rows {} do not fix the pose there, because cables lie in one plane or line with the \
+             platform: these rows say nothing",
             rows.join(", ")
         )
     })
@@ -205,8 +205,8 @@ fn open_rows(of: &CalibrationReport) -> Option<String> {
 fn not_reached(of: &CalibrationReport, results: &Calibrated) -> Option<String> {
     let wanted = of.request.wanted_std_m.filter(|_| results.poses_needed.is_none())?;
     Some(format!(
-        "{MAX_PROPOSALS} of the candidates do not reach deviations of {}: offer poses that are farther apart or turned, \
-         or more accurate readings",
+        "{MAX_PROPOSALS} of the candidates do not reach deviations of {}: offer poses that are farther apart or \
+         turned, or more accurate readings",
         in_mm(wanted)
     ))
 }
@@ -218,8 +218,8 @@ fn other_sign(of: &CalibrationReport) -> Option<String> {
     }
     let (cable, chi2) = encoder_of_other_sign(of.of, &of.found.best, &of.frame)?;
     Some(format!(
-        "with the readings of cable {} multiplied by −1, χ² falls from {} to {}: its encoder counts down while the cable \
-         pays out; change the sign of its column",
+        "with the readings of cable {} multiplied by −1, χ² falls from {} to {}: its encoder counts down while the \
+         cable pays out; change the sign of its column",
         of.of.robot.cables[cable].name,
         significant(of.found.best.chi2, 3),
         significant(chi2, 3)

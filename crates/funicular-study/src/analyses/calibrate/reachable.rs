@@ -1,5 +1,5 @@
-//! Candidates of a proposal that the calibrated robot can reach: with tensions within their limits, and without touching
-//! anything.
+//! Candidates of a proposal that the calibrated robot can reach: with tensions within their limits, and without
+//! touching anything.
 
 use super::Calibrated;
 use super::report::CalibrationReport;
@@ -109,9 +109,9 @@ pub(super) fn none_left(results: &Calibrated) -> Option<String> {
     let LeftOut { candidates, by_tensions, by_clearance } = results.left_out?;
     (results.proposals.is_empty() && candidates > 0 && by_tensions + by_clearance == candidates).then(|| {
         format!(
-            "no pose is proposed: of {candidates} candidates {by_tensions} have no equilibrium with tensions within the \
-             limits and {by_clearance} bring cables, platform or obstacles too near to each other; give other candidates \
-             or limits"
+            "no pose is proposed: of {candidates} candidates {by_tensions} have no equilibrium with tensions within \
+             the limits and {by_clearance} bring cables, platform or obstacles too near to each other; give other \
+             candidates or limits"
         )
     })
 }

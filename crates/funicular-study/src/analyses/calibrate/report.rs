@@ -455,13 +455,14 @@ impl<'a> CalibrationReport<'a> {
         let known = if known.is_empty() { "nothing".to_owned() } else { known };
         if self.fits_otherwise() {
             return format!(
-                "Other values fit nearly as well (see the minima); about these ones the values are known to {known}{weakest}"
+                "Other values fit nearly as well (see the minima); about these ones the values are known to \
+                 {known}{weakest}"
             );
         }
         if walk.is_some_and(|walk| !walk.is_parabola()) {
             return format!(
-                "The values are not determined, or χ² is curved: {known} by the linearisation{weakest}; a walk along it \
-                 does not raise χ² by 1 and 4"
+                "The values are not determined, or χ² is curved: {known} by the linearisation{weakest}; a walk along \
+                 it does not raise χ² by 1 and 4"
             );
         }
         format!("The values are known to {known}{weakest}")

@@ -16,8 +16,8 @@ use funicular::robot::{PlatformMotion, Pose, Robot};
 /// Maximum number of rows.
 const MAX_ROWS: usize = 10_000;
 
-/// Ratio of the middle reading to the middle length of the file from which on they cannot be the same lengths: the size of
-/// a robot is known within a factor of 20, and millimetres are a factor of 1000.
+/// Ratio of the middle reading to the middle length of the file from which on they cannot be the same lengths: the size
+/// of a robot is known within a factor of 20, and millimetres are a factor of 1000.
 const OTHER_UNIT: f64 = 20.0;
 
 /// Checks a table of readings for a robot.
@@ -99,8 +99,8 @@ fn check_columns(columns: &GappedColumns, robot: &Robot) -> Result<(), String> {
     let known: Vec<String> = poses.chain(of_cables).chain(cables().map(tension_name)).collect();
     columns.keys().find(|name| !known.contains(name)).map_or(Ok(()), |unknown| {
         Err(format!(
-            "there is a column `{unknown}`{}: give length_NAME_m or length_NAME_mm of the cables {}, and x_m, y_m, z_m, \
-             roll_deg, pitch_deg, yaw_deg, tension_NAME_n; drop other columns",
+            "there is a column `{unknown}`{}: give length_NAME_m or length_NAME_mm of the cables {}, and x_m, y_m, \
+             z_m, roll_deg, pitch_deg, yaw_deg, tension_NAME_n; drop other columns",
             suggestion(unknown, &known),
             cables().collect::<Vec<_>>().join(", ")
         ))

@@ -29,8 +29,8 @@ pub(super) struct Excursions {
 impl Excursions {
     /// Excursions at an equilibrium in the gusts of its robot.
     ///
-    /// The peaks along the three axes count as simultaneous, and those of a rotation at the farthest point: the bound is
-    /// on the safe side.
+    /// The peaks along the three axes count as simultaneous, and those of a rotation at the farthest point: the bound
+    /// is on the safe side.
     ///
     /// # Errors
     /// A robot without gusts, a slack cable, or motions that cross their mean too seldom for a peak.

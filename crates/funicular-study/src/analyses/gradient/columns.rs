@@ -136,8 +136,8 @@ pub(crate) fn refuse_replaced(entries: &[(&str, &str, &Tolerance)], numbers: &[P
             });
         if let (true, Some((other_key, other, _))) = (is_replaced, replacing) {
             bail!(
-                "⟪{key}⟫ {text} has no effect, because ⟪{other_key}⟫ {other} names its numbers again: keep one of them, or \
-                 give the general one first"
+                "⟪{key}⟫ {text} has no effect, because ⟪{other_key}⟫ {other} names its numbers again: keep one of \
+                 them, or give the general one first"
             );
         }
     }

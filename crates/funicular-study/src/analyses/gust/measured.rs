@@ -66,8 +66,8 @@ pub(super) fn turbulence(robot: &Robot, columns: &NumberColumns, options: &Turbu
     for (component, (own, given)) in intensity.iter().zip(options.intensity.unwrap_or(intensity)).enumerate() {
         if (own * own - given * given).abs() > MAX_GAP * given * given {
             bail!(
-                "⟪intensity⟫ {} of the gusts of `{}` and their spectrum differ: it integrates to the intensity {} at {} \
-                 m/s; check its unit, m²/s² per Hz and one-sided, and the mean wind, or leave ⟪intensity⟫ out",
+                "⟪intensity⟫ {} of the gusts of `{}` and their spectrum differ: it integrates to the intensity {} at \
+                 {} m/s; check its unit, m²/s² per Hz and one-sided, and the mean wind, or leave ⟪intensity⟫ out",
                 significant(given, 3),
                 DENSITIES[component],
                 significant(*own, 3),
@@ -77,8 +77,8 @@ pub(super) fn turbulence(robot: &Robot, columns: &NumberColumns, options: &Turbu
     }
     if intensity.iter().any(|part| *part >= Turbulence::MAX_INTENSITY) {
         bail!(
-            "⟪spectrum⟫ integrates to the intensities {} at {} m/s, and each must be below {}: the wind would turn round \
-             now and then; check its unit and the mean wind",
+            "⟪spectrum⟫ integrates to the intensities {} at {} m/s, and each must be below {}: the wind would turn \
+             round now and then; check its unit and the mean wind",
             intensity.map(|part| significant(part, 3)).join(", "),
             significant(speed, 4),
             Turbulence::MAX_INTENSITY
@@ -102,8 +102,8 @@ pub(super) fn caveat(robot: &Robot, limit: f64) -> Option<String> {
     let last = *robot.turbulence.as_ref()?.measured.as_ref()?.frequencies_hz().last()?;
     (last < limit).then(|| {
         format!(
-            "the measured spectra end at {} Hz, below the limit {} Hz of the frequencies: the response to faster gusts is \
-             left out",
+            "the measured spectra end at {} Hz, below the limit {} Hz of the frequencies: the response to faster gusts \
+             is left out",
             significant(last, 4),
             significant(limit, 4)
         )

@@ -365,8 +365,9 @@ impl Assigning {
     pub(crate) fn warning(&self, doubts: &[String]) -> Option<String> {
         (!doubts.is_empty()).then(|| {
             format!(
-                "the assignment to modes is not determined for {} without a number: {}. No deviations and intervals are \
-                 given; number the modes (column `label`), fit fewer values, or measure more frequencies more accurately",
+                "the assignment to modes is not determined for {} without a number: {}. No deviations and intervals \
+                 are given; number the modes (column `label`), fit fewer values,
+                 or measure more frequencies more accurately",
                 counted(self.open, "frequency").replace("frequencys", "frequencies"),
                 doubts.join("; ")
             )

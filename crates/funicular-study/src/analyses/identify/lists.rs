@@ -213,8 +213,8 @@ impl ListSample {
         found
     }
 
-    /// Logarithmic distance of the nearest modes from a measured frequency: that of the last of `count` modes, or of the
-    /// farthest if there are fewer.
+    /// Logarithmic distance of the nearest modes from a measured frequency: that of the last of `count` modes, or of
+    /// the farthest if there are fewer.
     pub(super) fn distance(&self, target: &Target, count: usize) -> f64 {
         let modes = self.modes[target.experiment].iter();
         let mut distances: Vec<f64> = modes.map(|mode| (mode.ln_hz - target.ln_hz).abs()).collect();
@@ -228,8 +228,8 @@ impl ListSample {
         mode.ln_hz + mode.rates.iter().zip(shift).map(|(rate, shift)| rate * shift).sum::<f64>()
     }
 
-    /// Place of the mode of each measured frequency in the near list: the numbered one, otherwise that of the assignment
-    /// with the smallest χ² in which both lists ascend.
+    /// Place of the mode of each measured frequency in the near list: the numbered one, otherwise that of the
+    /// assignment with the smallest χ² in which both lists ascend.
     fn partners(&self, targets: &[Target], shift: &[f64]) -> Option<Vec<usize>> {
         let mut partners = vec![usize::MAX; targets.len()];
         for (experiment, modes) in self.modes.iter().enumerate() {

@@ -52,8 +52,8 @@ impl Profiler<'_, '_> {
     pub(super) fn profile(&mut self, k: usize, deviation: Option<f64>, progress: &dyn Fn(usize)) -> Result<Profile> {
         let choices = self.model.choices();
         let unknown = &self.model.unknowns[k];
-        // A deviation beyond the usual error is of a direction that is hardly seen: its step leads to fits so far away that
-        // others that start from them end at another minimum.
+        // A deviation beyond the usual error is of a direction that is hardly seen: its step leads to fits so far away
+        // that others that start from them end at another minimum.
         let usual = unknown.spread();
         let step = deviation.filter(|deviation| *deviation > 0.0).map_or(usual, |deviation| deviation.min(usual));
         let mut ends = [(None, None); 2];

@@ -152,7 +152,8 @@ pub(super) fn proposals(
     let total = poses.len() * payloads.len() * kinds.len();
     if total > MAX_CANDIDATES {
         bail!(
-            "⟪grid⟫: {total} measurements are candidates: give at most {MAX_CANDIDATES} poses times payloads times kinds"
+            "⟪grid⟫: {total} measurements are candidates: give at most {MAX_CANDIDATES} poses times payloads times \
+             kinds"
         );
     }
     let places = poses.iter().flat_map(|pose| {
@@ -188,8 +189,8 @@ pub(super) fn proposals(
 /// Sentence on a wanted deviation that no number of measurements reaches.
 pub(super) fn not_reached(wanted_percent: f64) -> String {
     format!(
-        "{MAX_PROPOSALS} of the candidates do not reach deviations of {} %: offer other poses or kinds of measurements, \
-         more accurate ones, or fit fewer values",
+        "{MAX_PROPOSALS} of the candidates do not reach deviations of {} %: offer other poses or kinds of \
+         measurements, more accurate ones, or fit fewer values",
         significant(wanted_percent, 3)
     )
 }

@@ -7,8 +7,8 @@ use crate::analyses::profile::{LIMIT, Profile};
 use anyhow::Result;
 use funicular::math::least_squares::Minimum;
 
-/// Standard deviation of a logarithm from which on χ² is not taken as a parabola along it: the value is between 0.55 and
-/// 1.8 times the identified one, and not between 1 ± 0.6 times.
+/// Standard deviation of a logarithm from which on χ² is not taken as a parabola along it: the value is between 0.55
+/// and 1.8 times the identified one, and not between 1 ± 0.6 times.
 const MAX_LOG_DEVIATION: f64 = 0.3;
 
 /// Standard deviation of a value without a logarithm, in units of its usual error, from which on χ² is not taken as a
@@ -19,8 +19,8 @@ const MAX_DEVIATION: f64 = 1.0;
 /// interval does not hold. Fits to the last digit have 1.
 const BEYOND: f64 = 1.15;
 
-/// Maximum number of experiments with which profiles are computed without being asked for. Each fit of a profile computes
-/// all experiments; with 200 of them the profiles take a minute, and the search a second.
+/// Maximum number of experiments with which profiles are computed without being asked for. Each fit of a profile
+/// computes all experiments; with 200 of them the profiles take a minute, and the search a second.
 const MAX_EXPERIMENTS: usize = 30;
 
 /// Profiles of the values of a fit.
@@ -33,10 +33,9 @@ pub(crate) struct Profiled {
     pub(crate) takes_profile: Vec<bool>,
 }
 
-/// Computes the profiles of the unknowns with the indices `requested`, and, with up to [`MAX_EXPERIMENTS`] experiments, of
-/// those whose deviation does not hold.
-/// `deviations` are the standard deviations of the coordinates, and `factor` is the factor by which they were
-/// multiplied. `progress` gets the number of fits and the expected number of all.
+/// Computes the profiles of the unknowns with the indices `requested`, and, with up to [`MAX_EXPERIMENTS`] experiments,
+/// of those whose deviation does not hold. `deviations` are the standard deviations of the coordinates, and `factor` is
+/// the factor by which they were multiplied. `progress` gets the number of fits and the expected number of all.
 ///
 /// # Errors
 /// Work that was stopped.

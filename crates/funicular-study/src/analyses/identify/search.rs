@@ -104,7 +104,8 @@ fn is_noise(model: &IdentifiedModel<'_>, end: &End) -> bool {
     end.per_degree < FOUND.max(highest_of_noise)
 }
 
-/// Ends of the starts, the best first, and a row for each start. Starts are tried until χ² is as small as noise makes it.
+/// Ends of the starts, the best first, and a row for each start. Starts are tried until χ² is as small as noise makes
+/// it.
 ///
 /// # Errors
 /// No start from which the robot has an equilibrium, or work that was stopped.
@@ -154,8 +155,8 @@ fn apart(model: &IdentifiedModel<'_>, ends: &[End]) -> Option<String> {
         return None;
     }
     Some(format!(
-        "the search has not arrived: {} starts ended apart, with χ²/n from {} to {}, and only one at the best values: give \
-         more starts, values nearer to the true ones, or priors",
+        "the search has not arrived: {} starts ended apart, with χ²/n from {} to {}, and only one at the best values: \
+         give more starts, values nearer to the true ones, or priors",
         ends.len(),
         significant(best.per_degree, 3),
         significant(worst.per_degree, 3)
@@ -210,8 +211,8 @@ fn last_stage(model: &mut IdentifiedModel<'_>, ends: &[End], bounds: &[(f64, f64
     Ok(found)
 }
 
-/// Minimum with the complex values of responses, from one start. Assumed deviations and the ranges that the model misses are
-/// known at a minimum only, and a minimum without these ranges shows more of them.
+/// Minimum with the complex values of responses, from one start. Assumed deviations and the ranges that the model
+/// misses are known at a minimum only, and a minimum without these ranges shows more of them.
 fn fit_responses(model: &mut IdentifiedModel<'_>, start: &[f64], bounds: &[(f64, f64)]) -> Result<Minimum> {
     let again = |model: &mut IdentifiedModel<'_>, x: &[f64]| {
         minimise(model, x, bounds, MAX_ITERATIONS)

@@ -95,7 +95,8 @@ pub(super) fn refuse_for_release(request: &SettleRequest) -> Result<()> {
     ];
     if let Some((name, _)) = given.iter().find(|(_, given)| *given) {
         bail!(
-            "⟪{name}⟫ is used by a command, not by a release: give ⟪stop_m_s⟫, ⟪move_m⟫ or ⟪trajectory⟫, or leave it out"
+            "⟪{name}⟫ is used by a command, not by a release: give ⟪stop_m_s⟫, ⟪move_m⟫ or ⟪trajectory⟫, or leave it \
+             out"
         );
     }
     Ok(())

@@ -51,8 +51,8 @@ impl SwingHistory {
 /// Caveat about a history without the modes above a frequency [Hz].
 pub(super) fn caveat(up_to_hz: f64) -> String {
     format!(
-        "the history would need more than {MAX_POINTS} rows to show all modes until the motion has settled: it has the modes \
-         up to {up_to_hz:.4} Hz; times, amplitudes and the envelope have all"
+        "the history would need more than {MAX_POINTS} rows to show all modes until the motion has settled: it has the \
+         modes up to {up_to_hz:.4} Hz; times, amplitudes and the envelope have all"
     )
 }
 

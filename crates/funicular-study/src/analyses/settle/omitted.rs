@@ -77,8 +77,8 @@ fn without_losses(robot: &Robot) -> Robot {
 pub(super) fn caveat_of_release(omitted: f64, tolerance: f64, limit: f64) -> Option<String> {
     (omitted > tolerance).then(|| {
         format!(
-            "the modes above {limit} Hz may move the point by up to {} mm, more than the tolerance: raise ⟪below_hz⟫, or \
-             leave it out",
+            "the modes above {limit} Hz may move the point by up to {} mm, more than the tolerance: raise ⟪below_hz⟫, \
+             or leave it out",
             significant(1e3 * omitted, 3)
         )
     })
@@ -93,23 +93,23 @@ pub(super) fn caveat(
 ) -> Option<String> {
     let Some(OmittedMotion { distance, mean_tensions }) = omitted else {
         return Some(format!(
-            "no bound is known for the modes above {limit} Hz, because motors turn, supports are flexible, or a cable has \
-             no length that is commanded: raise ⟪below_hz⟫ until the numbers stay"
+            "no bound is known for the modes above {limit} Hz, because motors turn, supports are flexible, or a cable \
+             has no length that is commanded: raise ⟪below_hz⟫ until the numbers stay"
         ));
     };
     let most = mean_tensions.iter().copied().fold(0.0, f64::max);
     if *distance > tolerance {
         return Some(format!(
-            "the modes above {limit} Hz may move the point by up to {} mm, more than the tolerance: raise ⟪below_hz⟫, or \
-             give the command longer times, a stop and a move in ⟪profile_s⟫",
+            "the modes above {limit} Hz may move the point by up to {} mm, more than the tolerance: raise ⟪below_hz⟫, \
+             or give the command longer times, a stop and a move in ⟪profile_s⟫",
             significant(1e3 * distance, 3)
         ));
     }
     (most >= lowest.tension_n).then(|| {
         format!(
-            "the modes above {limit} Hz may change the mean tension of a cable by up to {} N, and the lowest tension is {} \
-             N: a cable may become slack; raise ⟪below_hz⟫, or give the command longer times, a stop and a move in \
-             ⟪profile_s⟫",
+            "the modes above {limit} Hz may change the mean tension of a cable by up to {} N, and the lowest tension \
+             is {} N: a cable may become slack; raise ⟪below_hz⟫, or give the command longer times, a stop and a move \
+             in ⟪profile_s⟫",
             significant(most, 3),
             significant(lowest.tension_n, 3)
         )

@@ -71,9 +71,9 @@ impl LowestTension {
         let cable = at_rest.robot.cables[i].name.clone();
         if tension_n <= 0.0 {
             return Err(NoSolution(format!(
-                "cable \"{cable}\" becomes slack {} s after {start}: its tension would be {} N, and a cable pulls in one \
-                 direction only. The linear motion does not know that; only a simulation in time can tell what happens. \
-                 {remedy}",
+                "cable \"{cable}\" becomes slack {} s after {start}: its tension would be {} N, and a cable pulls in \
+                 one direction only. The linear motion does not know that; only a simulation in time can tell what \
+                 happens. {remedy}",
                 significant(t_s, 3),
                 significant(tension_n, 3)
             ))

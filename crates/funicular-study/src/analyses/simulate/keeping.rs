@@ -6,8 +6,8 @@ use anyhow::Result;
 use funicular::math::{Vec3, rotation};
 use funicular::robot::Pose;
 
-/// Rows between two states from which a run can go on. They are the same wherever the rows go, because a step after a state
-/// begins with a new matrix, and a result depends on its request alone.
+/// Rows between two states from which a run can go on. They are the same wherever the rows go, because a step after a
+/// state begins with a new matrix, and a result depends on its request alone.
 pub(super) const STATE_ROWS: usize = 50;
 
 /// Keeper of the rows of the first run.

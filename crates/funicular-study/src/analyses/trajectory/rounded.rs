@@ -101,8 +101,8 @@ impl RoundedRows {
         let angle = if self.column.ends_with("_deg") { "°" } else { " m" };
         let reason = match self.unit {
             Some(unit) => format!(
-                "`{}` of ⟪path⟫ is rounded to {}{angle} every {} s: a curve through rounded rows has accelerations of about \
-                 4 · {}/{}² = {} {angle}/s²",
+                "`{}` of ⟪path⟫ is rounded to {}{angle} every {} s: a curve through rounded rows has accelerations of \
+                 about 4 · {}/{}² = {} {angle}/s²",
                 self.column,
                 short(unit, 6),
                 short(self.step, 6),

@@ -80,8 +80,8 @@ pub(super) fn notes(planned: &Planned, samples: &MotionSamples, extremes: &[Extr
     let jumps_of_path = samples.jumps.iter().any(|jump| matches!(jump.cause, JumpCause::Path(3)));
     if jumps_of_path {
         found.push(
-            "lengths follow the acceleration through sag and stretch, so that their rates jump where the jerk jumps: the \
-             courses `continuous-jerk` and `septic` have no such jumps"
+            "lengths follow the acceleration through sag and stretch, so that their rates jump where the jerk jumps: \
+             the courses `continuous-jerk` and `septic` have no such jumps"
                 .to_owned(),
         );
     }
@@ -97,7 +97,8 @@ pub(super) fn notes(planned: &Planned, samples: &MotionSamples, extremes: &[Extr
             if matches!(planned.rule, TensionRule::Closest(_)) {
                 "a larger ⟪target_tension_n⟫, or ⟪tension_rule⟫ `centre`, keeps them above it"
             } else {
-                "⟪tension_rule⟫ `centre`, or `closest` with a ⟪target_tension_n⟫ well above the minimum, keeps them above it"
+                "⟪tension_rule⟫ `centre`, or `closest` with a ⟪target_tension_n⟫ well above the minimum, keeps them \
+                 above it"
             }
         ));
     }
@@ -118,9 +119,9 @@ fn fast_cable(planned: &Planned, samples: &MotionSamples, extremes: &[Extreme]) 
     let end = (velocity + omega.cross(&(point.pose.rot_wp * planned.robot.cables[i].attachment_p))).norm();
     (speed > FAST * end && speed > 1e-3).then(|| {
         format!(
-            "cable \"{}\" runs at {} m/s while its end at the platform moves at {} m/s: its tension changes, and the slack \
-             of its sag is wound in or paid out; higher tensions (⟪tension_rule⟫, ⟪min_tension_n⟫) or a smaller jerk \
-             make it slower",
+            "cable \"{}\" runs at {} m/s while its end at the platform moves at {} m/s: its tension changes, and the \
+             slack of its sag is wound in or paid out; higher tensions (⟪tension_rule⟫, ⟪min_tension_n⟫) or a smaller \
+             jerk make it slower",
             fastest.cable,
             significant(speed, 3),
             significant(end, 3)

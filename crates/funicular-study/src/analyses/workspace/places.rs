@@ -53,8 +53,8 @@ impl PlaneOfMotion {
     }
 }
 
-/// Grid of positions of a request, and the plane of a planar platform, which the grid covers as a slab. Sides that the request does not give reach from the least to the greatest coordinate
-/// of the anchors and the origin.
+/// Grid of positions of a request, and the plane of a planar platform, which the grid covers as a slab. Sides that the
+/// request does not give reach from the least to the greatest coordinate of the anchors and the origin.
 ///
 /// # Errors
 /// An axis that is given twice or is no range, a box without a side, or too many nodes.
@@ -117,8 +117,8 @@ pub(super) fn grid(request: &WorkspaceRequest, robot: &Robot) -> Result<(PointGr
     Ok((grid, plane))
 }
 
-/// Orientations at each position, in the order of a map: all combinations of the angles of the grid, or else that of the
-/// state.
+/// Orientations at each position, in the order of a map: all combinations of the angles of the grid, or else that of
+/// the state.
 ///
 /// # Errors
 /// An axis that is given twice, angles of a point mass, or too many orientations.
@@ -160,7 +160,8 @@ pub(super) fn orientations(request: &WorkspaceRequest, robot: &Robot) -> Result<
 pub(super) fn check(request: &WorkspaceRequest, robot: &Robot) -> Result<()> {
     if request.point.state.lengths_m.is_some() || request.point.state.hold_lengths_of_pose {
         bail!(
-            "`workspace` goes through poses, each with its own lengths: leave out ⟪lengths_m⟫ and ⟪hold_lengths_of_pose⟫"
+            "`workspace` goes through poses, each with its own lengths: leave out ⟪lengths_m⟫ and \
+             ⟪hold_lengths_of_pose⟫"
         );
     }
     if let Some(axis) = request.grid.iter().find(|axis| !AXES.contains(&axis.name())) {

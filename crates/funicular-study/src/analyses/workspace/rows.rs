@@ -311,8 +311,8 @@ impl Workspace {
             let message = "the work was stopped: this is what was found until then";
             message.to_owned()
         });
-        let alone = "parts and holes were not compared with those of larger steps: make the number of steps along every \
-                     axis of ⟪grid⟫ a multiple of 4, as with 41 values";
+        let alone = "parts and holes were not compared with those of larger steps: make the number of steps along \
+                     every axis of ⟪grid⟫ a multiple of 4, as with 41 values";
         let pieces = match self.with_double_steps() {
             Some(coarse) => self.other_pieces(coarse),
             None => Some(alone.to_owned()),

@@ -28,12 +28,13 @@ pub(super) static TABLE: &[Definition] = &[
     },
     Definition {
         name: "first-platform-frequency",
-        about: "lowest natural frequency of a mode of the platform; it jumps from pose to pose where modes of cables are near",
+        about: "lowest natural frequency of a mode of the platform; it jumps from pose to pose where modes of cables \
+            are near",
         documentation: "`first_platform_frequency_hz`: lowest natural frequency of a mode with at least \
                         `⟪platform_share⟫` (0.5 if not given) of its kinetic energy in the platform, with the \
                         requested cable model; the modes below it are all found, however many they are. It \
-                        jumps between neighbouring points where a mode of the cables is near and takes over half of the \
-                        energy: `platform-frequency` is smooth",
+                        jumps between neighbouring points where a mode of the cables is near and takes over half of \
+                        the energy: `platform-frequency` is smooth",
         columns: |_, _| {
             let about = "lowest natural frequency of a mode of the platform, undamped; it jumps where a mode of the \
                          cables is near and shares the energy: platform-frequency is smooth";
@@ -48,11 +49,11 @@ pub(super) static TABLE: &[Definition] = &[
     Definition {
         name: "platform-frequency",
         about: "lowest frequency of the platform on cables that follow it as at rest; smooth from pose to pose",
-        documentation: "`platform_frequency_hz`: lowest frequency of the platform if each cable follows it in the shape \
-                        of slow motion, with the share of its mass that then moves. It is smooth from pose to pose. \
-                        Its square is the mean of the squares of all natural frequencies, weighted by the kinetic \
-                        energy that each mode has in this motion: beside a mode of the cables it lies between the \
-                        frequencies of the pair (theory, equations (35d) and (35e))",
+        documentation: "`platform_frequency_hz`: lowest frequency of the platform if each cable follows it in the \
+                        shape of slow motion, with the share of its mass that then moves. It is smooth from pose to \
+                        pose. Its square is the mean of the squares of all natural frequencies, weighted by the \
+                        kinetic energy that each mode has in this motion: beside a mode of the cables it lies between \
+                        the frequencies of the pair (theory, equations (35d) and (35e))",
         needs: RequiredModel::Elastic,
         columns: |_, _| {
             let about = "lowest frequency of the platform on cables that follow it as at rest";
@@ -261,9 +262,9 @@ pub(super) static TABLE: &[Definition] = &[
     Definition {
         name: "clearance",
         about: "least distance between cables, platform and obstacles, and the pair",
-        documentation: "`clearance_m`: distance between the surfaces of the pair of cables, platform and obstacles that \
-                        is nearest to its required distance or below it; `clearance_margin_m`: distance beyond the \
-                        required one; `clearance_pair`: the pair in words",
+        documentation: "`clearance_m`: distance between the surfaces of the pair of cables, platform and obstacles \
+                        that is nearest to its required distance or below it; `clearance_margin_m`: distance beyond \
+                        the required one; `clearance_pair`: the pair in words",
         columns: |_, _| {
             let about = "pair of cables, platform and obstacles with the least margin";
             vec![
@@ -287,9 +288,10 @@ pub(super) static TABLE: &[Definition] = &[
     },
     Definition {
         name: "tension-factor",
-        about: "largest ratio of minimum to maximum tension with which straight cables balance each other without a load",
-        documentation: "`tension_factor`: largest ratio of the minimum to the maximum tension with which straight cables \
-                        balance each other without a load, from 0 to 1",
+        about: "largest ratio of minimum to maximum tension with which straight cables balance each other without a \
+                load",
+        documentation: "`tension_factor`: largest ratio of the minimum to the maximum tension with which straight \
+                        cables balance each other without a load, from 0 to 1",
         columns: |_, _| one("tension_factor", "1", "largest ratio of minimum to maximum tension without a load"),
         values: |row, _, out| out.push(Value::real(Some(tension_factor(row.robot, &row.rest.pose)))),
         at_pose: Some(tension_factor),
@@ -315,8 +317,8 @@ pub(super) static TABLE: &[Definition] = &[
     Definition {
         name: "capacity-margin",
         about: "radius of the largest ball of loads that can be added to every required load, negative outside",
-        documentation: "`capacity_margin_n`: radius of the largest ball of loads, moments over the platform's size, that \
-                        can be added to every required load; negative if one is not held",
+        documentation: "`capacity_margin_n`: radius of the largest ball of loads, moments over the platform's size, \
+                        that can be added to every required load; negative if one is not held",
         needs: RequiredModel::HeldPose,
         columns: |_, _| one("capacity_margin_n", "N", "radius of the largest ball of loads that can be added"),
         values: |row, _, out| {
@@ -359,8 +361,8 @@ pub(super) static TABLE: &[Definition] = &[
         name: "speed-factor",
         about: "largest multiple of the required velocities with which every winch stays within its limits",
         documentation: "`speed_factor`: largest multiple of the required velocities (`[required]`, or options \
-                        `required_velocity_m_s`, `required_angular_velocity_rad_s`) with which every winch stays within \
-                        its limits of speed, torque and power; all are reached if it is at least 1",
+                        `required_velocity_m_s`, `required_angular_velocity_rad_s`) with which every winch stays \
+                        within its limits of speed, torque and power; all are reached if it is at least 1",
         needs: RequiredModel::HeldPose,
         columns: |_, _| one("speed_factor", "1", "largest multiple of the required velocities that the winches allow"),
         values: |row, _, out| {
@@ -372,8 +374,8 @@ pub(super) static TABLE: &[Definition] = &[
     Definition {
         name: "speed-max:AXIS",
         about: "largest speed of the platform along or about an axis, both ways",
-        documentation: "`speed_max_x_m_s` … `speed_max_rz_rad_s`: largest speed of the platform along x, y or z, or about \
-                        one of these axes (rx, ry, rz), that the winches allow both ways",
+        documentation: "`speed_max_x_m_s` … `speed_max_rz_rad_s`: largest speed of the platform along x, y or z, or \
+                        about one of these axes (rx, ry, rz), that the winches allow both ways",
         takes: ParameterKind::Axis,
         needs: RequiredModel::HeldPose,
         columns: |_, parameter| {
@@ -395,8 +397,8 @@ pub(super) static TABLE: &[Definition] = &[
     Definition {
         name: "motor-power",
         about: "power of all motors that drive, at the worst of the required velocities",
-        documentation: "`motor_power_w`: sum of the mechanical powers of all motors that drive, at the worst corner of the \
-                        required velocities",
+        documentation: "`motor_power_w`: sum of the mechanical powers of all motors that drive, at the worst corner of \
+                        the required velocities",
         needs: RequiredModel::HeldPose,
         columns: |_, _| one("motor_power_w", "W", "power of all motors that drive, at the worst required velocity"),
         values: |row, _, out| {
@@ -408,8 +410,8 @@ pub(super) static TABLE: &[Definition] = &[
     Definition {
         name: "brake-power",
         about: "power of all motors that brake, at the worst of the required velocities",
-        documentation: "`brake_power_w`: sum of the mechanical powers of all motors that brake, at the worst corner of the \
-                        required velocities",
+        documentation: "`brake_power_w`: sum of the mechanical powers of all motors that brake, at the worst corner of \
+                        the required velocities",
         needs: RequiredModel::HeldPose,
         columns: |_, _| one("brake_power_w", "W", "power of all motors that brake, at the worst required velocity"),
         values: |row, _, out| {
@@ -421,8 +423,8 @@ pub(super) static TABLE: &[Definition] = &[
     Definition {
         name: "gust-rms",
         about: "r.m.s. distance of the platform origin from its mean place in gusts",
-        documentation: "`gust_rms_m`: r.m.s. distance of the platform origin from its mean place in the gusts of the robot \
-                        file (`turbulence` in `[wind]`), as `gust` computes it",
+        documentation: "`gust_rms_m`: r.m.s. distance of the platform origin from its mean place in the gusts of the \
+                        robot file (`turbulence` in `[wind]`), as `gust` computes it",
         columns: |_, _| one("gust_rms_m", "m", "r.m.s. distance of the platform origin from its mean place in gusts"),
         values: |row, _, out| {
             let found = row.of_gusts(|of| Some(of.rms));
@@ -433,8 +435,8 @@ pub(super) static TABLE: &[Definition] = &[
     Definition {
         name: "gust-peak",
         about: "largest expected peak of the platform origin along x, y or z in gusts, within ten minutes",
-        documentation: "`gust_peak_m`: largest of the expected peaks of the platform origin along x, y and z in these gusts, \
-                        within ten minutes",
+        documentation: "`gust_peak_m`: largest of the expected peaks of the platform origin along x, y and z in these \
+                        gusts, within ten minutes",
         columns: |_, _| {
             one(
                 "gust_peak_m",
@@ -451,8 +453,8 @@ pub(super) static TABLE: &[Definition] = &[
     Definition {
         name: "gust-tension-min",
         about: "smallest expected tension of a cable at the platform in gusts, within ten minutes",
-        documentation: "`gust_tension_min_n`: smallest expected tension of a cable at its platform end in these gusts, within \
-                        ten minutes; negative if a cable becomes slack",
+        documentation: "`gust_tension_min_n`: smallest expected tension of a cable at its platform end in these gusts, \
+                        within ten minutes; negative if a cable becomes slack",
         columns: |_, _| {
             one(
                 "gust_tension_min_n",
@@ -469,8 +471,8 @@ pub(super) static TABLE: &[Definition] = &[
     Definition {
         name: "gust-slack",
         about: "largest probability that a cable becomes slack in gusts, within ten minutes",
-        documentation: "`gust_slack_probability`: largest probability that the tension of a cable falls to zero in these \
-                        gusts, within ten minutes",
+        documentation: "`gust_slack_probability`: largest probability that the tension of a cable falls to zero in \
+                        these gusts, within ten minutes",
         columns: |_, _| {
             one(
                 "gust_slack_probability",

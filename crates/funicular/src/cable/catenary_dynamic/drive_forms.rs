@@ -310,8 +310,8 @@ impl CatenaryDynamicEnd {
         self.drive_parts().iter().map(|part| part.damping * part.along(one) * part.along(other)).sum()
     }
 
-    /// Viscous force of the stretches of the drum side on its end at the drum, towards the wheel, per speed of its ends,
-    /// at the drum and at the wheel [N s/m].
+    /// Viscous force of the stretches of the drum side on its end at the drum, towards the wheel, per speed of its
+    /// ends, at the drum and at the wheel [N s/m].
     fn rate_at_drum(&self, ends: [f64; 2]) -> f64 {
         if !self.has_strains() {
             return 0.0;

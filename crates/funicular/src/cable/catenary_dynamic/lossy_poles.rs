@@ -1,8 +1,8 @@
 //! End stiffness of a rope with a constant loss factor by complex poles and residues.
 //!
 //! A loss factor does not depend on frequency, so that a cable with it is a system with a constant complex stiffness,
-//! and has poles and residues as one without loss. They take about four solutions with all poles for each pole, but then
-//! every frequency is as cheap as without loss (docs/theory.md, equations (27f1) to (27f3)).
+//! and has poles and residues as one without loss. They take about four solutions with all poles for each pole, but
+//! then every frequency is as cheap as without loss (docs/theory.md, equations (27f1) to (27f3)).
 
 use super::poles::{at_start, entry_indices};
 use super::{CatenaryDynamicEnd, Displacements, DriveMotion, PoleResidue, local, local_of_coupled};
@@ -75,8 +75,8 @@ pub(crate) struct LossyBesidePoles {
 }
 
 impl CatenaryDynamicEnd {
-    /// Stiffness with the poles of `lossy` at the complex x = ω_c² without the poles in the relative distance `width` of
-    /// x; `below` is the square of the limit of the other poles [rad²/s²].
+    /// Stiffness with the poles of `lossy` at the complex x = ω_c² without the poles in the relative distance `width`
+    /// of x; `below` is the square of the limit of the other poles [rad²/s²].
     pub(crate) fn lossy_beside_poles(
         &self,
         lossy: &LossyFamily,

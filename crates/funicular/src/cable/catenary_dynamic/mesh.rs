@@ -207,7 +207,8 @@ impl<'a> Mesh<'a> {
         partition.reduce(still, limit)
     }
 
-    /// Adds moments of the strain t·p′ as stations from the number `first` on; `moves` as in [`assemble`](Self::assemble).
+    /// Adds moments of the strain t·p′ as stations from the number `first` on; `moves` as in
+    /// [`assemble`](Self::assemble).
     fn add_moments<const D: usize, const N: usize>(
         &self,
         partition: &mut Partition<D, N>,

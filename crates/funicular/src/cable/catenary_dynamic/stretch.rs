@@ -22,8 +22,8 @@ pub struct StretchMotions {
 }
 
 impl StretchMotions {
-    /// Brings the motions of a family, with the moments first, into their order: chain, moments, elongations of the drum
-    /// side, and that sideways if the family has it.
+    /// Brings the motions of a family, with the moments first, into their order: chain, moments, elongations of the
+    /// drum side, and that sideways if the family has it.
     pub(super) fn put_in_order<const D: usize, const N: usize>(
         &self,
         motions: &mut Displacements<D, N>,

@@ -331,8 +331,10 @@ mod tests {
         let text = format!(
             "name = \"one\"\n[platform]\nmass_kg = 20.0\nmotion = \"point-mass\"\n[materials.rope]\n\
              axial_stiffness_n = 2e5\nmass_kg_per_m = 0.1\n[pulleys.wheel]\nradius_m = 0.1\ninertia_kg_m2 = 2e-3\n\
-             swivel_inertia_kg_m2 = 4e-3\nentry_direction = [{skew}, 0.1, 1]\n[winches.drum]\ndrum_side_length_m = 2.0\n\
-             stiffness_n_per_m = 1e6\n[[cables]]\nname = \"1\"\nmaterial = \"rope\"\npulley = \"wheel\"\nwinch = \"drum\"\n\
+             swivel_inertia_kg_m2 = 4e-3\nentry_direction = [{skew}, 0.1, 1]\n[winches.drum]\ndrum_side_length_m = \
+             2.0\n\
+             stiffness_n_per_m = 1e6\n[[cables]]\nname = \"1\"\nmaterial = \"rope\"\npulley = \"wheel\"\nwinch = \
+             \"drum\"\n\
              anchor_m = [0, 0, 3]\nunstrained_length_m = 6.0\n[loads]\nforce_n = [80, 0, -60]\n"
         );
         let mut robot = Robot::from_toml(&text).unwrap();

@@ -1,4 +1,5 @@
-//! Motions of the points of a cable with its ends: slow, with the same change of the tension all along it, or vibrating.
+//! Motions of the points of a cable with its ends: slow, with the same change of the tension all along it, or
+//! vibrating.
 
 use super::sums;
 use super::vibrating::{FamilyAmplitude, Vibrating};

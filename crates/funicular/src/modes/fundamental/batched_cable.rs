@@ -398,7 +398,8 @@ mod tests {
         ) {
             const MASS: f64 = 0.067;
             let cables: Vec<Catenary> = shapes.into_iter().map(cable).collect();
-            let oracles: Vec<CatenaryDynamic> = cables.iter().map(|c| CatenaryDynamic::new(c, MASS, 60.0).unwrap()).collect();
+            let oracles: Vec<CatenaryDynamic> = cables.iter().map(|c| CatenaryDynamic::new(c, MASS,
+                60.0).unwrap()).collect();
             let first = |e: &CatenaryDynamic| e.in_plane.poles[0].min(e.out_of_plane.poles[0]);
             let x = part * oracles.iter().map(first).fold(f64::INFINITY, f64::min);
             let spans: Vec<_> = cables.iter().map(|c| held(c, MASS)).collect();
@@ -422,7 +423,8 @@ mod tests {
                 let elastic = rope.axial_stiffness / rope.unstrained_length;
                 for (ours, theirs) in ours.into_iter().zip(theirs) {
                     let bound = 1e-8 * size + 1e-12 * elastic;
-                    prop_assert!((ours - theirs).abs() < bound, "{ours} for {theirs}, largest {size}, elastic {elastic}");
+                    prop_assert!((ours - theirs).abs() < bound, "{ours} for {theirs}, largest {size}, elastic \
+                        {elastic}");
                 }
             }
         }
@@ -465,7 +467,8 @@ mod tests {
         /// Motions of the end that the bubbles follow.
         #[test]
         fn the_mass_of_a_motion_is_minus_the_change_of_stiffness(
-            shape in (-0.9f64..0.9, 0.99f64..1.08, 4.5f64..6.0), part in 0.1f64..0.5, n in -1.0f64..1.0, e in -1.0f64..1.0,
+            shape in (-0.9f64..0.9, 0.99f64..1.08, 4.5f64..6.0), part in 0.1f64..0.5, n in -1.0f64..1.0,
+            e in -1.0f64..1.0,
             masses in prop::option::of(prop::array::uniform4(-3.0f64..3.0)),
         ) {
             const MASS: f64 = 0.067;

@@ -256,8 +256,8 @@ pub(super) fn check_places(reader: &mut Reader, root: &Section, robot: &Robot, s
         if let Some(what) = inside(obstacle, robot) {
             let message = format!("the obstacle \"{}\" is around {what}", obstacle.name);
             reader.issue(span_of(root, OBSTACLES, &obstacle.name), message).help(
-                "a cable that begins inside an obstacle can never be free of it: make the obstacle smaller, or describe \
-                 a room by half spaces, one for each wall",
+                "a cable that begins inside an obstacle can never be free of it: make the obstacle smaller, or \
+                 describe a room by half spaces, one for each wall",
             );
         }
     }

@@ -96,7 +96,8 @@ fn read_wheel(
             winch.name, winch.drum_side_length
         );
         reader.issue(distance_at, message).help(
-            "the distance counts along the cable from its anchor, the length of the drum side from the anchor to the drum",
+            "the distance counts along the cable from its anchor, the length of the drum side from the anchor to the \
+             drum",
         );
         return None;
     }

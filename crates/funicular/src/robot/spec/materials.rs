@@ -13,8 +13,8 @@ use std::f64::consts::PI;
 /// the real axis by 45°.
 const RATIO_LIMIT: f64 = 0.5;
 
-/// Loss factor that must not be reached: with it a rope loses 2π times the energy of its stretch in a cycle. Larger values
-/// are per cent.
+/// Loss factor that must not be reached: with it a rope loses 2π times the energy of its stretch in a cycle. Larger
+/// values are per cent.
 const LOSS_FACTOR_LIMIT: f64 = 1.0;
 
 /// Damping time that must not be reached [s]: it would give a loss factor of one at 0.16 Hz. Values above are

@@ -96,8 +96,8 @@ pub(super) const REQUIRED: &[Key] = &[
         "wind_speed_m_s = 12.0",
         "m/s",
         Range::NotNegative,
-        "wind from every horizontal direction, in addition to [wind], on the platform with its `drag_area_m2` and on sagging ropes \
-         with a `drag_coefficient`",
+        "wind from every horizontal direction, in addition to [wind], on the platform with its `drag_area_m2` and on \
+         sagging ropes with a `drag_coefficient`",
     )
     .or([0.0; 3]),
     Key::numeric(
@@ -106,7 +106,8 @@ pub(super) const REQUIRED: &[Key] = &[
         "velocity_m_s = [1.0, 1.0, 0.5]",
         "m/s",
         Range::NotNegative,
-        "largest required velocity of the platform origin, both ways along each world axis; for `speeds`, it is no load",
+        "largest required velocity of the platform origin, both ways along each world axis; for `speeds`, it is no \
+         load",
     )
     .or([0.0; 3]),
     Key::numeric(

@@ -7,8 +7,9 @@ use crate::simulation::rope::WoundLength;
 /// radius of a tenth of a metre. At rest it is rounding.
 const LEAST_WRAP: f64 = 1e-3;
 const LEAST_WRAP_AT_REST: f64 = 1e-12;
-/// Time constant with which a wheel follows its rope [s]: waves at the end of a rope are faster, the motion of a platform
-/// slower. A rope that turns with 1 rad/s is then 0.01 rad off its tangent, and 2e-8 m longer at a radius of 0.1 m.
+/// Time constant with which a wheel follows its rope [s]: waves at the end of a rope are faster, the motion of a
+/// platform slower. A rope that turns with 1 rad/s is then 0.01 rad off its tangent, and 2e-8 m longer at a radius of
+/// 0.1 m.
 const ROLLING_TIME: f64 = 0.01;
 
 /// Occasion on which wheels roll.
@@ -36,8 +37,8 @@ impl Stepper {
         }
     }
 
-    /// Rolls each wheel whose rope leaves it too far off its tangent; `true` if there was one. The rope stays where it is:
-    /// its free length changes, and its nodes move along it.
+    /// Rolls each wheel whose rope leaves it too far off its tangent; `true` if there was one. The rope stays where it
+    /// is: its free length changes, and its nodes move along it.
     ///
     /// # References
     /// docs/theory.md, equation (97o).

@@ -12,8 +12,8 @@ const SMALL_PART: f64 = 0.1 * NEWTON_PART;
 /// Newton steps of a stage; more than this many with one factor are slower than a new factor.
 const NEWTON_STEPS: usize = 10;
 const NEWTON_STEPS_OF_OLD_FACTOR: usize = 4;
-/// Maximum contraction of a factor that is kept; above it a rope has gone slack or taut since it was made. Smooth motion
-/// contracts by 0.1 or less.
+/// Maximum contraction of a factor that is kept; above it a rope has gone slack or taut since it was made. Smooth
+/// motion contracts by 0.1 or less.
 const MAX_CONTRACTION: f64 = 0.7;
 /// Maximum work along a change of Newton's method that is too much after it, over the work that was missing before it.
 /// Larger changes are shortened, or steps would go to and fro across the kinks of strongly damped ropes. Changes
@@ -91,8 +91,8 @@ impl Stepper {
     }
 }
 
-/// True if a change over the tolerance leaves less than Newton's method has to; `contraction` is that of this change if it
-/// `follows` another one, or an earlier one.
+/// True if a change over the tolerance leaves less than Newton's method has to; `contraction` is that of this change if
+/// it `follows` another one, or an earlier one.
 fn is_enough(size: f64, contraction: f64, follows: bool) -> bool {
     let rate = contraction.min(0.95);
     let contracts = (follows || size < NEWTON_PART) && contraction < 1.0;

@@ -7,8 +7,8 @@ use crate::simulation::state::{EachNumber, count, optional, rotation};
 use crate::simulation::system::MotionNumbers;
 
 impl Simulation {
-    /// State as numbers, with which a new simulation of the same robot, events, duration and settings goes on exactly as
-    /// this one does from here.
+    /// State as numbers, with which a new simulation of the same robot, events, duration and settings goes on exactly
+    /// as this one does from here.
     ///
     /// # Example
     /// ```

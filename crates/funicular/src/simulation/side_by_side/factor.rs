@@ -13,8 +13,8 @@ const ENTRIES: usize = 6;
 /// Place of the entry of a row and a column among them.
 const ENTRY: [[usize; 3]; 3] = [[0, 1, 2], [1, 3, 4], [2, 4, 5]];
 
-/// Newton's matrices of up to eight ropes of one mesh, all with a last node that is kept or all without, their factors and
-/// right-hand sides.
+/// Newton's matrices of up to eight ropes of one mesh, all with a last node that is kept or all without, their factors
+/// and right-hand sides.
 pub(in crate::simulation) struct FactorPack {
     /// Ropes in the lanes.
     pub(in crate::simulation) ropes: Vec<usize>,
@@ -345,8 +345,8 @@ fn eliminate<S: Simd>(
     }
 }
 
-/// Block on the diagonal of a node, whose rows begin at `at` and have `before` entries in front of it: its factor with the
-/// inverses on the diagonal, or the Schur complement of a node that is kept.
+/// Block on the diagonal of a node, whose rows begin at `at` and have `before` entries in front of it: its factor with
+/// the inverses on the diagonal, or the Schur complement of a node that is kept.
 #[inline(always)]
 fn factor_node<S: Simd>(part: Part<S>, values: &mut [Line], before: usize, at: [usize; 3], is_factored: bool) {
     let sums = [

@@ -9,8 +9,8 @@ use crate::statics::error::StaticsError;
 use crate::statics::limits::{Limit, TensionMargin, TensionRange};
 use crate::statics::loaded_cable::MAX_LENGTH_RATIO;
 
-/// Maximum ratio of a cable's length to its chord that the search keeps where it can. A level cable then sags by a third
-/// of its chord. Without it the search would lengthen a cable by kilometres and use the loop as a weight.
+/// Maximum ratio of a cable's length to its chord that the search keeps where it can. A level cable then sags by a
+/// third of its chord. Without it the search would lengthen a cable by kilometres and use the loop as a weight.
 const WANTED_LENGTH_RATIO: f64 = 1.25;
 
 /// Violation of a limit, relative to it, that the end of the search may leave: rounding, some decades below the six
@@ -187,7 +187,8 @@ impl Quadratic {
     }
 }
 
-/// Refuses an equilibrium beyond a given tension limit, or with a cable so long that only its weight holds the platform.
+/// Refuses an equilibrium beyond a given tension limit, or with a cable so long that only its weight holds the
+/// platform.
 pub(super) fn check(robot: &Robot, here: &Equilibrium) -> Result<(), StaticsError> {
     let p = here.pose.position_w;
     for (i, (cable, state)) in robot.cables.iter().zip(&here.cables).enumerate() {

@@ -11,8 +11,8 @@ const SINGULAR: f64 = 1e10;
 const BALANCED_ALONG_FREE: f64 = 1e-12;
 
 /// Solutions σ of `Cᵀ σ = b`, C with a row per cable and a column per degree of freedom: `σ = particular + N z`, N
-/// orthonormal. If the rows of `Cᵀ` are dependent and b is in their range, the balance is that in the wrenches which the
-/// cables span.
+/// orthonormal. If the rows of `Cᵀ` are dependent and b is in their range, the balance is that in the wrenches which
+/// the cables span.
 pub(super) struct Solutions {
     cables: usize,
     /// Number of independent equations.

@@ -196,16 +196,17 @@ fn damping_time(rope: &Material) -> Option<Implausible> {
     outside(what, rope.stretch_loss.time, "s", usual::DAMPING_TIME, |value| likely(value, [1e-5, 5e-3], slips))
 }
 
-/// One measured decay in two numbers: the ratio of a mode that lives on the stretch of the rope is half its loss factor.
+/// One measured decay in two numbers: the ratio of a mode that lives on the stretch of the rope is half its loss
+/// factor.
 fn same_decay(rope: &Material) -> Option<Implausible> {
     let Damping::Ratio(ratio) = rope.damping else { return None };
     let factor = rope.stretch_loss.factor;
     let is_same = |expected: f64| expected > 0.0 && (ratio / expected - 1.0).abs() <= usual::SAME_DECAY;
     (is_same(0.5 * factor) || is_same(factor)).then(|| Implausible::Odd {
         what: named(rope, &format!("`damping_ratio` is {ratio}, and `axial_loss_factor` is {factor}")),
-        slip: "one measured decay given twice? The ratio damps moving the rope, the loss factor stretching it (alone it \
-               gives a mode half its value as damping ratio): give the decay of a vibrating rope as `damping_ratio`, and \
-               fit the loss factor to that of the platform with `identify`"
+        slip: "one measured decay given twice? The ratio damps moving the rope, the loss factor stretching it (alone \
+               it gives a mode half its value as damping ratio): give the decay of a vibrating rope as \
+               `damping_ratio`, and fit the loss factor to that of the platform with `identify`"
             .to_owned(),
     })
 }

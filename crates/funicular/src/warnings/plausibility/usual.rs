@@ -202,16 +202,16 @@ pub(super) const PULLEY_RADIUS: [f64; 2] = [2e-3, 4.0];
 /// line of 0.3 mm over a wheel of 20 mm has 67. Library: 15 (`CoGiRo`). Outside: centimetres given as m.
 pub(super) const RADIUS_OVER_ROPE: [f64; 2] = [0.0, 300.0];
 
-/// Radius of a pulley or drum over the longest cable. Library: 0.003 (`CoGiRo`) to 0.02 (GRAB); a mine has 0.01, a robot
-/// on a desk 0.08. Outside: 20 mm given in cm on a robot of 10 m.
+/// Radius of a pulley or drum over the longest cable. Library: 0.003 (`CoGiRo`) to 0.02 (GRAB); a mine has 0.01, a
+/// robot on a desk 0.08. Outside: 20 mm given in cm on a robot of 10 m.
 pub(super) const RADIUS_OVER_CABLE: [f64; 2] = [0.0, 0.15];
 
 /// Inertia of a pulley's wheel over that of a steel disc of its radius that is as thick as the radius. A plastic wheel
 /// has 0.005, one of steel 0.05 to 0.3. Outside: g m² given as kg m² (5 and more).
 pub(super) const WHEEL_OVER_DISC: [f64; 2] = [1e-5, 5.0];
 
-/// Inertia of a drum with all that turns with it, or of a swivel with its bracket, over that of the same disc. The motors
-/// of `CoGiRo`, seen at the drum, have 16. Outside: kg cm² given as kg m².
+/// Inertia of a drum with all that turns with it, or of a swivel with its bracket, over that of the same disc. The
+/// motors of `CoGiRo`, seen at the drum, have 16. Outside: kg cm² given as kg m².
 pub(super) const DRUM_OVER_DISC: [f64; 2] = [1e-5, 200.0];
 
 /// Efficiency of a wheel that turns. Plain bearings have 0.9. Outside: the loss of 0.04 given as efficiency.
@@ -221,30 +221,31 @@ pub(super) const EFFICIENCY: [f64; 2] = [0.5, 1.0];
 /// kg cm² given as kg m² (a wheel of 5 kg has 2.5e4), and centimetres for the radius of a wheel of 1 kg.
 pub(super) const WHEEL_MASS: [f64; 2] = [1e-4, 1e3];
 
-/// Mass of a guide wheel at the cable over that of the platform. docs/pulleys: 0.008. Outside: kg cm² given as kg m² (75).
+/// Mass of a guide wheel at the cable over that of the platform. docs/pulleys: 0.008. Outside: kg cm² given as kg m²
+/// (75).
 pub(super) const WHEEL_OVER_PLATFORM: [f64; 2] = [0.0, 2.0];
 
 /// Length of the cable from the drum to its anchor [m]. Outside: millimetres given as m.
 pub(super) const DRUM_SIDE: [f64; 2] = [0.0, 300.0];
 
-/// Length of the cable from the drum to its anchor over the longest cable. Library: 0.4 (`CoGiRo`); winches at the wall of
-/// a hall, for a robot on a table, have 10. Outside: centimetres given as m.
+/// Length of the cable from the drum to its anchor over the longest cable. Library: 0.4 (`CoGiRo`); winches at the wall
+/// of a hall, for a robot on a table, have 10. Outside: centimetres given as m.
 pub(super) const DRUM_SIDE_OVER_CABLE: [f64; 2] = [0.0, 20.0];
 
 /// Turns of the motor per turn of the drum. Harmonic gears have 160, two stages of worms more. Outside: the inverse of
 /// ratios from 2 on.
 pub(super) const GEAR_RATIO: [f64; 2] = [0.5, 2e3];
 
-/// Moment of inertia of a motor about its own axis [kg m²]. Hobby motors have 1e-7, servo motors of 100 kW 0.5. Outside:
-/// kg cm² given as kg m², from motors of 1 kW on.
+/// Moment of inertia of a motor about its own axis [kg m²]. Hobby motors have 1e-7, servo motors of 100 kW 0.5.
+/// Outside: kg cm² given as kg m², from motors of 1 kW on.
 pub(super) const MOTOR_INERTIA: [f64; 2] = [0.0, 1.0];
 
 /// Inertia of drum and motor over the square of the radius of the drum [kg]. Library: 59 (`CoGiRo`). Outside: kg cm²
 /// given as kg m² (5.9e5), and millimetres for the radius (5.9e-5).
 pub(super) const WINCH_MASS: [f64; 2] = [1e-3, 1e5];
 
-/// Mass of drum and motor at the cable over that of the platform. Library: 0.65 (`CoGiRo`); small motors behind gears of
-/// 1:200 have 20. Outside: g m² (650) and kg cm² (6500) given as kg m².
+/// Mass of drum and motor at the cable over that of the platform. Library: 0.65 (`CoGiRo`); small motors behind gears
+/// of 1:200 have 20. Outside: g m² (650) and kg cm² (6500) given as kg m².
 pub(super) const WINCH_OVER_PLATFORM: [f64; 2] = [0.0, 100.0];
 
 /// Viscous damping of a winch over the mass of drum and motor at the cable [1/s]. A motor stops within some
@@ -263,8 +264,8 @@ pub(super) const LENGTH_OF_WINCH: [f64; 2] = [0.0, 1e3];
 /// stretch more than a fiftieth of the cable.
 pub(super) const WINCH_OVER_CABLE: [f64; 2] = [0.0, 20.0];
 
-/// Stretch of a winch under the weight of the platform over the longest cable. docs/pulleys: 2e-4. Outside: kN/m given as
-/// N/m, from 3e-5 on.
+/// Stretch of a winch under the weight of the platform over the longest cable. docs/pulleys: 2e-4. Outside: kN/m given
+/// as N/m, from 3e-5 on.
 pub(super) const WINCH_YIELD: [f64; 2] = [0.0, 0.03];
 
 /// Bandwidth of a position control [Hz]. Outside: gains in N mm given as N m (31 times).
@@ -286,8 +287,8 @@ pub const CABLE_SPEED: [f64; 2] = [1e-4, 50.0];
 /// Largest acceleration of a cable [m/s²]. FALCON has 430. Outside: mm/s² given as m/s², from 2 m/s² on.
 pub const CABLE_ACCELERATION: [f64; 2] = [1e-4, 2e3];
 
-/// Force at the cable of the largest torque of a motor, without losses, over the weight of the platform. Motors of 112 N m
-/// would have 5.6 at `CoGiRo`. Outside: N mm given as N m (5600), kN m (0.006).
+/// Force at the cable of the largest torque of a motor, without losses, over the weight of the platform. Motors of 112
+/// N m would have 5.6 at `CoGiRo`. Outside: N mm given as N m (5600), kN m (0.006).
 pub const MOTOR_OVER_WEIGHT: [f64; 2] = [0.02, 1e3];
 
 /// Speed at which the largest power of a motor lifts the weight of the platform [m/s]. Motors of 5 kW would have 5.6 at
@@ -310,8 +311,9 @@ pub(super) const SUPPORT_OVER_CABLE: [f64; 2] = [0.02, f64::INFINITY];
 /// Damping ratio of a support: structures have 0.005 to 0.05. Outside: per cent given as a fraction (0.5).
 pub(super) const SUPPORT_DAMPING: [f64; 2] = [0.0, 0.2];
 
-/// Largest horizontal distance between two anchors of one support, over that of all anchors or the longest cable. Pulleys on one post have
-/// some hundredths, those on a beam at one side of a hall 0.5. Outside: all posts of a robot in one table (1).
+/// Largest horizontal distance between two anchors of one support, over that of all anchors or the longest cable.
+/// Pulleys on one post have some hundredths, those on a beam at one side of a hall 0.5. Outside: all posts of a robot
+/// in one table (1).
 pub(super) const SUPPORT_EXTENT: [f64; 2] = [0.0, 0.6];
 
 /// Smallest principal stiffness of a flexible support [N/m]. The axial stiffness of a steel post of 100 cm² and 1 m is

@@ -32,7 +32,8 @@ fn forbidden_openings(source: &str) -> Vec<&str> {
 
 #[test]
 fn forbidden_openings_are_found_in_sources() {
-    let source = "/// What a row is.\nstruct A;\n/// Sum of all.\n/// It is positive.\nfn f() {}\n    //! Its place.\n/// Items.\n";
+    let source = "/// What a row is.\nstruct A;\n/// Sum of all.\n/// It is positive.\nfn f() {}\n    //! Its \
+        place.\n/// Items.\n";
     assert_eq!(forbidden_openings(source), ["What a row is.", "Its place."]);
 }
 

@@ -10,8 +10,8 @@ use funicular::statics::{self, CableState, StaticModel};
 use std::array::from_fn;
 use std::f64::consts::PI;
 
-/// Number of clamped modes of a string. The others change the stiffness by some β⁴/N³ of T/l, which is 1e-9 of it for the
-/// highest frequency of the test.
+/// Number of clamped modes of a string. The others change the stiffness by some β⁴/N³ of T/l, which is 1e-9 of it for
+/// the highest frequency of the test.
 const POLES: usize = 4000;
 
 /// Robot without gravity at a pose where its cables are taut.

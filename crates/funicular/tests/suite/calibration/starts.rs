@@ -2,8 +2,8 @@
 
 use super::*;
 
-/// True if a point robot in space is found from nothing but lengths: χ² is that of noise, and the distances between anchors
-/// are the true ones within 5 deviations.
+/// True if a point robot in space is found from nothing but lengths: χ² is that of noise, and the distances between
+/// anchors are the true ones within 5 deviations.
 fn space_is_found(draws: &mut Draws) -> bool {
     let truth = with_errors(&camera(), 0.8, draws);
     let poses = camera_poses(14, draws);

@@ -254,7 +254,8 @@ pub(super) fn moving() -> impl Strategy<Value = Moving> {
     let masses = (0.0..0.5_f64, 0.0..2e-3_f64, 0.1..2.0_f64, 0.5..8.0_f64);
     let losses = (1.0..40.0_f64, 10.0..200.0_f64, prop_oneof![Just(0.0), Just(0.003)]);
     let winches = prop_oneof![
-        3 => Just(WinchMode::AsGiven), 1 => Just(WinchMode::Clamped), 1 => Just(WinchMode::Torque), 1 => Just(WinchMode::Stuck)
+        3 => Just(WinchMode::AsGiven), 1 => Just(WinchMode::Clamped), 1 => Just(WinchMode::Torque),
+        1 => Just(WinchMode::Stuck)
     ];
     (masses, losses, any::<bool>(), 0..3_usize, 1e-3..0.02_f64, winches).prop_map(
         |((wheel, swivel, drum, motor), (damping, speed_gain, delay), rod, guides, ratio, winches)| Moving {
@@ -341,9 +342,9 @@ fn linearised(robot: &Robot, rest: &Equilibrium, winches: WinchMode, cable_model
 }
 
 /// True if the error of a derivative is that of the differences: 1e-8 of the largest derivative of the row, and the
-/// `bound` of the differences: what the extrapolation adds, and noise of the value over the step. The noise is what forward
-/// statics leaves: responses of light cables in wind scatter by 6e-10, and differences by this over their step, while the
-/// gradient stays the same.
+/// `bound` of the differences: what the extrapolation adds, and noise of the value over the step. The noise is what
+/// forward statics leaves: responses of light cables in wind scatter by 6e-10, and differences by this over their step,
+/// while the gradient stays the same.
 fn agrees(ours: f64, (difference, bound): (f64, f64), largest: f64) -> bool {
     (ours - difference).abs() <= 1e-8 * largest + bound
 }
@@ -371,7 +372,8 @@ proptest! {
         let gradients = Gradients::new(&robot, &rest, Hold::Lengths).unwrap();
         let vibration = gradients.vibration(&dynamics).unwrap();
         let alone = |k: usize| {
-            let gap = |other: Option<&Mode>| other.is_none_or(|other| (other.frequency_hz / modes[k].frequency_hz - 1.0).abs() > 0.01);
+            let is_far = |other: &Mode| (other.frequency_hz / modes[k].frequency_hz - 1.0).abs() > 0.01;
+            let gap = |other: Option<&Mode>| other.is_none_or(is_far);
             gap(modes.get(k + 1)) && gap(k.checked_sub(1).and_then(|k| modes.get(k)))
         };
         let chosen: Vec<usize> = (0..modes.len().saturating_sub(1)).filter(|k| alone(*k)).collect();
@@ -405,9 +407,10 @@ const SCATTER: [f64; 2] = [1e-9, 2e-9];
 /// Maximum number of halvings of a step of differences.
 const MAX_HALVINGS: i32 = 8;
 
-/// Sum of the magnitudes of the weights with which an extrapolated difference takes the noise of its values over the last
-/// step: 64/45 of the last central difference, 20/45 and 1/45 of the two before, whose steps are twice and four times as
-/// long. Values whose noise has these signs exist: it is the same computation that scatters by its last iteration.
+/// Sum of the magnitudes of the weights with which an extrapolated difference takes the noise of its values over the
+/// last step: 64/45 of the last central difference, 20/45 and 1/45 of the two before, whose steps are twice and four
+/// times as long. Values whose noise has these signs exist: it is the same computation that scatters by its last
+/// iteration.
 const WEIGHTS: f64 = (64.0 + 20.0 / 2.0 + 1.0 / 4.0) / 45.0;
 
 /// Central differences at steps that are halved, extrapolated twice, and a bound of their error from the `noise` of
@@ -416,10 +419,10 @@ const WEIGHTS: f64 = (64.0 + 20.0 / 2.0 + 1.0 / 4.0) / 45.0;
 /// A response has complex poles at its resonances, a frequency has branch points where it comes near another. The
 /// central differences beside one at the distance ρ are those of `1/(1 − x)`, `x = (h/ρ)²`, at a step h. What the last
 /// extrapolation adds is x²/64, what the one before adds is x/16, and the error is x³/64: it falls to a 64th with each
-/// halving. With x < 1/2 the change of the extrapolated value from one halving to the next therefore bounds the error of
-/// the finer one. Both steps are needed: beside a far pole with a large part, a near one with a small part is not seen
-/// in the additions at one step. For a response x is complex: real and imaginary part alone can be small by chance, so
-/// that each number is judged by its size over its `parts`, two for a complex number.
+/// halving. With x < 1/2 the change of the extrapolated value from one halving to the next therefore bounds the error
+/// of the finer one. Both steps are needed: beside a far pole with a large part, a near one with a small part is not
+/// seen in the additions at one step. For a response x is complex: real and imaginary part alone can be small by
+/// chance, so that each number is judged by its size over its `parts`, two for a complex number.
 fn differences_within_resonance(
     step: f64,
     noise: &[f64],
@@ -460,9 +463,9 @@ fn differences_within_resonance(
     Some((best, bound))
 }
 
-/// Noise of each value: these digits of its size, or half of the second difference at steps too short for curvature, which
-/// shows where the iterations of forward statics end. Most robots have less than 1e-9, one with motors under constant
-/// torque and a light drum side 9e-8.
+/// Noise of each value: these digits of its size, or half of the second difference at steps too short for curvature,
+/// which shows where the iterations of forward statics end. Most robots have less than 1e-9, one with motors under
+/// constant torque and a light drum side 9e-8.
 fn noise(
     here: &[f64],
     digits: f64,

@@ -110,8 +110,8 @@ fn cases() -> Vec<LoadCase> {
     all
 }
 
-/// Difference of a gradient along a change from that of the load factor, over its tolerance. The load factor is found to
-/// 1e-11 or better, over steps that change it by 1e-4 to 1e-2; `None` if it does not exist on both sides.
+/// Difference of a gradient along a change from that of the load factor, over its tolerance. The load factor is found
+/// to 1e-11 or better, over steps that change it by 1e-4 to 1e-2; `None` if it does not exist on both sides.
 fn error_over_tolerance(case: &LoadCase, by: &RobotChange, (change, step): (&RobotChange, f64)) -> Option<f64> {
     let (difference, added) = extrapolated(step, |h| Some(vec![case.changed(change, h)?]))?;
     let tolerance = 2e-8 * difference[0].abs() + 1e-2 * added + 1e-11 / step;

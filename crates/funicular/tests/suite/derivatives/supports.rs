@@ -73,21 +73,23 @@ fn tables(r: &mut impl FnMut(f64, f64) -> f64, behind: DriveVariant, supports: u
     if behind != DriveVariant::Nothing {
         let _ = write!(
             text,
-            "[winches.drum]\ndrum_side_length_m = {}\nstiffness_n_per_m = {}\ndrum_radius_m = 0.1\ndrum_inertia_kg_m2 = 0.02\n",
+            "[winches.drum]\ndrum_side_length_m = {}\nstiffness_n_per_m = {}\ndrum_radius_m = 0.1\ndrum_inertia_kg_m2 \
+             = 0.02\n",
             r(3.0, 0.5),
             r(3e5, 1e5)
         );
     }
     if behind.has_rods() {
         text += "drum_side = \"rod\"\nmotor_inertia_kg_m2 = 0.15\ncontrol = \"position\"\nbandwidth_hz = 6\n\
-                 control_damping_ratio = 0.7\nintegral_action = \"no\"\ndelay_s = 0.002\n[guide_wheels.foot]\nwinch = \"drum\"\n\
+                 control_damping_ratio = 0.7\nintegral_action = \"no\"\ndelay_s = 0.002\n[guide_wheels.foot]\nwinch = \
+                 \"drum\"\n\
                  distance_m = 1.5\nradius_m = 0.05\ninertia_kg_m2 = 0.0005\n";
     }
     if !matches!(behind, DriveVariant::Nothing | DriveVariant::Winches) {
         let _ = write!(
             text,
-            "[pulleys.wheel]\nradius_m = {}\nentry_direction = [{}, {}, 1]\ninertia_kg_m2 = 0.002\nswivel_inertia_kg_m2 = \
-             0.003\n",
+            "[pulleys.wheel]\nradius_m = {}\nentry_direction = [{}, {}, 1]\ninertia_kg_m2 = \
+             0.002\nswivel_inertia_kg_m2 = 0.003\n",
             r(0.08, 0.02),
             r(0.0, 0.1),
             r(0.0, 0.1)
@@ -112,9 +114,10 @@ fn random_robot(seed: u64, behind: DriveVariant, count: usize) -> Parameters {
     let mut random = Random(seed);
     let mut r = |center: f64, width: f64| random.about(center, width);
     let mut text = format!(
-        "name = \"random\"\n[platform]\nmass_kg = {}\ncenter_of_mass_m = [{}, {}, {}]\ninertia_kg_m2 = [[0.9, 0.1, 0.05], \
-         [0.1, 1.1, -0.08], [0.05, -0.08, 1.4]]\ntranslational_damping_n_s_m = [2, 3, 4]\nrotational_damping_n_m_s = \
-         [0.5, 0.4, 0.3]\n[materials.rope]\naxial_stiffness_n = {}\nmass_kg_per_m = {}\ndamping_ratio = 0.01\n[loads]\n\
+        "name = \"random\"\n[platform]\nmass_kg = {}\ncenter_of_mass_m = [{}, {}, {}]\ninertia_kg_m2 = [[0.9, 0.1, \
+         0.05], [0.1, 1.1, -0.08], [0.05, -0.08, 1.4]]\ntranslational_damping_n_s_m = [2, 3, \
+         4]\nrotational_damping_n_m_s = [0.5, 0.4, 0.3]\n[materials.rope]\naxial_stiffness_n = {}\nmass_kg_per_m = \
+         {}\ndamping_ratio = 0.01\n[loads]\n\
          force_n = [12, -8, -15]\npoint_m = [0.1, 0.05, -0.1]\nmoment_n_m = [1.0, -2.0, 0.5]\n",
         r(40.0, 8.0),
         r(0.0, 0.05),
@@ -137,7 +140,8 @@ fn random_robot(seed: u64, behind: DriveVariant, count: usize) -> Parameters {
         }
         let _ = write!(
             text,
-            "[[cables]]\nname = \"{i}\"\nmaterial = \"rope\"\nanchor_m = [{}, {}, {}]\nattachment_m = [{}, {}, {}]\n{drive}",
+            "[[cables]]\nname = \"{i}\"\nmaterial = \"rope\"\nanchor_m = [{}, {}, {}]\nattachment_m = [{}, {}, \
+             {}]\n{drive}",
             r(6.0 * at.cos(), 0.3),
             r(5.0 * at.sin(), 0.3),
             r(height, 0.2),

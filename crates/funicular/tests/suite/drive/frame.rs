@@ -193,19 +193,23 @@ proptest! {
     /// weight on the wheels counts: motions, and the tensions of a cable. Vertical swivel axes, whose end stiffness is
     /// exact. The differences extrapolate the square of the step; forward statics leaves 1e-12 of the tensions.
     #[test]
-    fn slow_motions_of_the_frame_are_those_of_statics(frame in frames(), axis in [-1.0..1.0_f64, -1.0..1.0, -1.0..1.0]) {
+    fn slow_motions_of_the_frame_are_those_of_statics(frame in frames(),
+        axis in [-1.0..1.0_f64, -1.0..1.0, -1.0..1.0]) {
         let Some((robot, rest)) = frame.at_rest() else { return Err(TestCaseError::reject("no such rest")) };
         let axis = Vec3::from(axis).normalize();
         let of = |cable: usize| FrameInput::Anchor { cable, direction_w: axis };
-        let inputs = [FrameInput::BaseAbout(axis), FrameInput::BaseAlong(axis), of(3), of(frame.without[0]), of(frame.without[1])];
+        let inputs = [FrameInput::BaseAbout(axis), FrameInput::BaseAlong(axis), of(3), of(frame.without[0]),
+            of(frame.without[1])];
         let signals: Vec<Signal> = inputs.iter().map(|input| Signal::Frame(*input)).collect();
-        let tensions = [DriveSignal::Tension, DriveSignal::DrumTension].map(|signal| Signal::Drive { cable: 3, signal });
+        let tensions = [DriveSignal::Tension, DriveSignal::DrumTension].map(|signal| Signal::Drive { cable: 3,
+            signal });
 
         for cable_model in [CableModel::CatenaryDynamic, CableModel::CatenaryStatic] {
             let Ok(dynamics) = Dynamics::about(&robot, &rest, Linearisation { cable_model, ..Default::default() }, 1.0)
             else { return Err(TestCaseError::reject("no such model")) };
             let has_tension = cable_model.is_dynamic() && !frame.without.contains(&3);
-            let outputs: Vec<Signal> = motions().into_iter().chain(tensions.into_iter().filter(|_| has_tension)).collect();
+            let of_tension = tensions.into_iter().filter(|_| has_tension);
+            let outputs: Vec<Signal> = motions().into_iter().chain(of_tension).collect();
             let found = responses(&robot, &rest, &dynamics, 1e-6, &signals, &outputs);
 
             for (input, found) in inputs.iter().zip(&found) {
@@ -217,18 +221,21 @@ proptest! {
                     let (more, less) = (at(amount)?, at(-amount)?);
                     let along = more.pose.position_w - less.pose.position_w;
                     let about = (more.pose.rot_wp * less.pose.rot_wp.inverse()).scaled_axis();
-                    let [more, less] = [more, less].map(|rest| [rest.cables[3].tension_platform, rest.cables[3].tension_drum()]);
+                    let [more, less] = [more, less].map(|rest| [rest.cables[3].tension_platform,
+                        rest.cables[3].tension_drum()]);
                     let all = along.iter().chain(about.iter()).copied().chain((0..2).map(|k| more[k] - less[k]));
                     Some(all.map(|change| change / (2.0 * amount)).collect())
                 };
                 let (Some(coarse), Some(fine)) = (difference(4e-4), difference(2e-4)) else { continue };
-                let expected: Vec<f64> = coarse.iter().zip(&fine).map(|(coarse, fine)| fine + (fine - coarse) / 3.0).collect();
+                let expected: Vec<f64> = coarse.iter().zip(&fine).map(|(coarse,
+                    fine)| fine + (fine - coarse) / 3.0).collect();
 
                 let size = expected[..6].iter().fold(0.0_f64, |size, x| size.max(x.abs()));
                 let force = size * rest.cables[3].tangent_w().unwrap().amax();
                 for (k, (found, expected)) in found.iter().zip(&expected).enumerate() {
                     let size = if k < 6 { size } else { force };
-                    prop_assert!((found.re - expected).abs() < 1e-7 * size, "{cable_model} {input:?} {k}: {found} {expected} of {size}");
+                    prop_assert!((found.re - expected).abs() < 1e-7 * size, "{cable_model} {input:?} {k}: {found} \
+                        {expected} of {size}");
                 }
             }
         }
@@ -313,8 +320,8 @@ fn shallow_cables_transmit_the_motion_of_the_base_as_catenaries_do() {
             Dynamics::about(&robot, &rest, Linearisation { cable_model, ..Default::default() }, 30.0).unwrap();
         responses(&robot, &rest, &dynamics, hz, &inputs, &motions())
     };
-    // The shallow model has no inertia along the chord, whose effect grows with the square of the frequency and with the
-    // amplification: up to 1e-3 at 4 Hz, where the platform moves three times as far as the base.
+    // The shallow model has no inertia along the chord, whose effect grows with the square of the frequency and with
+    // the amplification: up to 1e-3 at 4 Hz, where the platform moves three times as far as the base.
     for (hz, tolerance) in [(0.5, 1e-3), (2.0, 1e-3), (4.0, 3e-3)] {
         let (shallow, exact) = (of(CableModel::ShallowDynamic, hz), of(CableModel::CatenaryDynamic, hz));
         let size = exact.iter().flatten().map(|x| x.norm()).fold(0.0, f64::max);

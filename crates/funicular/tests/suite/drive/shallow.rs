@@ -335,8 +335,8 @@ fn taut_cables_with_drives_are_those_of_the_catenary() {
         let differences = shallow.iter().zip(&exact).map(|(a, b): (&f64, &f64)| (a / b - 1.0).abs());
         (sag, differences.take(2).fold(0.0, f64::max))
     };
-    // A quarter of the mass has a quarter of the inertia. The ropes are so light that both lists begin with the same two
-    // modes of the platform, below all modes of cables.
+    // A quarter of the mass has a quarter of the inertia. The ropes are so light that both lists begin with the same
+    // two modes of the platform, below all modes of cables.
     let (coarse, fine) = (gap(0.006), gap(0.0015));
     assert!(fine.0 < 0.5 * coarse.0 && fine.1 < 0.26 * coarse.1 && fine.1 < 2e-4, "{coarse:?} {fine:?}");
 }

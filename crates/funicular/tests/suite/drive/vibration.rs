@@ -55,7 +55,8 @@ const GUIDES: [(f64, f64); 2] = [(0.7, 0.02), (1.5, 0.005)];
 fn guides(wheels: &[(f64, f64)]) -> String {
     let table = |(i, (distance, inertia)): (usize, &(f64, f64))| {
         format!(
-            "[guide_wheels.post{i}]\nwinch = \"drum\"\ndistance_m = {distance}\nradius_m = 0.1\ninertia_kg_m2 = {inertia}\n"
+            "[guide_wheels.post{i}]\nwinch = \"drum\"\ndistance_m = {distance}\nradius_m = 0.1\ninertia_kg_m2 = \
+             {inertia}\n"
         )
     };
     wheels.iter().enumerate().rev().map(table).collect()
@@ -440,7 +441,8 @@ fn servos_damp_and_every_mode_has_its_partner() {
 fn a_drum_without_anything_behind_it_is_refused_where_the_cable_would_run_out() {
     // A long horizontal cable with little tension, which its own weight pulls over the wheel.
     let text = "name = \"one\"\n[platform]\nmass_kg = 0.1\nmotion = \"point-mass\"\n[materials.rope]\n\
-                axial_stiffness_n = 2e5\nmass_kg_per_m = 1.0\n[winches.drum]\ndrum_side_length_m = 1\ndrum_radius_m = 0.1\n\
+                axial_stiffness_n = 2e5\nmass_kg_per_m = 1.0\n[winches.drum]\ndrum_side_length_m = 1\ndrum_radius_m = \
+                0.1\n\
                 drum_inertia_kg_m2 = 0.01\ncontrol = \"torque\"\n[[cables]]\nname = \"1\"\nmaterial = \"rope\"\n\
                 winch = \"drum\"\nanchor_m = [0, 0, 10]\nunstrained_length_m = 26.0\n[loads]\nforce_n = [20, 0, 100]\n";
     let robot = Robot::from_toml(text).unwrap();

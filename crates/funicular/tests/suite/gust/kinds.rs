@@ -1,6 +1,6 @@
 //! Gusts on robots with posts, winches and planar platforms: against the frequency response of the damped robot, and,
-//! for slow gusts, against forward statics in another wind. The tension of a cable that sags out of the plane of a planar
-//! platform is refused.
+//! for slow gusts, against forward statics in another wind. The tension of a cable that sags out of the plane of a
+//! planar platform is refused.
 
 use super::{along, tension};
 use crate::support::{self, Behind};
@@ -93,8 +93,8 @@ fn every_kind_of_robot_has_the_response_of_the_damped_robot() {
 #[test]
 fn slow_gusts_on_every_kind_of_robot_are_another_wind() {
     for (name, robot, pose) in robots() {
-        // The planar robot has little tension: with a tenth of the drag its turn is as small as that of the others. With
-        // the whole drag it is 0.9 % of the motion.
+        // The planar robot has little tension: with a tenth of the drag its turn is as small as that of the others.
+        // With the whole drag it is 0.9 % of the motion.
         let drag_width = if name == "planar" { 0.0005 } else { 0.005 };
         let (robot, rest) = in_wind(robot, pose, drag_width, 0.5);
         let winches = WinchMode::Clamped;

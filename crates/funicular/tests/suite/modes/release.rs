@@ -113,7 +113,8 @@ fn symmetric() -> Robot {
             let (anchor, other) = (std::f64::consts::FRAC_PI_2 * (side + 0.5), if k % 2 == 0 { -0.5 } else { 1.5 });
             let end = std::f64::consts::FRAC_PI_2 * (side + other);
             format!(
-                "[[cables]]\nname = \"{k}\"\nmaterial = \"rope\"\nanchor_m = [{}, {}, 6.0]\nattachment_m = [{}, {}, {}]\n",
+                "[[cables]]\nname = \"{k}\"\nmaterial = \"rope\"\nanchor_m = [{}, {}, 6.0]\nattachment_m = [{}, {}, \
+                 {}]\n",
                 7.0 * anchor.cos(),
                 7.0 * anchor.sin(),
                 0.7 * end.cos(),

@@ -17,7 +17,8 @@ use std::f64::consts::TAU;
 const BELOW: f64 = 6.0;
 
 /// A body of 12 kg as a point, hung from two cables over pulleys to winches, which are below the pulleys.
-const TWO_CABLES: &str = "name = \"two\"\ngravity_m_s2 = [0, 0, -9.81]\n[platform]\nmass_kg = 12.0\nmotion = \"point-mass\"\n\
+const TWO_CABLES: &str = "name = \"two\"\ngravity_m_s2 = [0, 0, -9.81]\n[platform]\nmass_kg = 12.0\nmotion = \
+     \"point-mass\"\n\
      [materials.rope]\naxial_stiffness_n = 2e5\nmass_kg_per_m = 0.07\ndamping_ratio = 0.005\n\
      [pulleys.wheel]\nradius_m = 0.05\nentry_direction = [0, 0, 1]\ninertia_kg_m2 = 2e-4\n\
      swivel_inertia_kg_m2 = 1e-3\n[winches.drum]\ndrum_side_length_m = 3.0\n\

@@ -439,7 +439,8 @@ proptest! {
         let Ok(rest) = statics::forward(&robot, &lengths, StaticModel::Catenary, None) else { return Ok(()) };
         let Ok(dynamics) = Dynamics::about(&robot, &rest, Linearisation::default(), 30.0) else { return Ok(()) };
         // A range with a few dozen modes.
-        let Some(to) = [30.0, 10.0, 3.0, 1.0].into_iter().find(|to| modes::count_within(&dynamics, 0.05, *to) < 60) else {
+        let Some(to) = [30.0, 10.0, 3.0, 1.0].into_iter().find(|to| modes::count_within(&dynamics, 0.05,
+            *to) < 60) else {
             return Ok(());
         };
         let modes = modes::within(&dynamics, 0.05, to);

@@ -25,7 +25,8 @@ fn in_plane(robot: &Robot, normal: Vec3, pose: &Pose) -> Robot {
 fn plate(rope_mass: f64) -> String {
     format!(
         "name = \"plate\"\n[platform]\nmotion = \"planar-xz\"\nmass_kg = 8.0\ninertia_kg_m2 = 0.3\n\
-         center_of_mass_m = [0.02, 0.0, -0.05]\n[materials.rope]\naxial_stiffness_n = 5e4\nmass_kg_per_m = {rope_mass}\n\
+         center_of_mass_m = [0.02, 0.0, -0.05]\n[materials.rope]\naxial_stiffness_n = 5e4\nmass_kg_per_m = \
+         {rope_mass}\n\
          [[cables]]\nname = \"1\"\nmaterial = \"rope\"\nanchor_m = [-2.0, 0.0, 3.0]\nattachment_m = [-0.3, 0.0, 0.1]\n\
          [[cables]]\nname = \"2\"\nmaterial = \"rope\"\nanchor_m = [2.5, 0.0, 3.2]\nattachment_m = [0.3, 0.0, 0.1]\n\
          [[cables]]\nname = \"3\"\nmaterial = \"rope\"\nanchor_m = [0.4, 0.0, -2.0]\nattachment_m = [0.05, 0.0, -0.1]\n"
@@ -246,7 +247,8 @@ fn the_papers_robot_restricted_to_a_plane_is_a_block_of_the_rigid_one() {
 #[test]
 fn tensions_of_a_planar_robot_with_four_cables_are_chosen_within_limits() {
     let text = plate(0.05)
-        + "[[cables]]\nname = \"4\"\nmaterial = \"rope\"\nanchor_m = [-1.5, 0.0, -2.0]\nattachment_m = [-0.1, 0.0, -0.1]\n";
+        + "[[cables]]\nname = \"4\"\nmaterial = \"rope\"\nanchor_m = [-1.5, 0.0, -2.0]\nattachment_m = [-0.1, 0.0, \
+            -0.1]\n";
     let mut robot = Robot::from_toml(&text).unwrap();
     for cable in &mut robot.cables {
         cable.tension_limits.maximum = Some(400.0);

@@ -443,7 +443,8 @@ fn a_missing_inertia_is_proposed_for_a_box_with_the_size_of_the_attachments() {
     let robot = |attachments: [[f64; 3]; 3]| {
         let cable = |(i, attachment): (usize, &[f64; 3])| {
             format!(
-                "[[cables]]\nname = \"{i}\"\nmaterial = \"fibre\"\nanchor_m = [{i}, 0, 4]\nattachment_m = {attachment:?}\n"
+                "[[cables]]\nname = \"{i}\"\nmaterial = \"fibre\"\nanchor_m = [{i}, 0, 4]\nattachment_m = \
+                 {attachment:?}\n"
             )
         };
         let (head, _) = ROBOT.split_once("[[cables]]").unwrap();
@@ -498,7 +499,8 @@ fn the_table_of_keys_says_which_keys_are_required() {
            [winches.fibre]\ndrum_side_length_m = 2\nshaft_stiffness_n_m_per_rad = 800\ndrum_radius_m = 0.05\n\
            [guide_wheels.fibre]\nwinch = \"fibre\"\ndistance_m = 1\nradius_m = 0.05\ninertia_kg_m2 = 0.001\n\
            [supports.fibre]\nstiffness_n_per_m = 1e6\nmass_kg = 20\n\
-           [platform_bodies.fibre]\nsize_m = [1, 1, 1]\n[obstacles.fibre]\nsize_m = [1, 1, 1]\nposition_m = [50, 0, 0]\n\
+           [platform_bodies.fibre]\nsize_m = [1, 1, 1]\n[obstacles.fibre]\nsize_m = [1, 1, 1]\nposition_m = [50, 0, \
+           0]\n\
            [clearance]\ncables_m = 0.1\nfrom_end_m = 0.1\n";
     let behind = "pulley = \"fibre\"\nwinch = \"fibre\"\nsupport = \"fibre\"\n";
     let file = file.replacen("[[cables]]\n", &format!("[[cables]]\n{behind}"), 1);
@@ -555,7 +557,8 @@ fn the_rendered_error_looks_as_a_user_expects() {
 5 | mas_kg = 10.0
   | ^^^^^^
   |
-  = help: did you mean `mass_kg`? keys here are `mass_kg`, `motion`, `plane_normal`, `plane_offset_m`, `inertia_kg_m2`, `center_of_mass_m`, `drag_area_m2`, `translational_damping_n_s_m`, `rotational_damping_n_m_s`
+  = help: did you mean `mass_kg`? keys here are `mass_kg`, `motion`, `plane_normal`, `plane_offset_m`, `inertia_kg_m2`,
+  `center_of_mass_m`, `drag_area_m2`, `translational_damping_n_s_m`, `rotational_damping_n_m_s`
 
 error: two cables are called "left"
   --> robots/mine.toml:27:8

@@ -80,7 +80,8 @@ proptest! {
 
     /// A limit holds in both directions of the cable.
     #[test]
-    fn limits_do_not_depend_on_the_direction(speed in 0.0..10.0_f64, torque in 0.0..30.0_f64, motor_speed in 0.0..500.0_f64) {
+    fn limits_do_not_depend_on_the_direction(speed in 0.0..10.0_f64, torque in 0.0..30.0_f64,
+        motor_speed in 0.0..500.0_f64) {
         let limits = limits();
         let turned = |sign: f64, of: LimitOfWinch| {
             let motor = MotorLoad { speed: Some(sign * motor_speed), torque: Some(-sign * torque), power: 0.0 };

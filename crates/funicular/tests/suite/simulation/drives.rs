@@ -46,7 +46,8 @@ const DRIVES: [(&str, &str, &str); 16] = [
         "torque",
         "pulley = \"wheel\"\nwinch = \"drum\"",
         "[pulleys.wheel]\nradius_m = 0.05\nentry_direction = [0.0, 0.0, 1.0]\n\
-         [winches.drum]\ndrum_side_length_m = 1.0\ndrum_radius_m = 0.05\ndrum_inertia_kg_m2 = 0.05\ncontrol = \"torque\"\n",
+         [winches.drum]\ndrum_side_length_m = 1.0\ndrum_radius_m = 0.05\ndrum_inertia_kg_m2 = 0.05\n\
+         control = \"torque\"\n",
     ),
     ("bare torque", "winch = \"drum\"", "[winches.drum]\ndrum_side_length_m = 0.0\ncontrol = \"torque\"\n"),
     (
@@ -142,7 +143,8 @@ fn a_mass_on_one_rope_stays_at_rest_with_every_drive() {
     let text = |names: &str, tables: &str| {
         format!(
             "name = \"load\"\n[platform]\nmass_kg = 50.0\nmotion = \"point-mass\"\n[materials.rope]\n\
-             axial_stiffness_n = 1e5\nmass_kg_per_m = 0.05\n{tables}[[cables]]\nname = \"1\"\n{names}\nmaterial = \"rope\"\n\
+             axial_stiffness_n = 1e5\nmass_kg_per_m = 0.05\n{tables}[[cables]]\nname = \"1\"\n{names}\nmaterial = \
+             \"rope\"\n\
              anchor_m = [0.0, 0.0, 5.0]\nunstrained_length_m = 7.0\n"
         )
     };

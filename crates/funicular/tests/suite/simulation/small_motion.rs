@@ -40,11 +40,13 @@ fn suspended() -> (Robot, Equilibrium) {
 fn plate() -> (Robot, Equilibrium) {
     let cable = |name, [x, z]: [f64; 2], [a, c]: [f64; 2]| {
         format!(
-            "[[cables]]\nname = \"{name}\"\nmaterial = \"rope\"\nanchor_m = [{x}, 0.0, {z}]\nattachment_m = [{a}, 0.0, {c}]\n"
+            "[[cables]]\nname = \"{name}\"\nmaterial = \"rope\"\nanchor_m = [{x}, 0.0, {z}]\nattachment_m = [{a}, 0.0, \
+             {c}]\n"
         )
     };
     let head = "name = \"plate\"\n[platform]\nmotion = \"planar-xz\"\nmass_kg = 8.0\ninertia_kg_m2 = 0.3\n\
-                center_of_mass_m = [0.02, 0.0, -0.05]\n[materials.rope]\naxial_stiffness_n = 5e4\nmass_kg_per_m = 0.05\n";
+                center_of_mass_m = [0.02, 0.0, -0.05]\n[materials.rope]\naxial_stiffness_n = 5e4\n\
+                mass_kg_per_m = 0.05\n";
     let cables = [
         cable("1", [-2.0, 3.0], [-0.3, -0.2]),
         cable("2", [2.5, 3.2], [0.3, -0.2]),

@@ -72,8 +72,12 @@ fn compare_with_a_scan(of: &[([f64; 2], [f64; 2], f64)]) -> usize {
              axial_stiffness_n = 3e4\nmass_kg_per_m = 0.2\n"
         );
         cables.iter().enumerate().fold(head, |text, (i, (anchor, attachment, length))| {
-            let attachment = if dof == "point-mass" { String::new() } else { format!("attachment_m = {attachment:?}\n") };
-            format!("{text}[[cables]]\nname = \"{i}\"\nmaterial = \"r\"\nanchor_m = {anchor:?}\n{attachment}unstrained_length_m = {length}\n")
+            let attachment =
+                if dof == "point-mass" { String::new() } else { format!("attachment_m = {attachment:?}\n") };
+            format!(
+                "{text}[[cables]]\nname = \"{i}\"\nmaterial = \"r\"\nanchor_m = \
+                {anchor:?}\n{attachment}unstrained_length_m = {length}\n"
+            )
         })
     };
     let robot =

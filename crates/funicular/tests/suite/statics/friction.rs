@@ -28,7 +28,8 @@ fn at_lengths(robot: &Robot, lengths: &[f64]) -> Equilibrium {
 /// Platform in a vertical plane on one cable without mass that runs up a post and over half of a wheel.
 fn hanging(friction: &str) -> Robot {
     let text = format!(
-        "name = \"one\"\n[platform]\nmass_kg = 50.0\nmotion = \"planar\"\nplane_normal = [0, 1, 0]\ninertia_kg_m2 = 1.0\n[materials.rope]\n\
+        "name = \"one\"\n[platform]\nmass_kg = 50.0\nmotion = \"planar\"\nplane_normal = [0, 1, 0]\ninertia_kg_m2 = \
+         1.0\n[materials.rope]\n\
          axial_stiffness_n = 2e5\nmass_kg_per_m = 0.0\n[pulleys.wheel]\nradius_m = 0.2\nentry_direction = [0, 0, 1]\n\
          {friction}\n[winches.drum]\ndrum_side_length_m = 4.0\nstiffness_n_per_m = 1e5\n[[cables]]\nname = \"1\"\n\
          material = \"rope\"\npulley = \"wheel\"\nwinch = \"drum\"\nanchor_m = [0, 0, 5]\nattachment_m = [0, 0, 0.1]\n"

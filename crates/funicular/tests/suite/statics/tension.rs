@@ -29,7 +29,8 @@ fn changed(mut robot: Robot, mass_per_length: f64, minimum: f64, maximum: f64) -
 /// Platform of 20 kg in a room of 4 m: four cables to the ceiling, three to the floor.
 fn seven_cables(mass_per_length: f64, minimum: f64, maximum: f64) -> Robot {
     let mut text = format!(
-        "name = \"seven\"\n[platform]\nmass_kg = 20.0\ninertia_kg_m2 = [0.5, 0.5, 0.5]\ncenter_of_mass_m = [0.02, 0.0, 0.05]\n\
+        "name = \"seven\"\n[platform]\nmass_kg = 20.0\ninertia_kg_m2 = [0.5, 0.5, 0.5]\ncenter_of_mass_m = [0.02, 0.0, \
+         0.05]\n\
          [materials.rope]\naxial_stiffness_n = 2e5\nmass_kg_per_m = {mass_per_length}\n\
          minimum_tension_n = {minimum}\nmaximum_tension_n = {maximum}\n"
     );

@@ -32,7 +32,8 @@ fn stiff_supports_are_rigid_ones() {
 fn a_mast_bends_to_a_hanging_weight() {
     let robot = Robot::from_toml(
         "name = \"mast\"\n[platform]\nmass_kg = 10.0\nmotion = \"point-mass\"\n[materials.rope]\n\
-         axial_stiffness_n = 1e5\nmass_kg_per_m = 0.0\n[supports.mast]\nstiffness_n_per_m = 2e4\n[[cables]]\nname = \"1\"\n\
+         axial_stiffness_n = 1e5\nmass_kg_per_m = 0.0\n[supports.mast]\nstiffness_n_per_m = 2e4\n[[cables]]\nname = \
+         \"1\"\n\
          material = \"rope\"\nsupport = \"mast\"\nanchor_m = [0, 0, 3]\nunstrained_length_m = 2.0\n",
     )
     .unwrap();
@@ -99,7 +100,8 @@ fn the_reader_says_what_is_wrong_with_a_support() {
 #[test]
 fn a_mast_without_mass_is_a_spring() {
     let robot = Robot::from_toml(
-        "name = \"mast\"\n[platform]\nmass_kg = 10.0\nmotion = \"point-mass\"\n[materials.rope]\naxial_stiffness_n = 1e5\n\
+        "name = \"mast\"\n[platform]\nmass_kg = 10.0\nmotion = \"point-mass\"\n[materials.rope]\naxial_stiffness_n = \
+         1e5\n\
          mass_kg_per_m = 0.0\n[supports.mast]\nstiffness_n_per_m = 2e4\n[[cables]]\nname = \"1\"\nmaterial = \"rope\"\n\
          support = \"mast\"\nanchor_m = [0, 0, 3]\nunstrained_length_m = 2.0\n",
     )

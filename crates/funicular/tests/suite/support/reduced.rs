@@ -30,8 +30,10 @@ fn hung(drive: &str, lengths: [f64; 3], post: &str) -> Robot {
         + &of_cable("2", "[-3.8, -0.4, 4.2]", "post", lengths[1])
         + &of_cable("3", "[5, 0, 4.4]", "mast", lengths[2]);
     Robot::from_toml(&format!(
-        "name = \"hung\"\n[platform]\nmass_kg = 12.0\nmotion = \"point-mass\"\n[materials.rope]\naxial_stiffness_n = 2e5\n\
-         mass_kg_per_m = 0.07\n[pulleys.wheel]\nradius_m = 0.05\nentry_direction = [0.1, 0.3, 1]\ninertia_kg_m2 = 2e-4\n\
+        "name = \"hung\"\n[platform]\nmass_kg = 12.0\nmotion = \"point-mass\"\n[materials.rope]\naxial_stiffness_n = \
+         2e5\n\
+         mass_kg_per_m = 0.07\n[pulleys.wheel]\nradius_m = 0.05\nentry_direction = [0.1, 0.3, 1]\ninertia_kg_m2 = \
+         2e-4\n\
          swivel_inertia_kg_m2 = 1e-3\n[winches.drum]\ndrum_side_length_m = 3.0\n[supports.post]\nmass_kg = 7.0\n{post}\
          stiffness_n_per_m = [[1.5e4, 2e3, 0], [2e3, 2e4, -3e3], [0, -3e3, 9e4]]\n[supports.mast]\nmass_kg = 2.0\n\
          stiffness_n_per_m = 8e3\n{cables}"

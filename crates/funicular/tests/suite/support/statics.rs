@@ -135,9 +135,11 @@ fn every_static_problem_has_supports() {
 
     // Fewer cables than degrees of freedom: a point mass between two masts.
     let few = Robot::from_toml(
-        "name = \"two\"\n[platform]\nmass_kg = 20.0\nmotion = \"point-mass\"\n[materials.rope]\naxial_stiffness_n = 1e5\n\
+        "name = \"two\"\n[platform]\nmass_kg = 20.0\nmotion = \"point-mass\"\n[materials.rope]\naxial_stiffness_n = \
+         1e5\n\
          mass_kg_per_m = 0.1\n[supports.left]\nstiffness_n_per_m = 2e4\n[supports.right]\nstiffness_n_per_m = 4e4\n\
-         [[cables]]\nname = \"1\"\nmaterial = \"rope\"\nsupport = \"left\"\nanchor_m = [-2, 0, 3]\n[[cables]]\nname = \"2\"\n\
+         [[cables]]\nname = \"1\"\nmaterial = \"rope\"\nsupport = \"left\"\nanchor_m = [-2, 0, 3]\n[[cables]]\nname = \
+         \"2\"\n\
          material = \"rope\"\nsupport = \"right\"\nanchor_m = [2, 0, 3]\n",
     )
     .unwrap();
@@ -201,11 +203,15 @@ fn friction_moves_supports_and_platform() {
 fn friction_relieves_a_mast_of_the_pull_of_its_drum() {
     let (mu, radius, below, spring, ea, k, total) = (1e-4_f64, 0.2, 4.0, 1e5, 2e5, 3e4, 7.0);
     let robot = Robot::from_toml(&format!(
-        "name = \"mast\"\n[platform]\nmass_kg = 50.0\nmotion = \"planar\"\nplane_normal = [0, 1, 0]\ninertia_kg_m2 = 1.0\n\
+        "name = \"mast\"\n[platform]\nmass_kg = 50.0\nmotion = \"planar\"\nplane_normal = [0, 1, 0]\ninertia_kg_m2 = \
+         1.0\n\
          [materials.rope]\naxial_stiffness_n = {ea}\n\
-         mass_kg_per_m = 0.0\n[pulleys.wheel]\nradius_m = {radius}\nentry_direction = [0, 0, 1]\nfriction_coefficient = {mu}\n\
-         [winches.drum]\ndrum_side_length_m = {below}\nstiffness_n_per_m = {spring}\n[supports.mast]\nstiffness_n_per_m = {k}\n\
-         drums = \"on-ground\"\n[[cables]]\nname = \"1\"\nmaterial = \"rope\"\nsupport = \"mast\"\npulley = \"wheel\"\nwinch = \
+         mass_kg_per_m = 0.0\n[pulleys.wheel]\nradius_m = {radius}\nentry_direction = [0, 0, 1]\nfriction_coefficient \
+         = {mu}\n\
+         [winches.drum]\ndrum_side_length_m = {below}\nstiffness_n_per_m = \
+         {spring}\n[supports.mast]\nstiffness_n_per_m = {k}\n\
+         drums = \"on-ground\"\n[[cables]]\nname = \"1\"\nmaterial = \"rope\"\nsupport = \"mast\"\npulley = \
+         \"wheel\"\nwinch = \
          \"drum\"\nanchor_m = [0, 0, 5]\nattachment_m = [0, 0, 0.1]\nunstrained_length_m = {total}\n"
     ))
     .unwrap();

@@ -462,7 +462,8 @@ fn slips_of_single_values_are_named() {
 fn hints_name_slips_of_the_right_direction_alone() {
     let lines = |ea: &str| {
         format!(
-            "name = \"two lines\"\n[platform]\nmass_kg = 2.0\nmotion = \"point-mass\"\n[materials.rope]\naxial_stiffness_n = {ea}\n\
+            "name = \"two lines\"\n[platform]\nmass_kg = 2.0\nmotion = \
+             \"point-mass\"\n[materials.rope]\naxial_stiffness_n = {ea}\n\
              mass_kg_per_m = 0.14\n[[cables]]\nname = \"1\"\nmaterial = \"rope\"\nanchor_m = [-2.0, 0.0, 2.0]\n\
              unstrained_length_m = 2.4\n[[cables]]\nname = \"2\"\nmaterial = \"rope\"\nanchor_m = [2.0, 0.0, 2.0]\n\
              unstrained_length_m = 2.4\n"

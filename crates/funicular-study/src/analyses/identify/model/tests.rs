@@ -157,7 +157,8 @@ fn gradients_are_the_differences_where_an_experiment_has_its_own_state() {
     // Five of the cables.
     check(
         &json!({
-            "cables": ["1", "2", "4", "5", "6"], "measured_pose": POSE, "measured_tensions_n": [1.0, 2.0, 3.0, 4.0, 5.0],
+            "cables": ["1", "2", "4", "5", "6"], "measured_pose": POSE,
+            "measured_tensions_n": [1.0, 2.0, 3.0, 4.0, 5.0],
         }),
         "spring",
         0,

@@ -4,8 +4,8 @@
 use super::CentreCable;
 
 /// Distance from a limit, over the distance between the limits, below which a relaxed logarithm is a parabola. With a
-/// smaller one the tensions beyond the limits are nearer to the least possible, and Newton's method takes 40 to 60 steps
-/// in place of 15.
+/// smaller one the tensions beyond the limits are nearer to the least possible, and Newton's method takes 40 to 60
+/// steps in place of 15.
 const RELAXED: f64 = 1e-3;
 
 /// Part of the slackest tension below which no step goes where no limit stops it: a fiftieth of the cable's weight.

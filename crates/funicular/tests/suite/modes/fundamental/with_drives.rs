@@ -203,12 +203,15 @@ prop_compose! {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 80, failure_persistence: None, max_global_rejects: 100_000, ..Default::default() })]
+    #![proptest_config(ProptestConfig { cases: 80, failure_persistence: None, max_global_rejects: 100_000,
+        ..Default::default() })]
 
     #[test]
     fn the_first_frequency_of_random_robots_with_drives_is_that_of_the_whole_list(
-        index in 0u64..2000, winches in prop::collection::vec(prop::option::of(any_winch()), 3), size in decades(-3.0, -1.5),
-        inertia in prop::option::of(decades(-6.0, 0.0)), swivel in prop::option::of(decades(-6.0, 0.0)), pulleys in 1usize..8,
+        index in 0u64..2000, winches in prop::collection::vec(prop::option::of(any_winch()), 3),
+        size in decades(-3.0, -1.5),
+        inertia in prop::option::of(decades(-6.0, 0.0)), swivel in prop::option::of(decades(-6.0, 0.0)),
+        pulleys in 1usize..8,
     ) {
         let sample = robots::sample(index);
         prop_assume!(sample.purpose == Purpose::Proper);
@@ -250,7 +253,8 @@ proptest! {
     /// Poses at which cables of the paper's robot hang in loops over their pulleys.
     #[test]
     fn slack_cables_over_pulleys_have_the_first_frequency_of_the_whole_list(
-        x in -3.0f64..3.0, y in -1.2f64..1.2, z in 0.0f64..2.4, turn in prop::array::uniform3(-3.0f64..3.0), winch in any_winch(),
+        x in -3.0f64..3.0, y in -1.2f64..1.2, z in 0.0f64..2.4, turn in prop::array::uniform3(-3.0f64..3.0),
+        winch in any_winch(),
         swivel in prop::option::of(decades(-5.0, -2.0)),
     ) {
         let mut robot = Robot::from_toml(funicular_robots::YUAN2014_4MM).unwrap();

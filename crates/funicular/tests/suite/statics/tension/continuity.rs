@@ -15,8 +15,8 @@ const FEW: Range<u64> = 0..300;
 const STEPS: usize = 12;
 const PARTS: usize = 200;
 
-/// Part of the largest change of a step that one of its 200 parts may keep: a smooth change keeps some 1/200, one that is
-/// steepest beside a kink a few times that, a jump all.
+/// Part of the largest change of a step that one of its 200 parts may keep: a smooth change keeps some 1/200, one that
+/// is steepest beside a kink a few times that, a jump all.
 const KEPT: f64 = 0.1;
 
 /// Change over the largest tension that is rounding: rules other than the centre are exact to a millionth.
@@ -55,8 +55,8 @@ fn robots() -> Vec<(Robot, Pose)> {
     robots
 }
 
-/// Largest part of a change of a tension that stays within one of 200 parts of the step in which it is; `None` if a pose
-/// of the line is not held, or nothing changes.
+/// Largest part of a change of a tension that stays within one of 200 parts of the step in which it is; `None` if a
+/// pose of the line is not held, or nothing changes.
 fn kept(robot: &Robot, rule: &TensionRule, pose: &dyn Fn(f64) -> Pose) -> Option<f64> {
     let tensions = |t: f64| -> Option<Vec<f64>> {
         let found = statics::distribute_tensions(robot, &pose(t), StaticModel::Catenary, rule).ok()?;

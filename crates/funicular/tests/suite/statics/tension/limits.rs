@@ -56,7 +56,8 @@ proptest! {
     /// has not converged.
     #[test]
     fn random_robots_are_held_within_their_limits_or_it_is_said_why(
-        (robot, _) in any_robot(), at in prop::array::uniform6(-1.0f64..1.0), minimum in 0.0f64..100.0, breadth in 1.0f64..4.0,
+        (robot, _) in any_robot(), at in prop::array::uniform6(-1.0f64..1.0), minimum in 0.0f64..100.0,
+        breadth in 1.0f64..4.0,
     ) {
         prop_assume!(robot.cables.len() > 6);
         let robot = robot.with_tension_limits(TensionLimits {
@@ -69,7 +70,8 @@ proptest! {
             most.max(9.81 * robot.cables[i].material.mass_per_length * chord)
         });
         let mut verdicts = Vec::new();
-        for rule in [TensionRule::Lowest, TensionRule::Closest(vec![200.0]), TensionRule::Middle, TensionRule::Stiffest] {
+        for rule in [TensionRule::Lowest, TensionRule::Closest(vec![200.0]), TensionRule::Middle,
+            TensionRule::Stiffest] {
             let held = statics::distribute_tensions(&robot, &pose, StaticModel::Catenary, &rule);
             match &held {
                 Ok(held) => check(&robot, held),

@@ -274,9 +274,11 @@ proptest! {
         y in -0.3f64..0.3,
     ) {
         let pose = Pose::new([x, y, 0.3], [0.0; 3]);
-        let robot = robot.with_tension_limits(TensionLimits { minimum: None, maximum: Some(50.0 * robot.platform.mass) });
+        let robot = robot.with_tension_limits(TensionLimits { minimum: None,
+            maximum: Some(50.0 * robot.platform.mass) });
         let center_p = Vec3::new(0.05, 0.0, 0.0);
-        let Ok(found) = bound(&robot, &pose, StaticModel::Catenary, PayloadSide::Maximum, center_p) else { return Ok(()) };
+        let Ok(found) = bound(&robot, &pose, StaticModel::Catenary, PayloadSide::Maximum,
+            center_p) else { return Ok(()) };
         prop_assume!(found.mass.is_finite() && robot.cables.len() > 6);
         prop_assert!(found.residual < statics::RESIDUAL_LIMIT);
         for (i, cable) in found.cables.iter().enumerate() {
