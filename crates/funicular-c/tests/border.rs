@@ -25,7 +25,7 @@ fn size<T>() -> u32 {
 }
 
 /// Model of a robot file, and a loop in memory of this test.
-struct Session {
+struct TestSession {
     model: *mut Model,
     handle: *mut Loop,
     cables: usize,
@@ -33,7 +33,7 @@ struct Session {
 }
 
 // Both handles may go to other threads; one at a time uses the loop.
-unsafe impl Send for Session {}
+unsafe impl Send for TestSession {}
 
 fn model_of(toml: &str) -> (i32, *mut Model, String) {
     let (mut model, mut message) = (null_mut(), [0_u8; 4000]);
@@ -55,7 +55,7 @@ fn loop_of(model: *mut Model) -> (Vec<u64>, *mut Loop) {
     }
 }
 
-impl Session {
+impl TestSession {
     fn new(toml: &str) -> Self {
         let (status, model, message) = model_of(toml);
         assert_eq!(status, CERTIFIED, "{message}");
@@ -73,7 +73,7 @@ impl Session {
     }
 }
 
-impl Drop for Session {
+impl Drop for TestSession {
     fn drop(&mut self) {
         assert!(!self.memory.is_empty());
         unsafe {
@@ -160,7 +160,7 @@ impl Random {
         input
     }
 
-    /// The same with one number that no controller should send.
+    /// Input with one number that no controller should send.
     fn hostile(&mut self) -> PoseInput {
         let mut input = self.pose();
         let bad = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, 1e300, -2e9][(5.0 * self.next()) as usize];
@@ -182,7 +182,7 @@ impl Random {
 fn a_long_run_of_random_poses_reserves_nothing_and_equals_the_program() {
     let poses: usize = std::env::var("FUNICULAR_POSES").map_or(50_000, |count| count.parse().unwrap());
     for toml in [funicular_robots::COGIRO, funicular_robots::COGIRO_WINCHES] {
-        let session = Session::new(toml);
+        let session = TestSession::new(toml);
         let robot = Robot::from_toml(toml).unwrap();
         let mut random = Random(7);
         let (mut rows, mut counts, mut most) = (Rows::new(), [0_usize; 6], 0);
@@ -252,7 +252,7 @@ fn difference_to_program(robot: &Robot, input: &PoseInput, numbers: &Numbers) ->
 
 #[test]
 fn no_function_of_the_loop_reserves_memory() {
-    let session = Session::new(funicular_robots::COGIRO_WINCHES);
+    let session = TestSession::new(funicular_robots::COGIRO_WINCHES);
     let mut rows = Rows::new();
     let input = at([0.5, 0.2, 1.2]);
     let (all, reserved) = reserved(|| unsafe {
@@ -300,7 +300,7 @@ fn eight_threads_with_one_model_give_the_digits_of_one() {
 /// Two threads on one loop: one of them is refused now and then, no result is wrong.
 #[test]
 fn a_second_thread_is_refused() {
-    let session = Session::new(funicular_robots::COGIRO);
+    let session = TestSession::new(funicular_robots::COGIRO);
     let handle = session.handle as usize;
     let wanted = {
         let mut rows = Rows::new();
@@ -335,7 +335,7 @@ fn a_second_thread_is_refused() {
 
 #[test]
 fn addresses_sizes_and_handles_that_are_wrong_have_a_status() {
-    let session = Session::new(funicular_robots::COGIRO);
+    let session = TestSession::new(funicular_robots::COGIRO);
     let (handle, model) = (session.handle, session.model);
     let (input, mut rows) = (at([0.0, 0.0, 1.5]), Rows::new());
     let aside = |address: usize| address + 4;

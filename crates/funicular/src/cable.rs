@@ -6,7 +6,7 @@
 //! cables that go down. There is one file per model.
 
 pub mod catenary_dynamic;
-mod catenary_static;
+mod catenary_end;
 mod damping;
 mod model;
 pub mod shallow_dynamic;
@@ -337,6 +337,16 @@ impl EndStiffness {
         up_to_hz: f64,
     ) -> Result<Self, NoStiffness> {
         Self::of_cable(robot, (i, state), (model, in_plane_only, winches), up_to_hz, Shapes::Dropped)
+    }
+
+    /// Vibration by poles and residues.
+    fn by_poles(cable: CatenaryDynamicEnd) -> Self {
+        Self::Dynamic(DynamicCable::CatenaryDynamic(Box::new(cable)))
+    }
+
+    /// Vibration of a shallow cable in closed form.
+    fn in_closed_form(cable: ShallowDynamic) -> Self {
+        Self::Dynamic(DynamicCable::ShallowDynamic(cable))
     }
 
     /// Stiffness as by [`new`](Self::new); a catenary-dynamic cable may keep the shapes of its clamped modes.

@@ -271,7 +271,7 @@ pub fn length_table(
 ) -> Result<LengthTable, LengthTableError> {
     let sampled = Sampled { robot, pose_box, model, rule };
     let tested = sampled.tested()?;
-    let mut fitted = Poses::default();
+    let mut fitted = FittedPoses::default();
     let mut best: Option<LengthTable> = None;
     for degree in 0..=MAX_DEGREE {
         if ChebyshevBasis::count(pose_box.sides.len(), degree) > MAX_COEFFICIENTS {
@@ -289,7 +289,7 @@ pub fn length_table(
         }
         best = Some(table);
     }
-    Err(too_coarse(pose_box, best, tolerance))
+    Err(too_coarse(pose_box, best.as_ref(), tolerance))
 }
 
 /// Table by [`length_table`] with all polynomials up to a total degree, whatever their error is: for a memory that is
@@ -306,18 +306,18 @@ pub fn length_table_of_degree(
 ) -> Result<Option<LengthTable>, LengthTableError> {
     let sampled = Sampled { robot, pose_box, model, rule };
     let tested = sampled.tested()?;
-    sampled.of_degree(degree, &mut Poses::default(), &tested)
+    sampled.of_degree(degree, &mut FittedPoses::default(), &tested)
 }
 
 /// Error of a box whose polynomials of the highest degree are not good enough.
-fn too_coarse(pose_box: &PoseBox, best: Option<LengthTable>, tolerance: f64) -> LengthTableError {
-    let degree = best.as_ref().map_or(0, |table| table.basis.degree());
-    let error = best.as_ref().map_or(f64::INFINITY, |table| table.error);
-    let pose = best.as_ref().map_or_else(String::new, |table| described(pose_box, &table.error_at.1));
+fn too_coarse(pose_box: &PoseBox, best: Option<&LengthTable>, tolerance: f64) -> LengthTableError {
+    let degree = best.map_or(0, |table| table.basis.degree());
+    let error = best.map_or(f64::INFINITY, |table| table.error);
+    let pose = best.map_or_else(String::new, |table| described(pose_box, &table.error_at.1));
 
     // Along the axis that the products of the highest degree need most.
     let mut shares = vec![0.0; pose_box.sides.len()];
-    if let Some(table) = &best {
+    if let Some(table) = best {
         for (k, exponents) in table.basis.exponents().iter().enumerate() {
             let size: f64 = table.coefficients.iter().map(|of_cable| of_cable[k].abs()).sum();
             if exponents.iter().sum::<usize>() == degree {
@@ -341,12 +341,12 @@ fn described(pose_box: &PoseBox, coordinates: &[f64]) -> String {
 
 /// Places of the box with the corrections of all cables there.
 #[derive(Default)]
-struct Poses {
+struct FittedPoses {
     places: Vec<Vec<f64>>,
     corrections: Vec<Vec<f64>>,
 }
 
-impl Poses {
+impl FittedPoses {
     fn extend(&mut self, other: Self) {
         self.places.extend(other.places);
         self.corrections.extend(other.corrections);
@@ -385,8 +385,8 @@ impl Sampled<'_> {
         Ok(found.equilibrium.cables.iter().zip(&self.lines()).map(of_cable).collect())
     }
 
-    fn poses(&self, places: impl Iterator<Item = Vec<f64>>) -> Result<Poses, LengthTableError> {
-        let mut poses = Poses::default();
+    fn poses(&self, places: impl Iterator<Item = Vec<f64>>) -> Result<FittedPoses, LengthTableError> {
+        let mut poses = FittedPoses::default();
         for place in places {
             poses.corrections.push(self.corrections(&place)?);
             poses.places.push(place);
@@ -395,7 +395,7 @@ impl Sampled<'_> {
     }
 
     /// Poses at which errors are computed. Corners come first: a box that is too large fails there.
-    fn tested(&self) -> Result<Poses, LengthTableError> {
+    fn tested(&self) -> Result<FittedPoses, LengthTableError> {
         let n = self.pose_box.sides.len();
         let mut tested = self.poses(self.pose_box.corners().into_iter())?;
         tested.extend(self.poses((0..TESTED).map(|i| even_point(n, i)))?);
@@ -406,8 +406,8 @@ impl Sampled<'_> {
     fn of_degree(
         &self,
         degree: usize,
-        fitted: &mut Poses,
-        tested: &Poses,
+        fitted: &mut FittedPoses,
+        tested: &FittedPoses,
     ) -> Result<Option<LengthTable>, LengthTableError> {
         let n = self.pose_box.sides.len();
         let wanted = FITTED_PER_COEFFICIENT * ChebyshevBasis::count(n, degree);
@@ -417,7 +417,12 @@ impl Sampled<'_> {
 
     /// Table with its error at the tested poses, without the products that it needs least: as long as it keeps the
     /// tolerance. Half of them come back until it does everywhere.
-    fn shortened(&self, table: LengthTable, tested: &Poses, tolerance: f64) -> Result<LengthTable, LengthTableError> {
+    fn shortened(
+        &self,
+        table: LengthTable,
+        tested: &FittedPoses,
+        tolerance: f64,
+    ) -> Result<LengthTable, LengthTableError> {
         let count = table.basis.exponents().len();
         let size = |k: usize| table.coefficients.iter().map(|row| row[k].abs()).fold(0.0, f64::max);
         let mut order: Vec<usize> = (0..count).collect();
@@ -465,7 +470,7 @@ impl Sampled<'_> {
     }
 
     /// Table of a degree with its error at the tested poses; `None` if the poses do not determine it.
-    fn fitted(&self, degree: usize, fitted: &Poses, tested: &Poses) -> Option<LengthTable> {
+    fn fitted(&self, degree: usize, fitted: &FittedPoses, tested: &FittedPoses) -> Option<LengthTable> {
         let basis = ChebyshevBasis::new(self.pose_box.sides.len(), degree);
         let coefficients = basis.fitted(&fitted.places, &fitted.corrections)?;
         let coefficients =
@@ -501,7 +506,7 @@ impl Sampled<'_> {
     }
 
     /// Follows the largest errors of some cables to their maxima in the box.
-    fn follow(&self, table: &mut LengthTable, tested: &Poses) -> Result<(), LengthTableError> {
+    fn follow(&self, table: &mut LengthTable, tested: &FittedPoses) -> Result<(), LengthTableError> {
         let mut worst: Vec<(f64, usize, usize)> = vec![(0.0, 0, 0); table.lines.len()];
         for (i, (place, corrections)) in tested.places.iter().zip(&tested.corrections).enumerate() {
             for (cable, error) in errors(table, place, corrections).into_iter().enumerate() {
@@ -535,7 +540,7 @@ impl Sampled<'_> {
 
     /// Largest change of a length by a change of all cables [m]; `None` if tensions within the limits do not hold a
     /// pose then.
-    fn effect(&self, tested: &Poses, change: impl Fn(&mut crate::robot::Cable)) -> Option<f64> {
+    fn effect(&self, tested: &FittedPoses, change: impl Fn(&mut crate::robot::Cable)) -> Option<f64> {
         let mut robot = self.robot.clone();
         robot.cables.iter_mut().for_each(change);
         let changed = Sampled { robot: &robot, ..*self };

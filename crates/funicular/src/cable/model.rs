@@ -1,7 +1,7 @@
 //! Models of a cable, each with what other rooms ask about it.
 
 use super::situation::CableSituation;
-use super::{EndStiffness, NoStiffness, catenary_dynamic, catenary_static, shallow_dynamic, shallow_static, spring};
+use super::{EndStiffness, NoStiffness, catenary_end, shallow_dynamic, shallow_static, spring};
 use crate::math::Mat3;
 use crate::robot::Robot;
 use crate::statics::{CableState, StaticModel};
@@ -90,8 +90,8 @@ pub const MODELS: [ModelEntry; 5] = [
         is_dynamic: false,
         needs_tension: false,
         has_axial_waves: false,
-        end: catenary_static::end,
-        span: catenary_static::span,
+        end: catenary_end::at_rest,
+        span: catenary_end::span,
     },
     ModelEntry {
         model: CableModel::ShallowDynamic,
@@ -102,7 +102,7 @@ pub const MODELS: [ModelEntry; 5] = [
         needs_tension: true,
         has_axial_waves: false,
         end: shallow_dynamic::end,
-        span: catenary_static::span,
+        span: catenary_end::span,
     },
     ModelEntry {
         model: CableModel::CatenaryDynamic,
@@ -112,8 +112,8 @@ pub const MODELS: [ModelEntry; 5] = [
         is_dynamic: true,
         needs_tension: true,
         has_axial_waves: true,
-        end: catenary_dynamic::end,
-        span: catenary_static::span,
+        end: catenary_end::vibrating,
+        span: catenary_end::span,
     },
 ];
 

@@ -15,7 +15,7 @@
 
 use super::catenary_dynamic::{CatenaryDynamicEnd, EndDirections, MovingEnd};
 use super::situation::CableSituation;
-use super::{DynamicCable, EndStiffness, LocalAxes, LocalStiffness, NoStiffness, Sag, shallow_static, stretch_of};
+use super::{EndStiffness, LocalAxes, LocalStiffness, NoStiffness, Sag, shallow_static, stretch_of};
 use crate::math::{Complex, roots};
 use crate::robot::Damping;
 use std::f64::consts::{FRAC_PI_2, PI};
@@ -28,7 +28,7 @@ pub(super) fn end(of: &CableSituation<'_>) -> Result<EndStiffness, NoStiffness> 
     let damping = of.material().damping.per_length_over(stretch_of(robot, i, state));
     if !(robot.has_moving_ends() || robot.has_stretch_loss()) {
         let cable = ShallowDynamic::new(sag, axes, damping, in_plane_only);
-        return Ok(EndStiffness::Dynamic(DynamicCable::ShallowDynamic(cable)));
+        return Ok(EndStiffness::in_closed_form(cable));
     }
 
     // Without any mass the cable and its drive are springs.
@@ -40,7 +40,7 @@ pub(super) fn end(of: &CableSituation<'_>) -> Result<EndStiffness, NoStiffness> 
     let of_axes = (axes, EndDirections::in_axes(hanging, &axes));
     let of_rope = (damping, of.material().stretch_loss, of.has_strains());
     let cable = CatenaryDynamicEnd::of_shallow_span(&sag, of_axes, end, of_rope, in_plane_only, limit)?;
-    Ok(EndStiffness::Dynamic(DynamicCable::CatenaryDynamic(Box::new(cable))))
+    Ok(EndStiffness::by_poles(cable))
 }
 
 /// Platform end of a cable in the shallow-dynamic model.

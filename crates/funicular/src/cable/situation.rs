@@ -1,7 +1,7 @@
 //! Cable at an equilibrium, with all that the stiffness of its end is asked for.
 
 use super::catenary_dynamic::{CatenaryDynamicEnd, MovingEnd, Shapes, SpanAtRest};
-use super::{DynamicCable, EndStiffness, LocalAxes, LocalStiffness, NoStiffness, Sag, moving_end};
+use super::{EndStiffness, LocalAxes, LocalStiffness, NoStiffness, Sag, moving_end};
 use crate::catenary::space::HangingCable;
 use crate::math::Mat3;
 use crate::robot::{Material, Robot, WinchMode};
@@ -79,6 +79,6 @@ impl<'a> CableSituation<'a> {
     pub(super) fn at_rest(&self, span: SpanAtRest) -> Result<EndStiffness, NoStiffness> {
         let drive = self.state.drive.as_deref().map(|drive| &drive.end);
         let end = CatenaryDynamicEnd::at_rest(span, drive, self.material().stretch_loss, self.in_plane_only)?;
-        Ok(EndStiffness::Dynamic(DynamicCable::CatenaryDynamic(Box::new(end))))
+        Ok(EndStiffness::by_poles(end))
     }
 }

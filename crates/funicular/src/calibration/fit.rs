@@ -72,13 +72,13 @@ fn unfitted(values: &[f64], states: &[RowState]) -> CalibrationFit {
 }
 
 /// Damping of the steps of a fit.
-struct Damping {
+struct StepDamping {
     value: f64,
     /// Factor of the next failure.
     growth: f64,
 }
 
-impl Damping {
+impl StepDamping {
     fn new() -> Self {
         Self { value: FIRST_DAMPING, growth: 2.0 }
     }
@@ -124,7 +124,7 @@ impl Calibration {
         let Some(mut at) = self.linearised(&fit.values, &states) else { return fit };
         fit.chi2 = at.chi2;
         let mut scale = Scales::new(free.ncols(), self.rows.len(), self.row_unknown_count());
-        let mut damping = Damping::new();
+        let mut damping = StepDamping::new();
 
         while fit.iterations < max_iterations && fit.chi2.is_finite() {
             fit.iterations += 1;

@@ -37,7 +37,7 @@ pub(super) struct NearForward {
 }
 
 /// Cables at a pose.
-struct Trial {
+struct ForwardTrial {
     pose: Pose,
     cables: ArrayVec<CableInLoop, MAX_CABLES>,
     /// Remaining wrench, reduced, and its size over that of all forces.
@@ -48,7 +48,7 @@ struct Trial {
 }
 
 /// Lengths that are searched for.
-struct Lengths<'a> {
+struct WantedLengths<'a> {
     model: &'a LoopModel,
     lengths: &'a [f64],
     external: Vec6,
@@ -78,7 +78,7 @@ impl ControlLoop {
         input.motion.pose = start;
         input.check(model.robot())?;
 
-        let search = Lengths { model, lengths, external: input.wrench() };
+        let search = WantedLengths { model, lengths, external: input.wrench() };
         let Some(found) = search.newton(start) else {
             return Self::held(&mut self.last_forward, LoopFault::NotFound);
         };
@@ -106,9 +106,9 @@ impl ControlLoop {
     }
 }
 
-impl Lengths<'_> {
+impl WantedLengths<'_> {
     /// Cables at a pose, near those of another; `None` for a pose that the platform cannot have.
-    fn at(&self, pose: Pose, near: Option<&Trial>) -> Option<Trial> {
+    fn at(&self, pose: Pose, near: Option<&ForwardTrial>) -> Option<ForwardTrial> {
         let robot = self.model.robot();
         check_pose(robot, &pose).ok()?;
         let mut cables = ArrayVec::<CableInLoop, MAX_CABLES>::new();
@@ -124,11 +124,11 @@ impl Lengths<'_> {
         let size = size + coordinates.wrench_size(&self.external);
         let wrench = coordinates.reduce(&(wrench + self.external));
         let residual = larger(&coordinates, &wrench) / size.max(f64::MIN_POSITIVE);
-        residual.is_finite().then_some(Trial { pose, cables, wrench, residual, size })
+        residual.is_finite().then_some(ForwardTrial { pose, cables, wrench, residual, size })
     }
 
     /// Stiffness at a pose, reduced, with a unit diagonal beyond the degrees of freedom.
-    fn stiffness(&self, at: &Trial) -> Mat6 {
+    fn stiffness(&self, at: &ForwardTrial) -> Mat6 {
         let coordinates = self.model.coordinates();
         let parts =
             at.cables.iter().map(|c| (c.tangent_w(), c.span.force_on_start_w(), c.span.start_w - at.pose.position_w));
@@ -187,7 +187,7 @@ impl Lengths<'_> {
 
     /// State at a pose; `error` is the bound of its error [m], `None` if the equilibrium is not proved to be stable and
     /// near.
-    fn collected(&self, at: &Trial, iterations: usize, error: Option<f64>) -> LoopState {
+    fn collected(&self, at: &ForwardTrial, iterations: usize, error: Option<f64>) -> LoopState {
         let robot = self.model.robot();
         let mut cables = [LoopCable::default(); MAX_CABLES];
         for (i, (cable, length)) in at.cables.iter().zip(self.lengths).enumerate() {

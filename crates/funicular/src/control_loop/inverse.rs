@@ -2,7 +2,7 @@
 
 use super::input::LoopInput;
 use super::model::LoopModel;
-use super::solved::{Search, solve};
+use super::solved::{SearchStart, solve};
 use super::state::{LoopFault, LoopState, LoopStatus};
 use super::{ControlLoop, rates};
 
@@ -17,7 +17,7 @@ impl ControlLoop {
     pub fn inverse(&mut self, model: &LoopModel, input: &LoopInput, with_rates: bool) -> Result<LoopState, LoopFault> {
         input.check(model.robot())?;
         let near = self.near_inverse.as_ref();
-        let mut solved = match solve(model, &input.motion, &input.wrench(), Search::Best(near)) {
+        let mut solved = match solve(model, &input.motion, &input.wrench(), SearchStart::Best(near)) {
             Ok(solved) => solved,
             Err(fault @ (LoopFault::Singular | LoopFault::NotFound)) => {
                 return Self::held(&mut self.last_inverse, fault);

@@ -2,16 +2,16 @@
 //!
 //! The lengths of the centre are a smooth function of time. Differences between two times nearby, each solved from the
 //! state between them, give both derivatives. The platform moves by a small part of its distance to the anchors between
-//! the times, so that the differences leave 2e-9 of a rate, and rounding 4e-8 of an acceleration.
+//! the times, so that the differences leave 5e-9 of a rate, and rounding 2e-7 of an acceleration.
 
 use super::input::{LoopInput, check_pose};
 use super::model::{LoopModel, MAX_CABLES};
-use super::solved::{Search, Solved, solve};
+use super::solved::{SearchStart, SolvedState, solve};
 use crate::path::PathPoint;
 
 /// Motion between two times, over the distance to the anchors and in radians. Half of it doubles the rounding of rates
-/// and has four times that of accelerations; three times as much leaves 2e-8 of a rate.
-const PART: f64 = 1e-4;
+/// and has four times that of accelerations; twice as much leaves 1e-8 of a rate.
+const PART: f64 = 5e-5;
 
 /// Factor of the time after a difference that left the limits, and maximum number of such attempts: the last is 1 µm in
 /// 10 m.
@@ -28,7 +28,7 @@ struct LengthMotion {
 }
 
 /// Adds rates and accelerations to a state; false if neighbouring times have no tensions, and they stay zero.
-pub(super) fn add(model: &LoopModel, input: &LoopInput, solved: &mut Solved) -> bool {
+pub(super) fn add(model: &LoopModel, input: &LoopInput, solved: &mut SolvedState) -> bool {
     let Some(mut time) = time_between(model, &input.motion) else { return true };
     for _ in 0..MAX_ATTEMPTS {
         if let Some(motion) = differences(model, input, solved, time) {
@@ -57,12 +57,17 @@ fn time_between(model: &LoopModel, motion: &PathPoint) -> Option<f64> {
 }
 
 /// Derivatives by differences over a time [s]; `None` if a neighbouring time has no tensions of the same kind.
-fn differences(model: &LoopModel, input: &LoopInput, solved: &Solved, time: f64) -> Option<[LengthMotion; MAX_CABLES]> {
+fn differences(
+    model: &LoopModel,
+    input: &LoopInput,
+    solved: &SolvedState,
+    time: f64,
+) -> Option<[LengthMotion; MAX_CABLES]> {
     let count = model.cables();
     let beside = |time: f64| {
         let at = input.motion.shifted(time);
         check_pose(model.robot(), &at.pose).ok()?;
-        solve(model, &at, &input.wrench(), Search::Near(&solved.near)).ok()
+        solve(model, &at, &input.wrench(), SearchStart::Near(&solved.near)).ok()
     };
     let (before, after) = (beside(-time)?, beside(time)?);
 

@@ -10,6 +10,7 @@ use crate::statics::{
     TensionRange,
 };
 use arrayvec::ArrayVec;
+use std::cmp::Ordering;
 
 /// Maximum numbers of Newton steps: from the last state, from the middle of the limits, and from a state near the
 /// limits to the centre. Three, ten and eight are usual.
@@ -26,7 +27,7 @@ pub(super) struct NearInverse {
 }
 
 /// Tensions and lengths at one time.
-pub(super) struct Solved {
+pub(super) struct SolvedState {
     pub(super) near: NearInverse,
     pub(super) state: LoopState,
     /// True if the centre is proved to be the only one, and the balance holds.
@@ -37,7 +38,7 @@ pub(super) struct Solved {
 
 /// Ways in which tensions are searched, each with its largest number of steps.
 #[derive(Debug, Clone, Copy)]
-pub(super) enum Search<'a> {
+pub(super) enum SearchStart<'a> {
     /// From a state nearby, for the minimum of the same function.
     Near(&'a NearInverse),
     /// From a state nearby or from the middle of the limits, for the best that there is.
@@ -49,12 +50,12 @@ pub(super) fn solve(
     model: &LoopModel,
     motion: &PathPoint,
     external: &Vec6,
-    search: Search<'_>,
-) -> Result<Solved, LoopFault> {
+    search: SearchStart<'_>,
+) -> Result<SolvedState, LoopFault> {
     let (robot, coordinates, pose) = (model.robot(), model.coordinates(), &motion.pose);
     let near = match search {
-        Search::Near(near) => Some(near),
-        Search::Best(near) => near,
+        SearchStart::Near(near) => Some(near),
+        SearchStart::Best(near) => near,
     };
 
     // The inertia is a load. Its size belongs to the sum of the forces.
@@ -76,7 +77,7 @@ pub(super) fn solve(
             CentreCable::within(curve, pose, coordinates, limits)
         });
     }
-    if let Some(cable) = cables.iter().position(|cable| !(cable.lower < cable.upper)) {
+    if let Some(cable) = cables.iter().position(|cable| cable.lower.partial_cmp(&cable.upper) != Some(Ordering::Less)) {
         return Err(LoopFault::LimitsContradict { cable });
     }
 
@@ -84,9 +85,9 @@ pub(super) fn solve(
     let count = cables.len();
     let mut search_for = CentreSearch::new(coordinates, &mut cables, &mut rows[..count], load);
     match search {
-        Search::Near(near) => from_near(&mut search_for, near, MAX_WARM_STEPS)?,
-        Search::Best(near) if model.has_choice() => best(&mut search_for, near)?,
-        Search::Best(near) => the_only(&mut search_for, near)?,
+        SearchStart::Near(near) => from_near(&mut search_for, near, MAX_WARM_STEPS)?,
+        SearchStart::Best(near) if model.has_choice() => best(&mut search_for, near)?,
+        SearchStart::Best(near) => the_only(&mut search_for, near)?,
     }
     Ok(collected(model, motion, &search_for))
 }
@@ -156,7 +157,7 @@ fn the_only(search: &mut CentreSearch<'_, '_>, near: Option<&NearInverse>) -> Re
 }
 
 /// State with the tensions of a search.
-fn collected(model: &LoopModel, motion: &PathPoint, search: &CentreSearch<'_, '_>) -> Solved {
+fn collected(model: &LoopModel, motion: &PathPoint, search: &CentreSearch<'_, '_>) -> SolvedState {
     let (robot, count) = (model.robot(), model.cables());
     let mut cables = [LoopCable::default(); MAX_CABLES];
     let (mut tau, mut limits) = ([0.0; MAX_CABLES], [[0.0; 2]; MAX_CABLES]);
@@ -195,12 +196,12 @@ fn collected(model: &LoopModel, motion: &PathPoint, search: &CentreSearch<'_, '_
         cables,
     };
     let near = NearInverse { tau, limits, multipliers: search.multipliers, potential: search.potential };
-    let mut solved = Solved { near, state: state.with_margins(count), is_proved, least_room };
+    let mut solved = SolvedState { near, state: state.with_margins(count), is_proved, least_room };
     solved.state.status = solved.status();
     solved
 }
 
-impl Solved {
+impl SolvedState {
     /// Trust in the tensions.
     fn status(&self) -> LoopStatus {
         let is_within = match self.near.potential {

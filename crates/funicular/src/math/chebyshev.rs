@@ -114,8 +114,9 @@ fn along_one(x: f64, degree: usize) -> Vec<f64> {
 /// M. Roberts, The unreasonable effectiveness of quasirandom sequences, 2018.
 pub fn even_point(variables: usize, index: usize) -> Vec<f64> {
     let root = (0..60).fold(2.0_f64, |x, _| (1.0 + x).powf(1.0 / (variables as f64 + 1.0)));
-    let part = |k: usize| (0.5 + (index as f64 + 1.0) * root.powi(-(k as i32 + 1))).fract();
-    (0..variables).map(|k| 2.0 * part(k) - 1.0).collect()
+    let multiple = |power: &f64| 2.0 * (0.5 + (index as f64 + 1.0) * power).fract() - 1.0;
+    let powers = std::iter::successors(Some(1.0 / root), |power| Some(power / root));
+    powers.take(variables).map(|power| multiple(&power)).collect()
 }
 
 /// Point `index` of a sequence that lies as densely as the points of Chebyshev: densest beside the sides of the box,
@@ -158,7 +159,7 @@ mod tests {
         assert!(basis.fitted(&points[..20], &values[..20]).is_none_or(|fit| !fit[0].iter().all(|c| c.abs() < 2.0)));
     }
 
-    /// Of a cube cut into eight, every part has its share of the points.
+    /// Every part of a cube cut into eight has its share of the points.
     #[test]
     fn points_are_spread_evenly() {
         let mut counts = [0; 8];

@@ -10,7 +10,7 @@ use funicular_study::text::significant;
 
 #[derive(Template)]
 #[template(path = "lengths.c", escape = "none")]
-struct Source {
+struct CSource {
     /// Beginning of all names, and in capital letters that of macros.
     p: String,
     m: String,
@@ -78,7 +78,7 @@ pub(super) fn text(of: &Firmware) -> Result<String> {
     let straight = |at: &Vec<f64>, cable: usize| table.lines[cable].length(&table.pose_box.pose(at));
     let all = || tests.iter().flat_map(|at| (0..table.lines.len()).map(move |cable| straight(at, cable)));
     let of_cable = |coefficients: &Vec<f64>| coefficients.iter().map(|c| c.abs()).sum::<f64>();
-    let source = Source {
+    let source = CSource {
         m: p.to_ascii_uppercase(),
         about: about(of),
         cables: table.lines.len(),

@@ -1,4 +1,4 @@
-//! Table of lengths in JSON.
+//! JsonTable of lengths in JSON.
 
 use super::{COORDINATES, Firmware};
 use anyhow::Result;
@@ -8,7 +8,7 @@ use serde::Serialize;
 const SCHEMA: &str = "funicular-length-table/1";
 
 #[derive(Serialize)]
-struct Table {
+struct JsonTable {
     schema: &'static str,
     meaning: &'static str,
     robot: String,
@@ -83,7 +83,7 @@ pub(super) fn text(of: &Firmware) -> Result<String> {
         at,
     };
     let axes = table.pose_box.sides().iter();
-    let whole = Table {
+    let whole = JsonTable {
         schema: SCHEMA,
         meaning: MEANING,
         robot: of.robot.name.clone(),

@@ -167,7 +167,9 @@ impl RequiredSet {
             let mut blended: Vec<f64> = from.iter().zip(to).map(|(a, b)| a + share * (b - a)).collect();
             let size = blended.iter().map(|of| of * of).sum::<f64>().sqrt();
             if matches!(part, LoadPart::Ball(_)) && size > 0.0 {
-                blended.iter_mut().for_each(|of| *of /= size);
+                for of in &mut blended {
+                    *of /= size;
+                }
             }
             blended
         };

@@ -21,7 +21,7 @@ const MAX_STEPS: usize = 30;
 /// thousandth a step.
 const LAST_STEP: f64 = 1e-11;
 
-/// The same for a search that begins at the limit of a pose nearby: a step this small leaves less than [`LAST_STEP`].
+/// Last step of a search that begins at the limit of a pose nearby: a step this small leaves less than [`LAST_STEP`].
 const LAST_STEP_NEAR: f64 = 1e-8;
 
 /// Minimum slope of a tension by τ; see `MIN_SLOPE` in `tension/search.rs`.

@@ -23,9 +23,9 @@ const KEPT: f64 = 0.1;
 const ROUNDING: f64 = 1e-5;
 
 /// Numbers from 0 to 1 of a line.
-struct Random(u64);
+struct RandomNumbers(u64);
 
-impl Random {
+impl RandomNumbers {
     fn next(&mut self) -> f64 {
         self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         (self.0 >> 11) as f64 / (1_u64 << 53) as f64
@@ -91,7 +91,7 @@ fn tensions_of_centre_and_lowest_do_not_jump_on_lines_of_all_robots() {
     let mut worst = (0.0, 0);
     for line in asked.clone() {
         let (robot, base) = &robots[line as usize % robots.len()];
-        let mut random = Random(line.wrapping_mul(0x9e37_79b9_7f4a_7c15) ^ 0x5bd1_e995);
+        let mut random = RandomNumbers(line.wrapping_mul(0x9e37_79b9_7f4a_7c15) ^ 0x5bd1_e995);
         let length = robot.cables.iter().map(|cable| cable.chord_w(base).norm()).fold(f64::INFINITY, f64::min);
         let mut end = || {
             let reach = |k: usize| if k < 3 { 0.25 * length } else { 0.15 };
