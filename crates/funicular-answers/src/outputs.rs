@@ -1,5 +1,5 @@
 //! Files that commands write besides their result: one table, from which the program has its options, Python its
-//! keywords and a request in JSON its `files`.
+//! keywords and a request in JSON its `write_files`.
 
 use crate::destination::{Bytes, Content, Destination};
 use crate::matrices;
@@ -23,7 +23,7 @@ use std::path::{Path, PathBuf};
 
 /// File that a command writes besides its result.
 pub struct Output {
-    /// Name: of the option, written with `-` for `_`, of the keyword and of the key in `files` of a request.
+    /// Name: of the option, written with `-` for `_`, of the keyword and of the key in `write_files` of a request.
     pub key: &'static str,
     /// Meaning.
     pub about: &'static str,
@@ -672,7 +672,7 @@ pub fn told(path: &Path, size: Option<&str>) -> String {
 }
 
 /// Key of a request in JSON with the files that it wants: an object with the keys of the table.
-pub const FILES: &str = "files";
+pub const FILES: &str = "write_files";
 
 /// Takes the wanted files out of a request in JSON.
 ///
@@ -730,4 +730,21 @@ pub fn schema(command: &str) -> Option<Value> {
         "properties": outputs.iter().map(property).collect::<Map<_, _>>(),
         "additionalProperties": false,
     }))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{FILES, OUTPUTS};
+    use funicular_study::request::commands;
+
+    #[test]
+    fn no_key_of_a_request_has_the_name_of_a_file_that_is_written() {
+        for (command, outputs) in OUTPUTS {
+            let info = commands().iter().find(|info| info.name == *command);
+            let keys: Vec<&str> = info.into_iter().flat_map(|info| &info.keys).map(|key| key.name).collect();
+            assert!(!keys.is_empty(), "{command} is a command");
+            assert!(outputs.iter().all(|output| !keys.contains(&output.key)), "{command}");
+        }
+        assert!(commands().iter().all(|info| info.keys.iter().all(|key| key.name != FILES)));
+    }
 }
