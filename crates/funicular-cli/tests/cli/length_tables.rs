@@ -50,9 +50,9 @@ fn cases() -> Vec<Case> {
 impl Case {
     /// Export of the case; `more` are further options.
     fn export(&self, to: &str, path: &str, more: &[&str]) -> std::process::Output {
+        let tolerance = self.tolerance.to_string();
         let sides: Vec<String> = self.sides.iter().map(|(axis, from, to)| format!("{axis}={from}:{to}")).collect();
         let within = sides.iter().flat_map(|side| ["--within", side.as_str()]);
-        let tolerance = self.tolerance.to_string();
         let first = ["export", &self.robot, "--to", to, "--tolerance-m", &tolerance, "-o", path];
         let arguments: Vec<&str> = first.into_iter().chain(within).chain(self.options.iter().copied()).collect();
         run(&[&arguments[..], more].concat())
