@@ -83,7 +83,7 @@ pub unsafe extern "C" fn fn_flat_cables(session: *mut Session) -> i32 {
         return BAD_POINTER;
     }
     // SAFETY: promised by the caller.
-    unsafe { (*(*session).model).model.cables() as i32 }
+    unsafe { (*(*session).model).checked.cables() as i32 }
 }
 
 /// `fn_flat_reset`: the next call starts cold.
@@ -189,7 +189,7 @@ pub unsafe extern "C" fn fn_flat_forward(
         };
         // SAFETY: promised by the caller; the arrays have as many numbers as the session has cables.
         unsafe {
-            let count = (*(*session).model).model.cables();
+            let count = (*(*session).model).checked.cables();
             let lengths = read_array(length_m, count)?;
             let handle = &raw mut (*session).of;
             let count = count as u32;
@@ -229,7 +229,7 @@ pub unsafe extern "C" fn fn_flat_wrench(
         let mut result = WrenchResult { struct_size: size_of::<WrenchResult>() as u32, ..WrenchResult::default() };
         // SAFETY: promised by the caller; there are as many tensions as the session has cables.
         unsafe {
-            let (input, count) = (input_of(input)?, (*(*session).model).model.cables());
+            let (input, count) = (input_of(input)?, (*(*session).model).checked.cables());
             let tensions = read_array(tension_drum_n, count)?;
             let handle = &raw mut (*session).of;
             let status = fn_wrench(handle, &raw const input, tensions.as_ptr(), count as u32, &raw mut result);

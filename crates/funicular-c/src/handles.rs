@@ -16,7 +16,7 @@ pub struct Model {
     kind: AtomicU64,
     /// Number of loops that have not ended.
     loops: AtomicU32,
-    pub(crate) model: LoopModel,
+    pub(crate) checked: LoopModel,
 }
 
 /// `fn_loop`: the memory of a loop.
@@ -31,7 +31,7 @@ pub struct Loop {
 
 impl Model {
     pub(crate) fn new(model: LoopModel) -> Box<Self> {
-        Box::new(Self { kind: AtomicU64::new(MODEL), loops: AtomicU32::new(0), model })
+        Box::new(Self { kind: AtomicU64::new(MODEL), loops: AtomicU32::new(0), checked: model })
     }
 
     /// Model at an address.
@@ -104,7 +104,7 @@ impl Loop {
             POISONED
         } else {
             // SAFETY: a model does not end before its loops, and `busy` makes this the only reference to the state.
-            let (model, state) = unsafe { (&(*this.model).model, &mut *this.state.get()) };
+            let (model, state) = unsafe { (&(*this.model).checked, &mut *this.state.get()) };
             guarded(|| work(model, state).unwrap_or_else(|status| status)).unwrap_or_else(|| {
                 this.poisoned.store(true, Ordering::Relaxed);
                 PANIC

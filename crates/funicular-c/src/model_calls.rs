@@ -117,7 +117,7 @@ pub unsafe extern "C" fn fn_model_cables(model: *const Model, cables: *mut u32) 
         let model = unsafe { Model::at(model) }?;
         check(cables)?;
         // SAFETY: checked.
-        unsafe { cables.write(model.model.cables() as u32) };
+        unsafe { cables.write(model.checked.cables() as u32) };
         Ok(CERTIFIED)
     };
     count().unwrap_or_else(|status| status)

@@ -6,7 +6,11 @@ use funicular::control_loop::{LoopFault, LoopStatus};
 /// one nothing was written.
 macro_rules! statuses {
     ($($name:ident = $number:literal, $text:literal;)*) => {
-        $(#[doc = $text] pub const $name: i32 = $number;)*
+        $(
+            #[doc = $text]
+            #[allow(clippy::doc_markdown, reason = "texts for people, who see no marks")]
+            pub const $name: i32 = $number;
+        )*
 
         /// All statuses: name in the header, number, text.
         pub const ALL: &[(&str, i32, &str)] = &[$((concat!("FN_", stringify!($name)), $number, $text)),*];

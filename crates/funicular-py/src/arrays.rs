@@ -448,8 +448,8 @@ impl Numbers {
         let (flat, columns) = self.rows(what)?;
         if columns != cables.len() {
             return Err(errors::input(format!(
-                "`{what}` has rows of {columns} numbers, and the robot has {} cables: give one number per cable, in the \
-                 order of the file",
+                "`{what}` has rows of {columns} numbers, and the robot has {} cables: give one number per cable, in \
+                 the order of the file",
                 cables.len()
             )));
         }

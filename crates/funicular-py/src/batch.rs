@@ -53,8 +53,8 @@ impl States {
                 let (flat, columns) = poses.poses("poses")?;
                 if ![3, 6, 7].contains(&columns) {
                     return Err(errors::input(format!(
-                        "`poses` has rows of {columns} numbers: give x, y, z, these and roll, pitch, yaw in degrees, or \
-                         these and a quaternion w, x, y, z"
+                        "`poses` has rows of {columns} numbers: give x, y, z, these and roll, pitch, yaw in degrees, \
+                         or these and a quaternion w, x, y, z"
                     )));
                 }
                 Ok(Self { poses: true, flat, columns })

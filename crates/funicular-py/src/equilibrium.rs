@@ -237,8 +237,8 @@ impl PyEquilibrium {
     /// Parameters
     /// ----------
     /// another_stable_equilibrium
-    ///     Search for another stable equilibrium of the same lengths, too, as the program does. The search takes about a
-    ///     hundred times as long as the equilibrium; the key of this name is absent if there is none.
+    ///     Search for another stable equilibrium of the same lengths, too, as the program does. The search takes
+    ///     about a hundred times as long as the equilibrium; the key of this name is absent if there is none.
     #[pyo3(signature = (*, another_stable_equilibrium=false))]
     fn to_dict<'py>(&self, py: Python<'py>, another_stable_equilibrium: bool) -> PyResult<TextKeyed<'py>> {
         let extras = Extras { alone: !another_stable_equilibrium, ..Extras::default() };

@@ -1,5 +1,5 @@
-//! Labels of tables and series (pandas, polars, pyarrow): a labelled number is taken by its name or refused, because its
-//! place may be another one than that of an array.
+//! Labels of tables and series (pandas, polars, pyarrow): a labelled number is taken by its name or refused, because
+//! its place may be another one than that of an array.
 
 use crate::elements::{Unusable, has_method, read, short};
 use numpy::ndarray::ArrayD;

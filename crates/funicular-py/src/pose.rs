@@ -155,8 +155,8 @@ pub(crate) fn of_row(what: &str, row: &[f64]) -> Result<request::Pose, String> {
         [x, y, z, roll, pitch, yaw] => Ok(request::Pose::Angles([x, y, z, roll, pitch, yaw])),
         [x, y, z, w, i, j, k] => Ok(request::Pose::Quaternion([x, y, z], [w, i, j, k])),
         _ => Err(format!(
-            "`{what}` has {} numbers: give x, y, z, these and roll, pitch, yaw in degrees, or these and a quaternion w, x, \
-             y, z",
+            "`{what}` has {} numbers: give x, y, z, these and roll, pitch, yaw in degrees, or these and a quaternion \
+             w, x, y, z",
             row.len()
         )),
     }

@@ -362,8 +362,8 @@ pub(crate) fn sizes(name: &str, given: &Bound<'_, PyAny>) -> PyResult<Vec<String
     let Ok::<Texts, Infallible>(texts) = given.extract();
     texts.list(name).map_err(|_| {
         errors::input(format!(
-            "`{name}` is no mapping from paths to numbers: give one, as in {{\"platform.mass_kg\": \"1%\"}}, or a list of \
-             texts, as in [\"platform.mass_kg=1%\"]"
+            "`{name}` is no mapping from paths to numbers: give one, as in {{\"platform.mass_kg\": \"1%\"}}, or a list \
+             of texts, as in [\"platform.mass_kg=1%\"]"
         ))
     })
 }

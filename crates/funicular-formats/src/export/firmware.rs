@@ -173,22 +173,10 @@ fn pose_box(robot: &Robot, within: &[Axis]) -> Result<PoseBox> {
         }
     }
 
-    let base = base_pose(robot, &ends)?;
-    let mut position: [f64; 3] = base.position_w.into();
-    let mut angles = [0.0; 3];
-    let fixes_angles = ends[3..].iter().any(Option::is_some);
-    if fixes_angles {
-        angles = funicular::math::rotation::to_roll_pitch_yaw_deg(&base.rot_wp);
-    }
     let mut sides = Vec::new();
     for (axis, ends) in ends.iter().enumerate() {
-        let Some([from, to]) = *ends else { continue };
-        if from < to {
+        if let Some([from, to]) = ends.filter(|[from, to]| from < to) {
             sides.push(side(robot, axis, from, to)?);
-        }
-        match axis {
-            0..3 => position[axis] = from,
-            _ => angles[axis - 3] = from,
         }
     }
     if sides.is_empty() {
@@ -198,6 +186,16 @@ fn pose_box(robot: &Robot, within: &[Axis]) -> Result<PoseBox> {
         );
     }
 
+    let base = base_pose(robot, &ends)?;
+    let mut position: [f64; 3] = base.position_w.into();
+    let mut angles = [0.0; 3];
+    let fixes_angles = ends[3..].iter().any(Option::is_some);
+    if fixes_angles {
+        angles = funicular::math::rotation::to_roll_pitch_yaw_deg(&base.rot_wp);
+    }
+    for (coordinate, ends) in position.iter_mut().chain(&mut angles).zip(&ends) {
+        *coordinate = ends.map_or(*coordinate, |[from, _]| from);
+    }
     let base = if fixes_angles {
         Pose::new(position, angles)
     } else {

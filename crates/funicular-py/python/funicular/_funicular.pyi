@@ -785,8 +785,8 @@ class Equilibrium(Analyses):
         Parameters
         ----------
         another_stable_equilibrium
-            Search for another stable equilibrium of the same lengths, too, as the program does. The search takes about a
-            hundred times as long as the equilibrium; the key of this name is absent if there is none.
+            Search for another stable equilibrium of the same lengths, too, as the program does. The search takes
+            about a hundred times as long as the equilibrium; the key of this name is absent if there is none.
         """
     def to_pandas(self, /) -> Any:
         """
@@ -947,7 +947,8 @@ class Robot(Analyses):
     def parameters(self, /) -> dict[str, Any]:
         """
         Returns every number of the robot file, with the keys of the program's `parameters`: `path`, `value`, `unit`,
-        `range`, `minimum`, `maximum`, `meaning`, `label` (name in words with the unit) and `given`. `Robot.with_` and `vary=` use the same paths.
+        `range`, `minimum`, `maximum`, `meaning`, `label` (name in words with the unit) and `given`. `Robot.with_` and `vary=`
+        use the same paths.
         """
     def request(self, /, command: "str", **keywords: "object") -> dict[str, Any]:
         """

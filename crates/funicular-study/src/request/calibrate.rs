@@ -20,7 +20,7 @@ declared! {
         /// cable was slack or not read; x_m, y_m, z_m and, where the platform turns, roll_deg, pitch_deg, yaw_deg are
         /// poses at which the search begins; tension_NAME_n are tensions at the anchors [N], which elastic cables need.
         readings: GappedColumns = GappedColumns::new() => (GappedColumns).required()
-            .from_file(Reader::GappedColumns, "the readings");
+            .read_by(Reader::GappedColumns, "the readings");
         /// Rows of the readings that are left out, by their numbers from 1, separated by commas.
         leave_out: Vec<f64> = Vec::new() => (Commas(ProgramForm::Positive)).form("ROWS");
         /// Numbers to find, separated by commas: anchors, attachments, offsets (length of each cable at the reading
@@ -65,7 +65,7 @@ declared! {
         grid: Vec<Axis> = Vec::new() => (List(ProgramForm::GridAxis)).form("AXIS=A:B:N|V,V,…").under("Proposal");
         /// Candidates of a proposal instead of a grid: position [m] and roll, pitch, yaw [degrees].
         poses: Option<Vec<[f64; 6]>> = None => (Poses).under("Proposal").excludes(&["grid"])
-            .from_file(Reader::Poses, "the poses");
+            .read_by(Reader::Poses, "the poses");
         /// Numbers whose deviations the proposal reduces: kinds as in ⟪unknowns⟫, or paths of values.
         propose_for: Vec<String> = Vec::new() => (Texts).form("NAMES").under("Proposal").otherwise("all unknowns");
         /// Criterion of the proposal.

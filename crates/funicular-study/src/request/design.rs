@@ -23,7 +23,7 @@ declared! {
         goal: DesignGoal = DesignGoal::default() => (name::<DesignGoal>()).form("GOAL");
         /// Poses: position [m] and roll, pitch, yaw [degrees].
         poses: Option<Vec<[f64; 6]>> = None => (Poses).otherwise("the pose of the state").excludes(&["pose"])
-            .from_file(Reader::Poses, "the poses");
+            .read_by(Reader::Poses, "the poses");
         /// Weights of the poses, for their mean instead of the worst pose.
         weights: Option<Vec<f64>> = None => (Commas(ProgramForm::Positive)).form("W1,W2,…");
         /// Demand: first natural frequency at every pose of at least HZ.

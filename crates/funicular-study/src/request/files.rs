@@ -23,7 +23,7 @@ declared! {
         /// attachment x, y, z in the platform frame; a first line may name the columns: name, anchor_x, …,
         /// attachment_z.
         from_csv: Option<SourceFile> = None => (Data(shape::file))
-            .from_file(Reader::Source, "the table of points");
+            .read_by(Reader::Source, "the table of points");
         /// Unit of the points in the table.
         #[serde(with = "optional")]
         csv_unit: Option<LengthUnit> = None => (name::<LengthUnit>()).form("UNIT")
@@ -83,7 +83,7 @@ declared! {
     pub struct ImportRequest {
         /// Files of one robot; their format is recognised from their content.
         files: Vec<SourceFile> = Vec::new() => (Data(shape::files)).required()
-            .from_file(Reader::Sources, "the source file");
+            .read_by(Reader::Sources, "the source file");
         /// Name of the cable set if a CASPR file has several.
         cable_set: Option<String> = None => (Text).form("NAME").otherwise("from the file");
         /// Name of a trajectory of a CASPR file; it is written instead of the robot, as a table that `trajectory` and
@@ -134,7 +134,7 @@ declared! {
         /// Events that MoorDyn runs from the equilibrium on, as in `simulate`: lists `release`, `lengths`, `stop` and
         /// `cut`. The file is then a Python script with the input file in it.
         scenario: Option<Scenario> = None => (Data(shape::scenario))
-            .from_file(Reader::Scenario, "the scenario");
+            .read_by(Reader::Scenario, "the scenario");
         /// Time that MoorDyn simulates with ⟪scenario⟫ [s].
         duration_s: Option<f64> = None => (Number(Positive)).otherwise("10 with a scenario");
         /// Side of the box of poses for C and JSON: x, y, z [m], roll, pitch, yaw [degrees] from A to B, or at one

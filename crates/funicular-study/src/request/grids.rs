@@ -55,7 +55,7 @@ declared! {
         grid: Vec<Axis> = Vec::new() => (List(ProgramForm::GridAxis)).form("AXIS=A:B:N|V,V,…");
         /// List of poses instead of a grid: position [m] and roll, pitch, yaw [degrees].
         poses: Option<Vec<[f64; 6]>> = None => (Poses).excludes(&["grid", "pose", "lengths_m"])
-            .from_file(Reader::Poses, "the poses");
+            .read_by(Reader::Poses, "the poses");
         /// Quantities and options of every point.
         #[serde(flatten)]
         point: EachPoint = EachPoint::default() => group;
@@ -97,7 +97,7 @@ declared! {
     pub struct MergeRequest {
         /// Parts, in any order.
         parts: Vec<String> = Vec::new() => (Data(shape::texts)).required().form("PART.parquet")
-            .from_file(Reader::Paths, "the rows in");
+            .read_by(Reader::Paths, "the rows in");
     }
     examples {
         "funicular merge part-*.parquet -o all.parquet",
@@ -114,7 +114,7 @@ declared! {
     pub struct PlotRequest {
         /// File that `map` or `sweep` has written.
         file: String = String::new() => (Data(shape::text)).required().form("FILE.parquet")
-            .from_file(Reader::Path, "the rows in");
+            .read_by(Reader::Path, "the rows in");
     }
     examples {
         "funicular map robots/cogiro.toml --grid x=-6:6:25 --grid y=-4:4:17 --grid z=0.5:3.5:7 \\\n    --quantity \

@@ -47,7 +47,7 @@ declared! {
         grid: Vec<Axis> = Vec::new() => (List(ProgramForm::GridAxis)).form("AXIS=A:B:N|V,V,…").under("Proposal");
         /// Poses of a proposal instead of a grid: position [m] and roll, pitch, yaw [degrees].
         poses: Option<Vec<[f64; 6]>> = None => (Poses).under("Proposal").excludes(&["grid"])
-            .from_file(Reader::Poses, "the poses");
+            .read_by(Reader::Poses, "the poses");
         /// Quantities that can be measured at each of these poses, separated by commas: frequencies (the lowest ones),
         /// tensions, lengths, pose (at the lengths of the file's robot there). Other loads are those of the first
         /// experiment.

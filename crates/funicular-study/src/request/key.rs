@@ -228,7 +228,7 @@ impl Key {
     }
 
     /// Names the file from which the program reads the value.
-    pub(crate) fn from_file(self, reader: Reader, role: &'static str) -> Self {
+    pub(crate) fn read_by(self, reader: Reader, role: &'static str) -> Self {
         Self { file: Some(InputFile { reader, role }), ..self }
     }
 

@@ -17,7 +17,7 @@ declared! {
         robot: RobotText = RobotText::default() => (Data(shape::robot)).required();
         /// Events: lists `release`, `pick`, `lengths`, `tension`, `stop`, `push` and `cut` of events.
         scenario: Scenario = Scenario::default() => (Data(shape::scenario))
-            .from_file(Reader::Scenario, "the scenario");
+            .read_by(Reader::Scenario, "the scenario");
         /// Simulated time [s].
         duration_s: f64 = SIMULATED_S => (Number(Positive));
         /// Time between the rows of the result [s].

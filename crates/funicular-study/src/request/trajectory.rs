@@ -16,7 +16,7 @@ declared! {
         /// Path: columns t_s [s], x_m, y_m, z_m [m] and, where the platform turns, roll_deg, pitch_deg, yaw_deg; a
         /// spline of the fifth degree passes the rows.
         path: Option<NumberColumns> = None => (Columns).under("Path").excludes(&["pose", "lengths_m"])
-            .from_file(Reader::Columns, "the path");
+            .read_by(Reader::Columns, "the path");
         /// Smooth the rows of ⟪path⟫ by less than this distance [m]: half a unit of their last digit takes their
         /// rounding out. Angles change by less than what moves the attachments as far.
         row_tolerance_m: Option<f64> = None => (Number(Positive)).under("Path")
@@ -26,7 +26,7 @@ declared! {
         move_to: Option<Pose> = None => (Pose).under("Path");
         /// Poses on the way to ⟪move_to⟫: position [m] and roll, pitch, yaw [degrees].
         via: Option<Vec<[f64; 6]>> = None => (Poses).under("Path").needs("move_to")
-            .from_file(Reader::Poses, "the poses");
+            .read_by(Reader::Poses, "the poses");
         /// Pick and place: lift the platform by this height [m], carry it to ⟪move_to⟫, and lower it there.
         lift_m: Option<f64> = None => (Number(Positive)).under("Path").needs("move_to");
         /// Part of the time of slowing down by which the next move begins earlier, so that the path rounds the corner:

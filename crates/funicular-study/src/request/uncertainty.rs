@@ -46,7 +46,7 @@ declared! {
         points: ResponsePoints = ResponsePoints::default() => group;
         /// List of poses instead of the state: position [m] and roll, pitch, yaw [degrees].
         poses: Option<Vec<[f64; 6]>> = None => (Poses).excludes(&["pose", "lengths_m"])
-            .from_file(Reader::Poses, "the poses");
+            .read_by(Reader::Poses, "the poses");
         /// Method for the deviations.
         #[serde(with = "crate::names")]
         method: UncertaintyMethod = UncertaintyMethod::default() => (name::<UncertaintyMethod>()).form("METHOD");

@@ -136,7 +136,7 @@ declared! {
         /// Trajectory that the lengths command, from rest to rest: columns t_s [s], and either x_m, y_m, z_m, roll_deg,
         /// pitch_deg, yaw_deg or unstrained_length_NAME_m of every cable [m]; between the rows the lengths change in
         /// straight lines. Without a pose and lengths the state is that of the last row.
-        trajectory: Option<NumberColumns> = None => (Columns).from_file(Reader::Columns, "the trajectory");
+        trajectory: Option<NumberColumns> = None => (Columns).read_by(Reader::Columns, "the trajectory");
         /// Times of the command [s], each at most the one before. A move has T1 from the start of the acceleration to
         /// the start of the deceleration, T2 for each of the two, and T3 for each change of the acceleration; a stop
         /// has T1 for the deceleration, and T2 and T3 for its changes. The command takes their sum; without them a stop
@@ -207,7 +207,7 @@ declared! {
         /// lateral_m2_s and up_m2_s [m²/s² per Hz], straight between the rows and constant below the first. With
         /// ⟪intensity⟫ their integrals are compared with it.
         spectrum: Option<NumberColumns> = None => (Columns).under("Gusts")
-            .from_file(Reader::Columns, "the spectra");
+            .read_by(Reader::Columns, "the spectra");
         /// Turbulence about the mean wind.
         #[serde(flatten)]
         gusts: TurbulenceOptions = TurbulenceOptions::default() => group;

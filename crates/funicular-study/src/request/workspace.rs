@@ -42,7 +42,7 @@ declared! {
         section: Vec<Axis> = Vec::new() => (List(ProgramForm::GridAxis)).form("AXIS=V,V,…").under("Set");
         /// Robot file whose set is compared with this one, on the same grid and with the same options.
         compare: Option<RobotText> = None => (Data(shape::robot)).under("Set")
-            .from_file(Reader::Robot, "the other robot file");
+            .read_by(Reader::Robot, "the other robot file");
         /// State and loads; the pose gives the orientation for axes that the grid does not have.
         #[serde(flatten)]
         point: PointOptions = PointOptions::default() => (group without ["lengths_m", "hold_lengths_of_pose"]);

@@ -203,7 +203,8 @@ fn comment(text: &str) -> String {
 fn stem<'a>(of: &'a Firmware) -> &'a str {
     let file = of.request.robot.name.rsplit(['/', '\\']).next().unwrap_or_default();
     let stem = file.split('.').next().unwrap_or_default();
-    if stem.contains(|c: char| c.is_ascii_alphanumeric()) { stem } else { &of.robot.name }
+    // Standard input is no file.
+    if !file.starts_with('<') && stem.contains(|c: char| c.is_ascii_alphanumeric()) { stem } else { &of.robot.name }
 }
 
 /// Beginning of names in C from the name of a robot: its letters without accents and digits in small letters, all else
@@ -237,7 +238,7 @@ fn hexadecimal(value: f64) -> String {
     match exponent {
         0 if mantissa == 0 => format!("{sign}0x0p+0"),
         0 => format!("{sign}0x0.{mantissa:013x}p-1022"),
-        _ => format!("{sign}0x1.{mantissa:013x}p{:+}", exponent as i64 - 1023),
+        _ => format!("{sign}0x1.{mantissa:013x}p{:+}", exponent.cast_signed() - 1023),
     }
 }
 

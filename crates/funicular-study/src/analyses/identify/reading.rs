@@ -53,7 +53,7 @@ fn median_magnitude(values: &[Complex]) -> f64 {
 }
 
 /// Reads the measurements of an experiment.
-struct Reader<'a> {
+struct ExperimentReader<'a> {
     experiment: &'a Experiment,
     /// Index of the experiment.
     number: usize,
@@ -73,7 +73,7 @@ pub(super) fn observations(
     name: &str,
     request: &IdentifyRequest,
 ) -> Result<Vec<Observation>> {
-    let mut reader = Reader { experiment, number, name, request, found: Vec::new() };
+    let mut reader = ExperimentReader { experiment, number, name, request, found: Vec::new() };
     reader.read_statics()?;
     reader.read_frequencies()?;
     reader.read_damping()?;
@@ -89,7 +89,7 @@ pub(super) fn observations(
     Ok(reader.found)
 }
 
-impl Reader<'_> {
+impl ExperimentReader<'_> {
     fn add(&mut self, subject: Subject, measured: Complex, deviation: f64) {
         let experiment = self.number;
         self.found.push(Observation { subject, experiment, measured, deviation, noise: None, is_assigned: false });

@@ -75,7 +75,7 @@ fn functions<'a>(lines: &[&'a str]) -> Vec<(&'a str, usize)> {
             rest.starts_with('}') || (!rest.starts_with([' ', ')']) && rest.ends_with(['}', ';']))
         };
         let body = lines[at..].iter().position(ends).map_or(0, |end| end + 1);
-        found.push((name, lines[at..at + body].iter().copied().filter(|line| is_code(&line)).count()));
+        found.push((name, lines[at..at + body].iter().copied().filter(is_code).count()));
     }
     found
 }
