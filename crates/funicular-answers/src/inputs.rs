@@ -63,7 +63,9 @@ impl FileKey<'_> {
         let InputFile { reader, role } = self.file;
         let [path, ..] = paths else { bail!("⟪{}⟫ needs the name of a file", self.key) };
         if reader != Reader::Robot {
-            paths.iter().for_each(|path| read.add(role, path));
+            for path in paths {
+                read.add(role, path);
+            }
         }
         let robot = || robot.context("the file belongs to a robot");
 

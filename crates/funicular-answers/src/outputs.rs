@@ -22,6 +22,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 /// File that a command writes besides its result.
+#[expect(clippy::struct_excessive_bools, reason = "a row of a table")]
 pub struct Output {
     /// Name: of the option, written with `-` for `_`, of the keyword and of the key in `write_files` of a request.
     pub key: &'static str,
@@ -153,6 +154,7 @@ macro_rules! of {
     };
 }
 
+#[expect(clippy::unnecessary_wraps, reason = "others refuse")]
 fn always(_: &Given, _: &Path) -> Result<()> {
     Ok(())
 }
@@ -600,7 +602,7 @@ impl Opened {
                 }
                 Make::Bytes(make) => make(&at, kind)?,
             };
-            Ok(Written { destination, bytes, warnings, notes, size })
+            Ok(Written { destination, bytes, size, warnings, notes })
         };
         files.into_iter().map(made).collect()
     }

@@ -8,7 +8,6 @@ macro_rules! statuses {
     ($($name:ident = $number:literal, $text:literal;)*) => {
         $(
             #[doc = $text]
-            #[allow(clippy::doc_markdown, reason = "texts for people, who see no marks")]
             pub const $name: i32 = $number;
         )*
 

@@ -1,6 +1,7 @@
 //! The C functions as a C program calls them: results of the core, every wrong use with its status, nothing reserved in
 //! the loop, the same digits in every thread, and a long run of random poses.
 #![allow(missing_docs)]
+#![allow(clippy::undocumented_unsafe_blocks, reason = "every call here is one that a C program could make")]
 
 mod counting;
 
@@ -371,7 +372,7 @@ fn addresses_sizes_and_handles_that_are_wrong_have_a_status() {
         assert_eq!(fn_inverse(handle, &raw const later, &raw mut result), CERTIFIED);
 
         // Handles.
-        let mut nothing = [0_u64; 4096];
+        let mut nothing = vec![0_u64; 4096];
         let no_loop = nothing.as_mut_ptr().cast::<Loop>();
         assert_eq!(fn_inverse(no_loop, &raw const input, &raw mut result), BAD_HANDLE);
         assert_eq!(fn_model_free(no_loop.cast()), BAD_HANDLE);

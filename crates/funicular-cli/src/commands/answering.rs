@@ -156,7 +156,9 @@ fn results(
     {
         errors::note(&told(path, Some(&counted(found.evaluations, "robot"))));
     }
-    warnings.iter().for_each(|warning| errors::warn(warning));
+    for warning in &warnings {
+        errors::warn(warning);
+    }
     partial.into_iter().for_each(PartialRows::remove);
     stopped.map_or(Ok(()), Err)
 }
@@ -264,7 +266,9 @@ fn document(cli: &Cli, request: &Request, form: Form, asked: Asked, guard: &mut 
         warnings = made.warnings;
     }
     write(&files, &mut warnings)?;
-    warnings.iter().for_each(|warning| errors::warn(warning));
+    for warning in &warnings {
+        errors::warn(warning);
+    }
     Ok(())
 }
 

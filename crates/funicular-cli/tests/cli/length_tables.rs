@@ -2,6 +2,7 @@
 
 use super::{csv, json, number, numbers, robot, run, run_with, stderr, stdout, succeed};
 use serde_json::Value;
+use std::fmt::Write as _;
 use std::fs;
 use std::path::Path;
 use std::process::Command;
@@ -79,12 +80,14 @@ fn caller(axes: usize) -> String {
     let shifted = |sign: &str| (0..axes).map(|i| format!("p[{i}] {sign} step")).collect::<Vec<_>>().join(", ");
     let mut differences = String::new();
     for k in 0..axes {
-        differences += &format!(
+        writeln!(
+            differences,
             "      d = g[{k}] - (t_length_m(c, {}) - t_length_m(c, {})) / (2 * step);\n      if (d < 0) d = -d;\n      \
-             if (!(d < worst)) worst = d;\n",
+             if (!(d < worst)) worst = d;",
             at(Some(k), "+"),
             at(Some(k), "-")
-        );
+        )
+        .unwrap();
     }
     format!(
         "#include <stdio.h>\n#define T_DECLARATIONS\n#include \"t.c\"\nint main(void) {{\n  double p[T_AXES], \
@@ -183,7 +186,7 @@ fn firmware_has_the_lengths_of_statics_in_double_and_in_float() {
             assert_eq!(bad, 0, "{}: self-test", case.name);
             let mut worst = 0.0_f64;
             for (row, lengths) in rows.iter().zip(&inside) {
-                assert_eq!(row[0], 0.0, "{}: inside", case.name);
+                assert!(row[0] == 0.0, "{}: inside", case.name);
                 worst = row[1..].iter().zip(lengths).map(|(a, b)| (a - b).abs()).fold(worst, f64::max);
             }
             println!("{}: {} mm of {} mm", case.name, 1e3 * worst, 1e3 * case.tolerance);

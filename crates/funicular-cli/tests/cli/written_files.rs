@@ -79,7 +79,7 @@ fn a_file_is_told_and_the_text_is_printed_by_every_command_and_from_every_front(
             let said = stderr(&by_option);
             assert_eq!(by_option.status.code(), Some(0), "{}: {said}", of("option"));
             assert!(same(stdout(&by_option)), "{}: {}", of("option"), stdout(&by_option));
-            assert_eq!(told(said), [own.clone()], "{}", of("option"));
+            assert_eq!(told(said), std::slice::from_ref(&own), "{}", of("option"));
             let bytes = fs::read(&own).unwrap();
             assert!(!bytes.is_empty(), "{}", of("option"));
 
@@ -89,7 +89,7 @@ fn a_file_is_told_and_the_text_is_printed_by_every_command_and_from_every_front(
             let by_request = run_with(&["request", "-"], &request);
             assert_eq!(by_request.status.code(), Some(0), "{}: {}", of("request"), stderr(&by_request));
             assert!(same(stdout(&by_request)), "{}", of("request"));
-            assert_eq!(told(stderr(&by_request)), [other.clone()], "{}", of("request"));
+            assert_eq!(told(stderr(&by_request)), std::slice::from_ref(&other), "{}", of("request"));
             // A page has the command that made it, and matrices the path of their file.
             if ending != "html" && *command != "reduce" {
                 assert!(fs::read(&other).unwrap() == bytes, "{}", of("request"));
