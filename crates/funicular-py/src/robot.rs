@@ -178,8 +178,8 @@ impl PyRobot {
     }
 
     /// Returns every number of the robot file, with the keys of the program's `parameters`: `path`, `value`, `unit`,
-    /// `range`, `minimum`, `maximum`, `meaning`, `label` (name in words with the unit) and `given`. `Robot.with_` and `vary=`
-    /// use the same paths.
+    /// `range`, `minimum`, `maximum`, `meaning`, `label` (name in words with the unit) and `given`.
+    /// `Robot.with_` and `vary=` use the same paths.
     fn parameters<'py>(&self, py: Python<'py>) -> PyResult<TextKeyed<'py>> {
         answers::plain(py, &analyses::parameters::run(&self.source).map_err(|error| errors::study(&error))?)
     }

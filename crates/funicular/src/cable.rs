@@ -10,6 +10,7 @@ mod catenary_end;
 mod damping;
 mod model;
 pub mod shallow_dynamic;
+mod shallow_end;
 pub mod shallow_static;
 mod situation;
 mod spring;

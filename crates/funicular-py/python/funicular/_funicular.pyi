@@ -947,8 +947,8 @@ class Robot(Analyses):
     def parameters(self, /) -> dict[str, Any]:
         """
         Returns every number of the robot file, with the keys of the program's `parameters`: `path`, `value`, `unit`,
-        `range`, `minimum`, `maximum`, `meaning`, `label` (name in words with the unit) and `given`. `Robot.with_` and `vary=`
-        use the same paths.
+        `range`, `minimum`, `maximum`, `meaning`, `label` (name in words with the unit) and `given`.
+        `Robot.with_` and `vary=` use the same paths.
         """
     def request(self, /, command: "str", **keywords: "object") -> dict[str, Any]:
         """

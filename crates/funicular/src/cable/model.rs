@@ -1,7 +1,7 @@
 //! Models of a cable, each with what other rooms ask about it.
 
 use super::situation::CableSituation;
-use super::{EndStiffness, NoStiffness, catenary_end, shallow_dynamic, shallow_static, spring};
+use super::{EndStiffness, NoStiffness, catenary_end, shallow_end, spring};
 use crate::math::Mat3;
 use crate::robot::Robot;
 use crate::statics::{CableState, StaticModel};
@@ -79,8 +79,8 @@ pub const MODELS: [ModelEntry; 5] = [
         is_dynamic: false,
         needs_tension: true,
         has_axial_waves: false,
-        end: shallow_static::end,
-        span: shallow_static::span,
+        end: shallow_end::at_rest,
+        span: shallow_end::span,
     },
     ModelEntry {
         model: CableModel::CatenaryStatic,
@@ -101,7 +101,7 @@ pub const MODELS: [ModelEntry; 5] = [
         is_dynamic: true,
         needs_tension: true,
         has_axial_waves: false,
-        end: shallow_dynamic::end,
+        end: shallow_end::vibrating,
         span: catenary_end::span,
     },
     ModelEntry {

@@ -13,35 +13,11 @@
 //! growth of sin and cos with damping cancels. Poles: Δ = 0 (symmetric modes in plane), σ = 0 (antisymmetric modes, in
 //! plane and out of plane), c = 0 (symmetric modes out of plane). Derivation: docs/theory.md, equations (20) to (26).
 
-use super::catenary_dynamic::{CatenaryDynamicEnd, EndDirections, MovingEnd};
-use super::situation::CableSituation;
-use super::{EndStiffness, LocalAxes, LocalStiffness, NoStiffness, Sag, shallow_static, stretch_of};
+use super::{LocalAxes, LocalStiffness, Sag};
 use crate::math::{Complex, roots};
 use crate::robot::Damping;
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::ops::{Add, Div, Mul, Sub};
-
-/// End stiffness of a cable in this model. One cable by poles and residues makes all of them such cables.
-pub(super) fn end(of: &CableSituation<'_>) -> Result<EndStiffness, NoStiffness> {
-    let CableSituation { robot, i, state, axes, in_plane_only, limit, .. } = *of;
-    let sag = of.sag();
-    let damping = of.material().damping.per_length_over(stretch_of(robot, i, state));
-    if !(robot.has_moving_ends() || robot.has_stretch_loss()) {
-        let cable = ShallowDynamic::new(sag, axes, damping, in_plane_only);
-        return Ok(EndStiffness::in_closed_form(cable));
-    }
-
-    // Without any mass the cable and its drive are springs.
-    let end = of.moving_end(&axes);
-    let hanging = of.hanging()?;
-    if sag.mass_per_length == 0.0 && !end.as_ref().is_some_and(MovingEnd::has_dynamics) {
-        return shallow_static::end(of);
-    }
-    let of_axes = (axes, EndDirections::in_axes(hanging, &axes));
-    let of_rope = (damping, of.material().stretch_loss, of.has_strains());
-    let cable = CatenaryDynamicEnd::of_shallow_span(&sag, of_axes, end, of_rope, in_plane_only, limit)?;
-    Ok(EndStiffness::by_poles(cable))
-}
 
 /// Platform end of a cable in the shallow-dynamic model.
 #[derive(Debug, Clone, PartialEq)]
