@@ -334,7 +334,8 @@ fn too_coarse(pose_box: &PoseBox, best: Option<&LengthTable>, tolerance: f64) ->
 fn described(pose_box: &PoseBox, coordinates: &[f64]) -> String {
     let value = |(side, value): (&BoxSide, &f64)| {
         let unit = if side.axis < 3 { "m" } else { "degrees" };
-        format!("{} = {:.6} {unit}", AXES[side.axis], value).replace(".000000", "")
+        // Without the rounding of a place in the box.
+        format!("{} = {} {unit}", AXES[side.axis], (1e6 * value).round() / 1e6 + 0.0)
     };
     pose_box.sides.iter().zip(coordinates).map(value).collect::<Vec<_>>().join(", ")
 }
