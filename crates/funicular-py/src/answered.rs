@@ -1,14 +1,20 @@
-//! Results that make their page: those of `identify`, `design` and `uncertainty`.
+//! Results that the compiled half holds with their request, from which tables, pages and other files are made.
 
+use crate::answers::{CtrlC, in_words};
 use crate::errors;
 use crate::interrupt::interruptible_in_steps;
-use funicular_pages::pages;
+use funicular_answers::FigureOptions;
+use funicular_answers::outputs::{self, Answered, Opened, Wanted};
+use funicular_files::Guard;
+use funicular_files::endings::Kind;
 use funicular_study::columns::{Cell, ResultTable};
-use funicular_study::request::Request;
-use funicular_study::wording::{Words, worded};
+use funicular_study::request::{Request, commands};
+use funicular_study::wording::{Words, told};
 use funicular_study::{Results, run};
 use pyo3::IntoPyObjectExt;
 use pyo3::prelude::*;
+use serde_json::{Value, json};
+use std::path::PathBuf;
 use std::sync::OnceLock;
 
 /// Results of a request, from which their page is made.
@@ -86,17 +92,58 @@ impl PyAnswered {
 
     /// Makes the page in HTML; `call` is the code that makes it again.
     fn page(&self, py: Python<'_>, call: String) -> PyResult<String> {
-        let page = match self.found(py)? {
-            Results::Identify(found) => pages::identify::page(found, call),
-            Results::Design(found) => pages::design::page(found, call),
-            Results::Uncertainty(found) => pages::uncertainty::page(found, call),
-            _ => return Err(errors::input(format!("`{}` has no page of its own", self.request.command()))),
-        };
-        let page = page.map_err(|error| errors::study(&error))?;
-        Ok(worded(&page, Words::Python))
+        let found = self.found(py)?;
+        let at = Answered { request: &self.request, results: Some(found), call: &call, words: Words::Python };
+        outputs::page_of(&at).map_err(|error| errors::study(&error))
+    }
+
+    /// Writes files that the command writes besides its result, by their keys, and returns sentences about them; `call`
+    /// is the code that writes them again.
+    fn write(&self, py: Python<'_>, files: Vec<(String, PathBuf)>, call: String) -> PyResult<Vec<String>> {
+        let wanted = wanted(files);
+        let opened = Opened::open(&self.request, &wanted, FigureOptions::default(), &mut Guard::default());
+        let opened = opened.map_err(|error| errors::of_file(&error))?;
+        let found = if opened.needs_results() { Some(self.found(py)?) } else { None };
+        let mut sentences = Vec::new();
+        let written = py.detach(|| {
+            let at = Answered { request: &self.request, results: found, call: &call, words: Words::Python };
+            let mut watch = CtrlC::new();
+            let made = opened.make(at, &mut watch);
+            watch.result(made)
+        })?;
+        for file in written {
+            file.write().map_err(|error| errors::of_file(&error))?;
+            sentences.extend(in_words(&file.warnings));
+        }
+        Ok(sentences)
     }
 
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> (Bound<'py, PyAny>, (String,)) {
         (slf.get_type().into_any(), (slf.get().request(),))
     }
+}
+
+fn wanted(files: Vec<(String, PathBuf)>) -> Vec<Wanted> {
+    files.into_iter().map(|(key, path)| Wanted { key, path }).collect()
+}
+
+/// Checks files that a command shall write besides its result, before the work; `given` has its keys as JSON.
+#[pyfunction]
+pub(crate) fn check_files(command: &str, given: &str, files: Vec<(String, PathBuf)>) -> PyResult<()> {
+    let given = serde_json::from_str(given).map_err(|error| errors::input(error.to_string()))?;
+    let opened = Opened::of_keys(command, &given, &wanted(files), FigureOptions::default(), &mut Guard::default());
+    opened.map(drop).map_err(|error| errors::of_file(&error))
+}
+
+/// Files that commands write besides their result, as JSON: by the name of the command, with key, meaning, and whether
+/// there may be several.
+#[pyfunction]
+pub(crate) fn outputs_of_commands() -> String {
+    let one = |of: &outputs::Output| {
+        let ending = |kind: &Kind| kind.ending().map(|ending| format!(".{ending}"));
+        let endings: Vec<String> = of.kinds.iter().filter_map(ending).collect();
+        json!({ "key": of.key, "about": told(of.about, Words::Python), "several": of.several, "endings": endings })
+    };
+    let all = commands().iter().map(|of| (of.name.to_owned(), outputs::of(of.name).iter().map(one).collect::<Value>()));
+    Value::Object(all.collect()).to_string()
 }

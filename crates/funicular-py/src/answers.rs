@@ -2,26 +2,24 @@
 
 use crate::arrays::{ResultsObject, TextKeyed};
 use crate::errors;
-use crate::interrupt::{check_signals, interruptible, interruptible_in_steps};
+use crate::interrupt::{check_signals, interruptible_in_steps};
 use crate::sweep::ProgressArgument;
+use funicular_answers::document;
 use funicular_files::atomic_file::{TemporaryFile, is_regular_or_new};
 use funicular_files::{SweepFile, merge};
-use funicular_formats::export;
 use funicular_formats::import::{self, SourceFile};
 use funicular_formats::measurements::{self, FileOptions};
-use funicular_formats::new_robot;
 use funicular_pages::figures;
 use funicular_pages::pages;
 use funicular_study::analyses::Found;
 use funicular_study::request::Request;
-use funicular_study::schema;
 use funicular_study::wording::{Words, told, worded};
 use funicular_study::{Error, Watch, json, run};
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 use std::fs;
 use std::io::{self, Write};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
 /// Watch that ends long work when a handler of a signal raises, as that of Ctrl-C does, and tells a function how far it
@@ -122,34 +120,14 @@ fn json_of(request: &Request, watch: &mut dyn Watch) -> Result<Vec<u8>, Error> {
     }
 }
 
-/// Computes text and caveats of a request of `report`, `live`, `paper`, `export`, `new` or `schema`; `call` is the code
-/// that makes a page again.
+/// Computes text and caveats of a request whose result is a file, such as `report` or `export`; `call` is the code that
+/// makes a page again.
 #[pyfunction]
 pub(crate) fn text_of(py: Python<'_>, request: &str, call: String) -> PyResult<(String, Vec<String>)> {
     let request = self::request(request)?;
-    let (text, warnings) = interruptible(py, move || {
-        Ok(match &request {
-            Request::Report(of) => {
-                let page = pages::report::of_request(of, of.robot.read()?, call)?;
-                (page.html, page.warnings)
-            }
-            Request::Live(of) => (pages::live::live(of)?, Vec::new()),
-            Request::Paper(_) => (pages::paper::paper(call)?, Vec::new()),
-            Request::Export(of) => {
-                export::refuse(of)?;
-                let exported = export::of_request(of.robot.read()?.robot, of)?;
-                (exported.text, exported.warnings)
-            }
-            Request::New(of) => {
-                let made = new_robot::run(of, Words::Python)?;
-                (made.text, made.warnings)
-            }
-            Request::Schema(of) => (schema::of_request(of, vec![funicular_validation::tables()]), Vec::new()),
-            other => anyhow::bail!("`{}` makes no text", other.command()),
-        })
-    })?
-    .map_err(|error: anyhow::Error| errors::study(&error))?;
-    Ok((worded(&text, Words::Python), in_words(&warnings)))
+    let made = interruptible_in_steps(py, move |watch| document::make(&request, &call, Words::Python, watch))?;
+    let made = made.map_err(|error| errors::study(&error))?;
+    Ok((worded(&made.text, Words::Python), in_words(&made.warnings)))
 }
 
 /// Texts with the names of options as Python writes them.
@@ -231,11 +209,6 @@ pub(crate) fn try_file(path: PathBuf) -> PyResult<()> {
         Ok(())
     };
     tried.map_err(|error| errors::unwritable(format!("cannot write to {}: {error}", path.display())))
-}
-
-/// Tries the files that are given.
-pub(crate) fn try_files(paths: &[Option<&Path>]) -> PyResult<()> {
-    paths.iter().flatten().try_for_each(|path| try_file(path.to_path_buf()))
 }
 
 /// Writes a text to a file, which is complete or absent.

@@ -76,6 +76,14 @@ pub(crate) fn files(error: &FilesError) -> PyErr {
     python::FileError::new_err(told(&error.to_string(), Words::Python))
 }
 
+/// Exception for a file of a command that cannot be written or made.
+pub(crate) fn of_file(error: &anyhow::Error) -> PyErr {
+    if error.is::<FilesError>() || error.is::<std::io::Error>() {
+        return unwritable(message(error, Words::Python));
+    }
+    study(error)
+}
+
 /// Exception for a file that cannot be written.
 pub(crate) fn unwritable(text: String) -> PyErr {
     python::FileError::new_err(text)

@@ -37,7 +37,7 @@ mod _funicular {
     #[pymodule_export]
     use crate::analyses::PyAnalyses;
     #[pymodule_export]
-    use crate::answered::PyAnswered;
+    use crate::answered::{PyAnswered, check_files, outputs_of_commands};
     #[pymodule_export]
     use crate::answers::{
         answer, complete_request, figure_sizes, imported, measurements_of_file, merge_parts, plot_page, source_file,

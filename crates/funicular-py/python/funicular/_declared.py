@@ -8,14 +8,21 @@ import inspect
 import json
 import re
 import textwrap
+import warnings
 from collections.abc import Callable
+from os import PathLike
+from pathlib import Path
 from typing import Any
 
 from funicular import _words
-from funicular._funicular import declarations, suggested
+from funicular._errors import InputError, ResponseWarning
+from funicular._funicular import check_files, declarations, outputs_of_commands, suggested
 from funicular._hints import in_words
 
 COMMANDS: dict[str, list[dict[str, Any]]] = json.loads(declarations())
+
+# Files that each command writes besides its result.
+OUTPUTS: dict[str, list[dict[str, Any]]] = json.loads(outputs_of_commands())
 
 # Headings of the keys of an equilibrium, which its methods do not have, and of its linearisation.
 REST = ("State", "Load", "Tensions")
@@ -58,6 +65,43 @@ def _parameter(key: dict[str, Any], *, positional: bool) -> inspect.Parameter:
     return inspect.Parameter(key["name"], kind, default=default, annotation=annotation.replace("Any | None", "Any"))
 
 
+def _file_parameter(output: dict[str, Any]) -> inspect.Parameter:
+    """Keyword of a file that a command writes besides its result."""
+    kind = "File | Sequence[File]" if output["several"] else "File"
+    return inspect.Parameter(output["key"], inspect.Parameter.KEYWORD_ONLY, default=None, annotation=f"{kind} | None")
+
+
+def _about_file(output: dict[str, Any]) -> str:
+    return f"{output['about']} ({', '.join(output['endings'])})."
+
+
+def wanted_files(command: str, given: Given) -> list[tuple[str, Path]]:
+    """Files that a call wants, in the order of the table, taken out of what it gives."""
+    found = []
+    for output in OUTPUTS[command]:
+        paths = given.pop(output["key"], None)
+        listed = [] if paths is None else [paths] if isinstance(paths, (str, PathLike)) else paths
+        if not isinstance(listed, (list, tuple)) or not all(isinstance(path, (str, PathLike)) for path in listed):
+            raise InputError(f"`{output['key']}` is of type {type(paths).__name__}: give the path of a file")
+        found += [(output["key"], Path(path)) for path in listed]
+    return found
+
+
+def check_wanted(command: str, given: Given, wanted: list[tuple[str, Path]]) -> None:
+    """Refuses files that cannot be written, before the work."""
+    if wanted:
+        simple = {key: value if isinstance(value, (bool, str)) else True for key, value in given.items() if value is not None}
+        check_files(command, json.dumps(simple), wanted)
+
+
+def write_wanted(answered: Any, call: str, wanted: list[tuple[str, Path]]) -> None:
+    """Writes files of results; `call` is the beginning of the code that makes them."""
+    if wanted:
+        files = ", ".join(f"{key}={json.dumps(str(path), ensure_ascii=False)}" for key, path in wanted)
+        for sentence in answered.write(wanted, f"{call}{files})"):
+            warnings.warn(sentence, ResponseWarning, stacklevel=4)
+
+
 def _about(key: dict[str, Any]) -> str:
     """Meaning of a key, with the names that it can have and what stands for it if it is not given."""
     about = str(key["about"])
@@ -88,11 +132,11 @@ def _described(text: str) -> dict[str, str]:
     return {name: inspect.cleandoc(body) for name, body in zip(parts[1::2], parts[2::2], strict=True)}
 
 
-def _documentation(text: str, keys: list[dict[str, Any]], order: list[str], others: str) -> str:
+def _documentation(text: str, keys: list[dict[str, Any]], order: list[str], others: str, files: dict[str, str]) -> str:
     sections = _sections(text)
     own = _described(sections.pop("Parameters", ""))
     written = {name for names in own for name in names.split(", ")}
-    described = {key["name"]: textwrap.fill(_about(key), _WIDTH) for key in keys if key["name"] not in written}
+    described = {key["name"]: textwrap.fill(_about(key), _WIDTH) for key in keys if key["name"] not in written} | files
     lines = []
     for name in order:
         names = next((names for names in own if names.split(", ")[0] == name), name)
@@ -147,6 +191,7 @@ def declared(
     headings: tuple[str, ...] = (),
     state: bool = False,
     others: str = "",
+    files: bool = False,
 ) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
     """Makes a method of the class `of` from a function.
 
@@ -165,7 +210,11 @@ def declared(
     others
         Sentence that stands for the descriptions of the keys under the headings `REST` and `MODEL`; they are described
         without one.
+    files
+        The files that the command writes besides its result are keywords.
     """
+
+    outputs = OUTPUTS[command] if files else []
 
     def made(function: Callable[..., Any]) -> Callable[..., Any]:
         own = list(inspect.signature(function).parameters.values())[2:]
@@ -176,6 +225,7 @@ def declared(
         for p in own:
             kind = inspect.Parameter.POSITIONAL_OR_KEYWORD if p.name in positional else inspect.Parameter.KEYWORD_ONLY
             by_name[p.name] = p.replace(kind=kind)
+        by_name |= {output["key"]: _file_parameter(output) for output in outputs}
         parameters = [by_name.pop(name) for name in positional] + list(by_name.values())
         name = f"{of.__name__}.{function.__name__}"
 
@@ -184,9 +234,13 @@ def declared(
 
         def method(self: Any, /, *arguments: Any, **keywords: Any) -> Any:
             given = bound(arguments, keywords)
+            wanted = wanted_files(command, given) if outputs else []
+            check_wanted(command, given, wanted)
             extra = {key: given.pop(key) for key in own_names if key in given}
             try:
-                return function(self, given, **extra)
+                found = function(self, given, **extra)
+                write_wanted(getattr(found, "_answered", None), f"robot.{function.__name__}(…, ", wanted)
+                return found
             except TypeError as error:
                 better = in_words(extra, error)
                 if better is None:
@@ -194,8 +248,9 @@ def declared(
             raise better
 
         described = [key for key in keys if not others or key["heading"] not in (*REST, *MODEL)]
+        texts = {output["key"]: textwrap.fill(_about_file(output), _WIDTH) for output in outputs}
         method.__name__, method.__qualname__, method.__module__ = function.__name__, name, "funicular"
-        method.__doc__ = _documentation(function.__doc__ or "", described, [p.name for p in parameters], others)
+        method.__doc__ = _documentation(function.__doc__ or "", described, [p.name for p in parameters], others, texts)
         itself = inspect.Parameter("self", inspect.Parameter.POSITIONAL_ONLY)
         result = inspect.signature(function).return_annotation
         method.__signature__ = inspect.Signature([itself, *parameters], return_annotation=result)  # type: ignore[attr-defined]

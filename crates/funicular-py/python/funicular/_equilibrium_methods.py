@@ -133,7 +133,7 @@ def receptance(of: Any, given: Given, hz: ArrayLike) -> NDArray[complex128]:
     return matrices
 
 
-@declared(Analyses, "settle", positional=("release_n",), headings=REST, others=_AS_MODES)
+@declared(Analyses, "settle", positional=("release_n",), headings=REST, others=_AS_MODES, files=True)
 def settle(of: Any, given: Given) -> Results:
     """Computes how a point of the platform swings after a release, a stop, a move or a trajectory, and when it has settled.
 
@@ -151,7 +151,7 @@ def settle(of: Any, given: Given) -> Results:
     return _results.of_answered(of._results("settle", given))
 
 
-@declared(Analyses, "gust", positional=("output",), headings=REST, others=_AS_MODES)
+@declared(Analyses, "gust", positional=("output",), headings=REST, others=_AS_MODES, files=True)
 def gust(of: Any, given: Given) -> Results:
     """Computes the response to turbulent wind: r.m.s. values and expected peaks of motions and tensions, with their
     spectra.
@@ -170,7 +170,7 @@ def gust(of: Any, given: Given) -> Results:
     return _results.of_answered(of._results("gust", given))
 
 
-@declared(Analyses, "compare", positional=("below_hz",), headings=REST, others=_AS_MODES)
+@declared(Analyses, "compare", positional=("below_hz",), headings=REST, others=_AS_MODES, files=True)
 def compare(of: Any, given: Given) -> Results:
     """Compares every cable model with the catenary-dynamic model: frequencies found, missed and wrong, and the
     recommended model.

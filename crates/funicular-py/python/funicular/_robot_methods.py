@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from concurrent.futures import Executor
-from os import PathLike
 from typing import Any, SupportsIndex
 
 from numpy import asarray, ceil, linspace
@@ -137,9 +136,9 @@ def speeds(of: Any, given: Given) -> Results:
     return _results.of_answered(of._answer("speeds", given))
 
 
-@declared(Robot, "trajectory", positional=("path", "move_to", "pose"), without=("path",), others=_AS_REST)
+@declared(Robot, "trajectory", positional=("path", "move_to", "pose"), without=("path",), others=_AS_REST, files=True)
 def trajectory(
-    of: Any, given: Given, path: File | Mapping[str, ArrayLike] | Callable[[float], ArrayLike] | None = None, page: File | None = None
+    of: Any, given: Given, path: File | Mapping[str, ArrayLike] | Callable[[float], ArrayLike] | None = None
 ) -> Results:
     """Computes the motion along a path: lengths with their rates, tensions with the inertia, winches, and what limits them.
 
@@ -150,8 +149,6 @@ def trajectory(
         `yaw_deg`, as a mapping, a data frame or a CSV file; or a function of the time [s] that returns x, y, z [m] or
         x, y, z, roll, pitch, yaw [m, degrees]. A function needs `duration_s` and `sample_time_s`. A spline of the
         fifth degree passes the rows.
-    page
-        HTML file of a page with the moving robot, and tensions, speeds and powers over time.
 
     Returns
     -------
@@ -167,7 +164,7 @@ def trajectory(
         path = _sampled(path, given)
     if path is not None:
         given["path"] = path
-    return _results.of_answered(of._trajectory(given, page))
+    return _results.of_answered(of._answer("trajectory", given))
 
 
 # Maximum number of rows of a function of the time.
@@ -200,13 +197,10 @@ def _sampled(path: Callable[[float], ArrayLike], given: Given) -> dict[str, Arra
     return {"t_s": times, **dict(zip(names, asarray(rows).T, strict=True))}
 
 
-@declared(Robot, "simulate", positional=("scenario", "duration_s"))
+@declared(Robot, "simulate", positional=("scenario", "duration_s"), files=True)
 def simulate(
     of: Any,
     given: Given,
-    page: File | None = None,
-    figure: File | None = None,
-    animation: File | None = None,
     progress: Callable[[int, int], object] | None = None,
 ) -> Results:
     """Simulates large motion in time of platform and sagging ropes.
@@ -221,12 +215,6 @@ def simulate(
     point
         Points of the platform whose motion is a part of the result: a mapping from names to places x, y, z in the platform
         frame [m].
-    page
-        HTML file of a page with the moving robot, pose and tensions over time, and the spectrum of the motion.
-    figure
-        File of a figure of pose and tensions over time, .svg or .pdf.
-    animation
-        SVG file of an animated drawing of the moving robot, which any browser shows in true time.
     progress
         Function that is called with the number of rows that are done, and of all rows; first for the run, then for the
         finer one that shows the error.
@@ -252,7 +240,7 @@ def simulate(
     """
     if "scenario" in given:
         given["scenario"] = _tabled(given["scenario"])
-    return _results.of_answered(of._simulate(given, page, figure, animation, progress))
+    return _results.of_answered(of._answer("simulate", given, progress=progress))
 
 
 # Time between the rows of a function [s], and least number of its parts. Between the rows lies a cubic spline: it is right
@@ -327,13 +315,12 @@ def clearance(of: Any, given: Given) -> Results:
     positional=("at_least", "at_most", "grid"),
     without=("lengths_m", "hold_lengths_of_pose", "compare"),
     others=_AS_BOTH,
+    files=True,
 )
 def workspace(
     of: Any,
     given: Given,
     compare: Robot | None = None,
-    surface: File | Sequence[File] = (),
-    page: File | None = None,
     threads: SupportsIndex | None = None,
     progress: Callable[[int, int], object] | None = None,
 ) -> Results:
@@ -353,10 +340,6 @@ def workspace(
         Sections: a mapping from x, y or z to a list of coordinates [m].
     compare
         Robot whose set is compared with this one on the same grid.
-    surface
-        Files of the closed surface, .stl, .ply or .vtp.
-    page
-        HTML file of a page with the surface, the volumes and the sections.
     threads
         Number of threads of this process; one per processor if not given.
     progress
@@ -381,8 +364,7 @@ def workspace(
     """
     if compare is not None:
         given = {**given, "compare": {"text": compare.to_toml()}}
-    files = [surface] if isinstance(surface, (str, PathLike)) else list(surface)
-    return _results.of_answered(of._workspace(given, files, page, threads, progress))
+    return _results.of_answered(of._answer("workspace", given, threads=threads, progress=progress))
 
 
 @declared(Robot, "pose-error", positional=("mass_kg",), others=_AS_REST)
@@ -402,7 +384,7 @@ def pose_error(of: Any, given: Given) -> Results:
     return _results.of_answered(of._answer("pose-error", given))
 
 
-@declared(Robot, "identify", positional=("fit", "experiments"), state=True, others=_AS_BOTH)
+@declared(Robot, "identify", positional=("fit", "experiments"), state=True, others=_AS_BOTH, files=True)
 def identify(of: Any, given: Given) -> Identified:
     """Finds the values of the robot file that fit measurements best, with their deviations.
 
@@ -435,8 +417,8 @@ def identify(of: Any, given: Given) -> Identified:
     return identified(of.request("identify", **given))
 
 
-@declared(Robot, "calibrate", positional=("readings", "unknowns"))
-def calibrate(of: Any, given: Given, page: File | None = None, figure: File | None = None) -> Results:
+@declared(Robot, "calibrate", positional=("readings", "unknowns"), files=True)
+def calibrate(of: Any, given: Given) -> Results:
     """Calibrates anchors, attachments, offsets and more from readings of lengths at poses that are not known.
 
     Parameters
@@ -449,10 +431,6 @@ def calibrate(of: Any, given: Given, page: File | None = None, figure: File | No
         and its deviation.
     poses
         Candidates of a proposal (n, 3) or (n, 6): x, y, z [m], roll, pitch, yaw [degrees].
-    page
-        HTML file of a page with the anchors and their ellipses, residuals, and rows that can be clicked away.
-    figure
-        File of a figure of the anchors, .svg or .pdf.
 
     Returns
     -------
@@ -472,10 +450,10 @@ def calibrate(of: Any, given: Given, page: File | None = None, figure: File | No
     """
     if given.get("prior") is not None:
         given = {**given, **keywords("calibrate", {"prior": given["prior"]}, of.cable_names)}
-    return _results.of_answered(of._calibrate(given, page, figure))
+    return _results.of_answered(of._answer("calibrate", given))
 
 
-@declared(Robot, "design", positional=("change",), without=("lengths_m", "hold_lengths_of_pose"), others=_AS_BOTH)
+@declared(Robot, "design", positional=("change",), without=("lengths_m", "hold_lengths_of_pose"), others=_AS_BOTH, files=True)
 def design(of: Any, given: Given) -> Designed:
     """Chooses values of the robot file with which the robot is best at several poses.
 
@@ -514,7 +492,7 @@ def design(of: Any, given: Given) -> Designed:
     return designed(of.request("design", **given))
 
 
-@declared(Robot, "uncertainty", positional=("deviations", "tolerances", "of"), others=_AS_BOTH)
+@declared(Robot, "uncertainty", positional=("deviations", "tolerances", "of"), others=_AS_BOTH, files=True)
 def uncertainty(
     of: Any,
     given: Given,
@@ -559,7 +537,7 @@ def uncertainty(
     FileError
         The file of the samples cannot be written, or belongs to other work.
     """
-    return deviations_of(of._uncertainty(given, samples_file, resume, discard, threads, progress))
+    return deviations_of(of._answer("uncertainty", given, threads, progress, samples_file, resume, discard))
 
 
 def _of_rows(command: str, text: str) -> Callable[..., Sweep]:

@@ -10,6 +10,7 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from funicular._declared import OUTPUTS, check_wanted, wanted_files, write_wanted
 from funicular._errors import InputError
 from funicular._funicular import (
     Answered,
@@ -114,8 +115,29 @@ def complete(given: Mapping[str, Any] | str) -> dict[str, Any]:
     return full
 
 
-def run(request: Mapping[str, Any] | str) -> Any:
+def _without_files(request: Mapping[str, Any] | str) -> tuple[Mapping[str, Any] | str, Mapping[str, Any]]:
+    """Request without the files that it wants, and these."""
+    given: Any = request
+    if isinstance(request, str):
+        try:
+            given = json.loads(request)
+        except ValueError:  # the reader of requests says what is wrong
+            return request, {}
+    if not isinstance(given, Mapping) or given.get("write_files") is None:
+        return request, {}
+    if not isinstance(given["write_files"], Mapping):
+        raise InputError(f"`write_files` is of type {type(given['files']).__name__}: give a mapping, as in {{'page': 'page.html'}}")
+    return {key: value for key, value in given.items() if key != "write_files"}, given["write_files"]
+
+
+def run(request: Mapping[str, Any] | str, **files: Any) -> Any:
     """Runs a request: the dictionary of `Robot.request`, or the JSON of the program's `--print-request`.
+
+    Parameters
+    ----------
+    files
+        Files that the command writes besides its result, as the keywords of its method: `page`, `figure`, `lengths` and so
+        on. The key `write_files` of a request has the same.
 
     Returns
     -------
@@ -129,7 +151,14 @@ def run(request: Mapping[str, Any] | str) -> Any:
     Error
         The request has no result.
     """
+    request, own = _without_files(request)
     full = complete(request)
+    keys = {**own, **files}
+    wanted = wanted_files(full["command"], keys)
+    if keys:
+        known = ", ".join(output["key"] for output in OUTPUTS[full["command"]]) or "no other file"
+        raise InputError(f"`{full['command']}` writes no `{next(iter(keys))}`: besides its result it writes {known}")
+    check_wanted(full["command"], {key: value for key, value in full.items() if value not in (None, [])}, wanted)
     text = json.dumps(full)
     match full["command"]:
         case "map" | "sweep":
@@ -154,6 +183,7 @@ def run(request: Mapping[str, Any] | str) -> Any:
             made, assumed, lost = imported(text)
             return Imported(made, tuple(assumed), tuple(lost))
         case "plot":
+            write_wanted(Answered(text), "funicular.run(request, ", wanted)
             return Sweep.read(full["file"]).plot()
         case "merge":
             raise InputError("`merge` writes a file: call `funicular.merge(parts, path)`")
@@ -162,6 +192,7 @@ def run(request: Mapping[str, Any] | str) -> Any:
         case _:
             answered = Answered(text)
             found = Results(json.loads(answered.json()))
+            write_wanted(answered, "funicular.run(request, ", wanted)
             found._answered = answered
             return found
 
