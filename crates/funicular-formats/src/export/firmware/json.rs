@@ -1,4 +1,4 @@
-//! JsonTable of lengths in JSON.
+//! Table of lengths in JSON.
 
 use super::{COORDINATES, Firmware};
 use anyhow::Result;

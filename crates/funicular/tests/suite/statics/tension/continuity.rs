@@ -9,7 +9,7 @@ use funicular::statics::{self, StaticModel, TensionRule};
 use std::ops::Range;
 
 /// Lines of the suite.
-const FEW: Range<u64> = 0..300;
+const FEW: Range<u64> = 0..120;
 
 /// Steps of a line, and parts of the step with the largest change.
 const STEPS: usize = 12;
