@@ -155,7 +155,7 @@ pub(crate) fn program() -> Command {
             "Statics and vibration of cable-driven parallel robots whose cables sag.\n\nAll commands except `new`, \
              `schema`, `import`, `merge`, `paper`, `plot`, `validate`, `request`, `completions` and `man` read a robot \
              file (TOML). Results go to stdout, warnings and errors to stderr. Units are SI units, and the unit of \
-             every value is in its name. Exit codes: 0 done, 1 no solution, 2 bad input,
+             every value is in its name. Exit codes: 0 done, 1 no solution, 2 bad input, \
              130 stopped by Ctrl-C or the end of a job.",
         )
         .after_help("Example:\n  funicular modes robots/yuan2014-4mm.toml --below-hz 20")

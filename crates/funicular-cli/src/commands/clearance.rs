@@ -32,8 +32,8 @@ impl Printed for Clearances {
             _ => String::new(),
         };
         format!(
-            "{}: distances with {} cables\n\n  position          ({}) m\n  roll, pitch, yaw  ({})°\n{end}  verdict \
-                       {verdict}\n{way}\n{}\n{rest}",
+            "{}: distances with {} cables\n\n  position          ({}) m\n  roll, pitch, yaw  ({})°\n{end}  \
+             verdict           {verdict}\n{way}\n{}\n{rest}",
             self.robot,
             self.static_model,
             vector(&self.pose.position_m, 6),

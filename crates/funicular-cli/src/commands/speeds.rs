@@ -15,8 +15,8 @@ impl Printed for Speeds {
             required_text,
         );
         format!(
-            "{}: speeds at a pose with {} cables{}\n\n  position            ({}) m\n  roll, pitch, yaw \
-                ({})°\n{required}  without turning     {}\n\n{}\n{}\n{}",
+            "{}: speeds at a pose with {} cables{}\n\n  position            ({}) m\n  \
+             roll, pitch, yaw    ({})°\n{required}  without turning     {}\n\n{}\n{}\n{}",
             self.robot,
             self.static_model,
             self.origin.phrase(),

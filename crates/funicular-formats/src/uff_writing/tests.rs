@@ -254,8 +254,8 @@ fn responses_have_signs_points_and_si_units() {
         .replace(" N   ", " kN  ")
         .replacen(
             "    -1\n   151",
-            "    -1\n   164\n         9USER                          2\n 1.0D+03 1.0D-03\n    -1\n    -1\n    15\n \
-                     7         0\
+            "    -1\n   164\n         9USER                          2\n 1.0D+03 1.0D-03\n    -1\n    -1\n    15\n\
+             \x20        7         0\
              \x20        0         1  1.00000E+02  8.00000E+01  2.00000E+01\n    -1\n    -1\n   151",
             1,
         )

@@ -23,7 +23,7 @@ from funicular._uncertainty import Uncertainty
 from funicular._words import StaticModel, TensionRule, CableModel, Assembly, Winches, Hold, Per, Method, Goal, ExportFormat, Result
 from typing import Literal, overload
 
-__all__ = ["__version__", "Analyses", "Answered", "Catenary", "Equilibrium", "Pose", "Robot", "SweepPlan", "SweepTable", "SweepWork", "answer", "argument", "complete_request", "complex_numbers", "declarations", "figure_sizes", "imported", "interval", "matlab_file", "measurements_of_file", "merge_parts", "number", "numbers", "peaks", "plot_page", "real_numbers", "robot_of_source", "shown", "source_file", "suggested", "text_of", "try_file", "write_file", "write_unit"]
+__all__ = ["__version__", "Analyses", "Answered", "Catenary", "Equilibrium", "Pose", "Robot", "SweepPlan", "SweepTable", "SweepWork", "answer", "argument", "check_files", "complete_request", "complex_numbers", "declarations", "figure_sizes", "imported", "interval", "matlab_file", "measurements_of_file", "merge_parts", "number", "numbers", "outputs_of_commands", "peaks", "plot_page", "real_numbers", "robot_of_source", "shown", "source_file", "suggested", "text_of", "try_file", "write_file", "write_unit"]
 
 __version__: Final[str]
 
@@ -83,7 +83,7 @@ class Analyses:
         normal in plane, out of plane [N/m]. `world` is (n, 3, 3), complex, in world axes. `clamped_frequencies_hz` are
         the natural frequencies of the cable with both ends fixed.
         """
-    def compare(self, /, below_hz: SupportsFloat | SupportsIndex, *, platform: bool = False, platform_share: SupportsFloat | SupportsIndex | None = None, tolerance: SupportsFloat | SupportsIndex | None = None, assembly: Assembly = "consistent", in_plane_only: bool = False, winches: Winches = "as-given") -> Results:
+    def compare(self, /, below_hz: SupportsFloat | SupportsIndex, *, platform: bool = False, platform_share: SupportsFloat | SupportsIndex | None = None, tolerance: SupportsFloat | SupportsIndex | None = None, assembly: Assembly = "consistent", in_plane_only: bool = False, winches: Winches = "as-given", figure: str | PathLike[str] | None = None) -> Results:
         """
         Compares every cable model with the catenary-dynamic model: frequencies found, missed and wrong, and the
         recommended model.
@@ -99,6 +99,8 @@ class Analyses:
             if not given.
         tolerance
             Maximum relative difference of frequency for a model that is good enough; 0.01 if not given.
+        figure
+            Draw the differences between the cable models (.svg, .pdf).
 
         The other parameters are those of `Equilibrium.stiffness`.
 
@@ -116,7 +118,8 @@ class Analyses:
             Program that the file is for: `opensees` (python script for OpenSeesPy); `moordyn` (input file of version
             2); `mujoco` (model in MJCF, with winches as actuators); `sdf` (world of Gazebo, whose cables Drake reads as
             springs); `urdf` (frame and platform for viewers); `vtk` (vTK XML of polylines and polygons (.vtp), for
-            ParaView).
+            ParaView); `c` (table of lengths over a box of poses as a C99 file, for firmware); `json` (table of lengths
+            over a box of poses in JSON, for firmware that reads its numbers).
         path
             Path of the file, which is complete or absent.
         segments
@@ -133,6 +136,13 @@ class Analyses:
             then a Python script that runs MoorDyn.
         duration_s
             Time that MoorDyn simulates with `scenario` [s]; if not given: 10 with a scenario.
+        within
+            Side of the box of poses for C and JSON: x, y, z [m], roll, pitch, yaw [degrees] from A to B, or at one
+            value (repeatable); an axis that is not given keeps the value of `pose` or of the pose of the robot's state.
+        tolerance_m
+            Largest error of a length in the box [m]; if not given: 1e-4.
+        prefix
+            Beginning of all names in the C file; if not given: from the name of the robot file.
 
         Raises
         ------
@@ -230,7 +240,7 @@ class Analyses:
         NoSolutionError
             A cable is slack, or the equilibrium indifferent: it has no derivatives.
         """
-    def gust(self, /, output: str | Sequence[str] | None = None, *, output_point_m: ArrayLike | None = None, duration_s: SupportsFloat | SupportsIndex | None = None, below_hz: SupportsFloat | SupportsIndex | None = None, spectrum: str | PathLike[str] | Mapping[str, ArrayLike] | None = None, turbulence: Literal['kaimal', 'von-karman'] | None = None, intensity: ArrayLike | None = None, length_scale_m: ArrayLike | None = None, coherence_decay: ArrayLike | None = None, cable_model: CableModel | None = None, assembly: Assembly = "consistent", in_plane_only: bool = False, winches: Winches = "as-given") -> Results:
+    def gust(self, /, output: str | Sequence[str] | None = None, *, output_point_m: ArrayLike | None = None, duration_s: SupportsFloat | SupportsIndex | None = None, below_hz: SupportsFloat | SupportsIndex | None = None, spectrum: str | PathLike[str] | Mapping[str, ArrayLike] | None = None, turbulence: Literal['kaimal', 'von-karman'] | None = None, intensity: ArrayLike | None = None, length_scale_m: ArrayLike | None = None, coherence_decay: ArrayLike | None = None, cable_model: CableModel | None = None, assembly: Assembly = "consistent", in_plane_only: bool = False, winches: Winches = "as-given", figure: str | PathLike[str] | None = None) -> Results:
         """
         Computes the response to turbulent wind: r.m.s. values and expected peaks of motions and tensions, with their
         spectra.
@@ -266,6 +276,8 @@ class Analyses:
         coherence_decay
             Decay of the coherence with the distance along the mean wind, lateral and up; if not given: from the robot
             file, or 0,10,10.
+        figure
+            Draw the spectra of motions and tensions (.svg, .pdf).
 
         The other parameters are those of `Equilibrium.stiffness`.
 
@@ -391,7 +403,7 @@ class Analyses:
 
         The other parameters are those of `Equilibrium.stiffness`.
         """
-    def settle(self, /, release_n: ArrayLike | None = None, *, release_n_m: ArrayLike | None = None, stop_m_s: ArrayLike | None = None, stop_rad_s: ArrayLike | None = None, move_m: ArrayLike | None = None, move_deg: ArrayLike | None = None, trajectory: str | PathLike[str] | Mapping[str, ArrayLike] | None = None, profile_s: ArrayLike | None = None, shaper: str | None = None, shape_modes_hz: ArrayLike | None = None, robust_payload_kg: ArrayLike | None = None, sample_time_s: SupportsFloat | SupportsIndex | None = None, input_point_m: ArrayLike | None = None, output_point_m: ArrayLike | None = None, tolerance_m: SupportsFloat | SupportsIndex | None = None, below_hz: SupportsFloat | SupportsIndex | None = None, cable_model: CableModel | None = None, assembly: Assembly = "consistent", in_plane_only: bool = False, winches: Winches = "as-given") -> Results:
+    def settle(self, /, release_n: ArrayLike | None = None, *, release_n_m: ArrayLike | None = None, stop_m_s: ArrayLike | None = None, stop_rad_s: ArrayLike | None = None, move_m: ArrayLike | None = None, move_deg: ArrayLike | None = None, trajectory: str | PathLike[str] | Mapping[str, ArrayLike] | None = None, profile_s: ArrayLike | None = None, shaper: str | None = None, shape_modes_hz: ArrayLike | None = None, robust_payload_kg: ArrayLike | None = None, sample_time_s: SupportsFloat | SupportsIndex | None = None, input_point_m: ArrayLike | None = None, output_point_m: ArrayLike | None = None, tolerance_m: SupportsFloat | SupportsIndex | None = None, below_hz: SupportsFloat | SupportsIndex | None = None, cable_model: CableModel | None = None, assembly: Assembly = "consistent", in_plane_only: bool = False, winches: Winches = "as-given", page: str | PathLike[str] | None = None, figure: str | PathLike[str] | None = None, lengths: str | PathLike[str] | None = None) -> Results:
         """
         Computes how a point of the platform swings after a release, a stop, a move or a trajectory, and when it has settled.
 
@@ -441,6 +453,12 @@ class Analyses:
         below_hz
             Upper limit of the frequencies of the modes that take part [Hz]; if not given: above all modes of the
             platform.
+        page
+            Write a page with the decay of the point and its modes (.html).
+        figure
+            Draw the decay of the point (.svg, .pdf).
+        lengths
+            Write the commanded lengths: t_s, and unstrained_length_NAME_m of every cable [m] (.csv).
 
         The other parameters are those of `Equilibrium.stiffness`.
 
@@ -594,6 +612,11 @@ class Answered:
     def table(self, /) -> list[tuple[str, str, list[Any]]]:
         """
         Returns name, unit and values of every column of the program's CSV.
+        """
+    def write(self, /, files: SupportsGetItem[int, tuple[str, str | PathLike[str]]], call: str) -> list[str]:
+        """
+        Writes files that the command writes besides its result, by their keys, and returns sentences about them; `call`
+        is the code that writes them again.
         """
 
 @final
@@ -993,7 +1016,7 @@ class Robot(Analyses):
         RobotFileError
             The file has no such path, or the value is wrong there.
         """
-    def calibrate(self, /, readings: str | PathLike[str] | Mapping[str, ArrayLike], unknowns: str | Sequence[str] | None = None, *, leave_out: ArrayLike | None = None, hold_anchors: str | Sequence[str] | None = None, frame: str | Sequence[str] | None = None, length_std_m: SupportsFloat | SupportsIndex | None = None, position_std_m: SupportsFloat | SupportsIndex | None = None, rotation_std_deg: SupportsFloat | SupportsIndex | None = None, tension_std_n: SupportsFloat | SupportsIndex | None = None, prior: Any = None, tension_range_n: ArrayLike | None = None, static_model: StaticModel = "ideal", starts: SupportsIndex | None = None, profile: str | Sequence[str] | None = None, propose: SupportsIndex | None = None, grid: Mapping[str, ArrayLike] | None = None, poses: ArrayLike | None = None, propose_for: str | Sequence[str] | None = None, propose_by: Literal['variances', 'determinant'] = "variances", wanted_std_m: SupportsFloat | SupportsIndex | None = None, tension_rule: TensionRule | None = None, target_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, page: str | PathLike[str] | None = None, figure: str | PathLike[str] | None = None) -> Results:
+    def calibrate(self, /, readings: str | PathLike[str] | Mapping[str, ArrayLike], unknowns: str | Sequence[str] | None = None, *, leave_out: ArrayLike | None = None, hold_anchors: str | Sequence[str] | None = None, frame: str | Sequence[str] | None = None, length_std_m: SupportsFloat | SupportsIndex | None = None, position_std_m: SupportsFloat | SupportsIndex | None = None, rotation_std_deg: SupportsFloat | SupportsIndex | None = None, tension_std_n: SupportsFloat | SupportsIndex | None = None, prior: Any = None, tension_range_n: ArrayLike | None = None, static_model: StaticModel = "ideal", starts: SupportsIndex | None = None, profile: str | Sequence[str] | None = None, propose: SupportsIndex | None = None, grid: Mapping[str, ArrayLike] | None = None, poses: ArrayLike | None = None, propose_for: str | Sequence[str] | None = None, propose_by: Literal['variances', 'determinant'] = "variances", wanted_std_m: SupportsFloat | SupportsIndex | None = None, tension_rule: TensionRule | None = None, target_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, figure: str | PathLike[str] | None = None, calibrated: str | PathLike[str] | None = None, page: str | PathLike[str] | None = None) -> Results:
         """
         Calibrates anchors, attachments, offsets and more from readings of lengths at poses that are not known.
 
@@ -1065,10 +1088,13 @@ class Robot(Analyses):
             Minimum tension anywhere in a cable [N]; if not given: from the robot file, or 2.5 times the cable's weight.
         max_tension_n
             Maximum tension anywhere in a cable [N]; if not given: from the robot file, or none.
-        page
-            HTML file of a page with the anchors and their ellipses, residuals, and rows that can be clicked away.
         figure
-            File of a figure of the anchors, .svg or .pdf.
+            Draw the anchors with their ellipses (.svg, .pdf).
+        calibrated
+            Write the robot file with the calibrated anchors and attachments (.toml).
+        page
+            Write a page with the anchors and their ellipses, the residuals, rows that can be clicked away and the
+            proposed poses (.html).
 
         Returns
         -------
@@ -1115,7 +1141,7 @@ class Robot(Analyses):
         StaticsError
             The robot has no such equilibrium.
         """
-    def design(self, /, change: Any, *, goal: Goal = "first-frequency", poses: ArrayLike | None = None, weights: ArrayLike | None = None, min_frequency_hz: SupportsFloat | SupportsIndex | None = None, min_stiffness_n_per_m: SupportsFloat | SupportsIndex | None = None, avoid_hz: ArrayLike | None = None, max_iterations: SupportsIndex | None = None, pose: Pose | ArrayLike | None = None, mass_kg: SupportsFloat | SupportsIndex | None = None, static_model: StaticModel = "catenary", force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, wind_m_s: ArrayLike | None = None, cable_load_n_per_m: ArrayLike | None = None, tension_rule: TensionRule | None = None, target_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, cable_model: CableModel | None = None, assembly: Assembly = "consistent", in_plane_only: bool = False, winches: Winches = "as-given") -> Designed:
+    def design(self, /, change: Any, *, goal: Goal = "first-frequency", poses: ArrayLike | None = None, weights: ArrayLike | None = None, min_frequency_hz: SupportsFloat | SupportsIndex | None = None, min_stiffness_n_per_m: SupportsFloat | SupportsIndex | None = None, avoid_hz: ArrayLike | None = None, max_iterations: SupportsIndex | None = None, pose: Pose | ArrayLike | None = None, mass_kg: SupportsFloat | SupportsIndex | None = None, static_model: StaticModel = "catenary", force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, wind_m_s: ArrayLike | None = None, cable_load_n_per_m: ArrayLike | None = None, tension_rule: TensionRule | None = None, target_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, cable_model: CableModel | None = None, assembly: Assembly = "consistent", in_plane_only: bool = False, winches: Winches = "as-given", designed: str | PathLike[str] | None = None, page: str | PathLike[str] | None = None) -> Designed:
         """
         Chooses values of the robot file with which the robot is best at several poses.
 
@@ -1146,6 +1172,10 @@ class Robot(Analyses):
             Band (first, last) without natural frequencies at every pose [Hz].
         max_iterations
             Maximum number of iterations; 50 if not given.
+        designed
+            Write the robot file with the chosen values (.toml).
+        page
+            Write a page with the poses before and after, the moved points and the gains of more room (.html).
 
         The other parameters are those of `Robot.equilibrium` and of `Equilibrium.stiffness`.
 
@@ -1236,7 +1266,7 @@ class Robot(Analyses):
         InputError
             An argument is wrong; the message says which and what to give.
         """
-    def identify(self, /, fit: Any, experiments: Any, *, starts: SupportsIndex | None = None, profile: str | Sequence[str] | None = None, propose: SupportsIndex | None = None, grid: Mapping[str, ArrayLike] | None = None, poses: ArrayLike | None = None, propose_measuring: str | Sequence[str] | None = None, propose_modes: SupportsIndex | None = None, propose_payloads_kg: ArrayLike | None = None, propose_for: str | Sequence[str] | None = None, propose_by: Literal['variances', 'determinant'] = "variances", wanted_percent: SupportsFloat | SupportsIndex | None = None, from_hz: SupportsFloat | SupportsIndex | None = None, to_hz: SupportsFloat | SupportsIndex | None = None, response_noise: SupportsFloat | SupportsIndex | None = None, frequency_noise: SupportsFloat | SupportsIndex | None = None, damping_noise: SupportsFloat | SupportsIndex | None = None, tension_rule: TensionRule | None = None, target_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, cable_model: CableModel | None = None, assembly: Assembly = "consistent", in_plane_only: bool = False, winches: Winches = "as-given", rigid_cables: bool = False, lengths_m: ArrayLike | None = None, pose: Pose | ArrayLike | None = None, hold_lengths_of_pose: bool = False, mass_kg: SupportsFloat | SupportsIndex | None = None, static_model: StaticModel = "catenary", force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, wind_m_s: ArrayLike | None = None, cable_load_n_per_m: ArrayLike | None = None) -> Identified:
+    def identify(self, /, fit: Any, experiments: Any, *, starts: SupportsIndex | None = None, profile: str | Sequence[str] | None = None, propose: SupportsIndex | None = None, grid: Mapping[str, ArrayLike] | None = None, poses: ArrayLike | None = None, propose_measuring: str | Sequence[str] | None = None, propose_modes: SupportsIndex | None = None, propose_payloads_kg: ArrayLike | None = None, propose_for: str | Sequence[str] | None = None, propose_by: Literal['variances', 'determinant'] = "variances", wanted_percent: SupportsFloat | SupportsIndex | None = None, from_hz: SupportsFloat | SupportsIndex | None = None, to_hz: SupportsFloat | SupportsIndex | None = None, response_noise: SupportsFloat | SupportsIndex | None = None, frequency_noise: SupportsFloat | SupportsIndex | None = None, damping_noise: SupportsFloat | SupportsIndex | None = None, tension_rule: TensionRule | None = None, target_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, cable_model: CableModel | None = None, assembly: Assembly = "consistent", in_plane_only: bool = False, winches: Winches = "as-given", rigid_cables: bool = False, lengths_m: ArrayLike | None = None, pose: Pose | ArrayLike | None = None, hold_lengths_of_pose: bool = False, mass_kg: SupportsFloat | SupportsIndex | None = None, static_model: StaticModel = "catenary", force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, wind_m_s: ArrayLike | None = None, cable_load_n_per_m: ArrayLike | None = None, fitted: str | PathLike[str] | None = None, page: str | PathLike[str] | None = None) -> Identified:
         """
         Finds the values of the robot file that fit measurements best, with their deviations.
 
@@ -1296,6 +1326,10 @@ class Robot(Analyses):
             Relative standard deviation of natural frequencies without deviations; 0.01 if not given.
         damping_noise
             Relative standard deviation of damping ratios; 0.1 if not given.
+        fitted
+            Write the robot file with the identified values (.toml).
+        page
+            Write a page with measured and fitted curves (.html).
 
         The other parameters are those of `Robot.equilibrium` and of `Equilibrium.stiffness`.
 
@@ -1481,7 +1515,7 @@ class Robot(Analyses):
         -------
         The keys of the program's JSON: `points` with one entry for each mass.
         """
-    def simulate(self, /, scenario: Any = None, duration_s: SupportsFloat | SupportsIndex | None = None, *, sample_time_s: SupportsFloat | SupportsIndex | None = None, point: Mapping[str, ArrayLike] | None = None, tolerance_m: SupportsFloat | SupportsIndex | None = None, elements: SupportsIndex | None = None, degree: SupportsIndex | None = None, once: bool = False, damping_frequency_hz: SupportsFloat | SupportsIndex | None = None, stretch_damping_time_s: SupportsFloat | SupportsIndex | None = None, hold_platform: bool = False, gust_seed: SupportsIndex | None = None, lengths_m: ArrayLike | None = None, pose: Pose | ArrayLike | None = None, hold_lengths_of_pose: bool = False, mass_kg: SupportsFloat | SupportsIndex | None = None, static_model: StaticModel = "catenary", force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, wind_m_s: ArrayLike | None = None, cable_load_n_per_m: ArrayLike | None = None, tension_rule: TensionRule | None = None, target_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, page: str | PathLike[str] | None = None, figure: str | PathLike[str] | None = None, animation: str | PathLike[str] | None = None, progress: Callable[[int, int], object] | None = None) -> Results:
+    def simulate(self, /, scenario: Any = None, duration_s: SupportsFloat | SupportsIndex | None = None, *, sample_time_s: SupportsFloat | SupportsIndex | None = None, point: Mapping[str, ArrayLike] | None = None, tolerance_m: SupportsFloat | SupportsIndex | None = None, elements: SupportsIndex | None = None, degree: SupportsIndex | None = None, once: bool = False, damping_frequency_hz: SupportsFloat | SupportsIndex | None = None, stretch_damping_time_s: SupportsFloat | SupportsIndex | None = None, hold_platform: bool = False, gust_seed: SupportsIndex | None = None, lengths_m: ArrayLike | None = None, pose: Pose | ArrayLike | None = None, hold_lengths_of_pose: bool = False, mass_kg: SupportsFloat | SupportsIndex | None = None, static_model: StaticModel = "catenary", force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, wind_m_s: ArrayLike | None = None, cable_load_n_per_m: ArrayLike | None = None, tension_rule: TensionRule | None = None, target_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, progress: Callable[[int, int], object] | None = None, figure: str | PathLike[str] | None = None, animation: str | PathLike[str] | None = None, page: str | PathLike[str] | None = None) -> Results:
         """
         Simulates large motion in time of platform and sagging ropes.
 
@@ -1553,15 +1587,15 @@ class Robot(Analyses):
             Minimum tension anywhere in a cable [N]; if not given: from the robot file, or 2.5 times the cable's weight.
         max_tension_n
             Maximum tension anywhere in a cable [N]; if not given: from the robot file, or none.
-        page
-            HTML file of a page with the moving robot, pose and tensions over time, and the spectrum of the motion.
-        figure
-            File of a figure of pose and tensions over time, .svg or .pdf.
-        animation
-            SVG file of an animated drawing of the moving robot, which any browser shows in true time.
         progress
             Function that is called with the number of rows that are done, and of all rows; first for the run, then for the
             finer one that shows the error.
+        figure
+            Draw pose and tensions over time (.svg, .pdf).
+        animation
+            Write the moving robot as an animated drawing, which any browser shows in true time (.svg).
+        page
+            Write a page with the moving robot, pose and tensions over time, and the spectrum of the motion (.html).
 
         Returns
         -------
@@ -1654,7 +1688,7 @@ class Robot(Analyses):
 
         The other parameters are those of `map`.
         """
-    def trajectory(self, /, path: str | PathLike[str] | Mapping[str, ArrayLike] | Callable[[float], ArrayLike] | None = None, move_to: Pose | ArrayLike | None = None, pose: Pose | ArrayLike | None = None, *, row_tolerance_m: SupportsFloat | SupportsIndex | None = None, via: ArrayLike | None = None, lift_m: SupportsFloat | SupportsIndex | None = None, blend: SupportsFloat | SupportsIndex | None = None, circle_center_m: ArrayLike | None = None, circle_axis: ArrayLike | None = None, turns: SupportsFloat | SupportsIndex | None = None, course: Literal['continuous-jerk', 'jerk-limited', 'quintic', 'septic'] = "continuous-jerk", speed_m_s: SupportsFloat | SupportsIndex | None = None, acceleration_m_s2: SupportsFloat | SupportsIndex | None = None, jerk_m_s3: SupportsFloat | SupportsIndex | None = None, angular_speed_rad_s: SupportsFloat | SupportsIndex | None = None, angular_acceleration_rad_s2: SupportsFloat | SupportsIndex | None = None, angular_jerk_rad_s3: SupportsFloat | SupportsIndex | None = None, duration_s: SupportsFloat | SupportsIndex | None = None, fastest: bool = False, rope_inertia: bool = False, sample_time_s: SupportsFloat | SupportsIndex | None = None, station_time_s: SupportsFloat | SupportsIndex | None = None, length_tolerance_m: SupportsFloat | SupportsIndex | None = None, lengths_m: ArrayLike | None = None, hold_lengths_of_pose: bool = False, mass_kg: SupportsFloat | SupportsIndex | None = None, static_model: StaticModel = "catenary", force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, wind_m_s: ArrayLike | None = None, cable_load_n_per_m: ArrayLike | None = None, tension_rule: TensionRule | None = None, target_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, page: str | PathLike[str] | None = None) -> Results:
+    def trajectory(self, /, path: str | PathLike[str] | Mapping[str, ArrayLike] | Callable[[float], ArrayLike] | None = None, move_to: Pose | ArrayLike | None = None, pose: Pose | ArrayLike | None = None, *, row_tolerance_m: SupportsFloat | SupportsIndex | None = None, via: ArrayLike | None = None, lift_m: SupportsFloat | SupportsIndex | None = None, blend: SupportsFloat | SupportsIndex | None = None, circle_center_m: ArrayLike | None = None, circle_axis: ArrayLike | None = None, turns: SupportsFloat | SupportsIndex | None = None, course: Literal['continuous-jerk', 'jerk-limited', 'quintic', 'septic'] = "continuous-jerk", speed_m_s: SupportsFloat | SupportsIndex | None = None, acceleration_m_s2: SupportsFloat | SupportsIndex | None = None, jerk_m_s3: SupportsFloat | SupportsIndex | None = None, angular_speed_rad_s: SupportsFloat | SupportsIndex | None = None, angular_acceleration_rad_s2: SupportsFloat | SupportsIndex | None = None, angular_jerk_rad_s3: SupportsFloat | SupportsIndex | None = None, duration_s: SupportsFloat | SupportsIndex | None = None, fastest: bool = False, rope_inertia: bool = False, sample_time_s: SupportsFloat | SupportsIndex | None = None, station_time_s: SupportsFloat | SupportsIndex | None = None, length_tolerance_m: SupportsFloat | SupportsIndex | None = None, lengths_m: ArrayLike | None = None, hold_lengths_of_pose: bool = False, mass_kg: SupportsFloat | SupportsIndex | None = None, static_model: StaticModel = "catenary", force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, wind_m_s: ArrayLike | None = None, cable_load_n_per_m: ArrayLike | None = None, tension_rule: TensionRule | None = None, target_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, lengths: str | PathLike[str] | None = None, page: str | PathLike[str] | None = None) -> Results:
         """
         Computes the motion along a path: lengths with their rates, tensions with the inertia, winches, and what limits them.
 
@@ -1719,8 +1753,11 @@ class Robot(Analyses):
             if not given: that between the rows.
         length_tolerance_m
             Error of a length between two of them for which their number is listed [m]; 0.0001 if not given.
+        lengths
+            Write the lengths for a controller: t_s, and unstrained_length_NAME_m of every cable [m], a trajectory for
+            `settle` (.csv).
         page
-            HTML file of a page with the moving robot, and tensions, speeds and powers over time.
+            Write a page with the moving robot, and tensions, speeds and powers over time (.html).
 
         The other parameters are those of `Robot.equilibrium`.
 
@@ -1734,7 +1771,7 @@ class Robot(Analyses):
         StaticsError
             The cables do not hold the platform at some time of the path.
         """
-    def uncertainty(self, /, deviations: Any = None, tolerances: Any = None, of: Result | Sequence[Result] | None = None, *, hold: Hold = "lengths", below_hz: SupportsFloat | SupportsIndex | None = None, at_hz: ArrayLike | None = None, input: str | None = None, output: str | None = None, input_point_m: ArrayLike | None = None, output_point_m: ArrayLike | None = None, poses: ArrayLike | None = None, method: Method = "automatic", samples: SupportsIndex | None = None, seed: SupportsIndex | None = None, lengths_m: ArrayLike | None = None, pose: Pose | ArrayLike | None = None, hold_lengths_of_pose: bool = False, mass_kg: SupportsFloat | SupportsIndex | None = None, static_model: StaticModel = "catenary", force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, wind_m_s: ArrayLike | None = None, cable_load_n_per_m: ArrayLike | None = None, tension_rule: TensionRule | None = None, target_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, cable_model: CableModel | None = None, assembly: Assembly = "consistent", in_plane_only: bool = False, winches: Winches = "as-given", samples_file: str | PathLike[str] | None = None, resume: bool = False, discard: bool = False, threads: SupportsIndex | None = None, progress: Callable[[int, int], object] | None = None) -> Uncertainty:
+    def uncertainty(self, /, deviations: Any = None, tolerances: Any = None, of: Result | Sequence[Result] | None = None, *, hold: Hold = "lengths", below_hz: SupportsFloat | SupportsIndex | None = None, at_hz: ArrayLike | None = None, input: str | None = None, output: str | None = None, input_point_m: ArrayLike | None = None, output_point_m: ArrayLike | None = None, poses: ArrayLike | None = None, method: Method = "automatic", samples: SupportsIndex | None = None, seed: SupportsIndex | None = None, lengths_m: ArrayLike | None = None, pose: Pose | ArrayLike | None = None, hold_lengths_of_pose: bool = False, mass_kg: SupportsFloat | SupportsIndex | None = None, static_model: StaticModel = "catenary", force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, wind_m_s: ArrayLike | None = None, cable_load_n_per_m: ArrayLike | None = None, tension_rule: TensionRule | None = None, target_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, cable_model: CableModel | None = None, assembly: Assembly = "consistent", in_plane_only: bool = False, winches: Winches = "as-given", samples_file: str | PathLike[str] | None = None, resume: bool = False, discard: bool = False, threads: SupportsIndex | None = None, progress: Callable[[int, int], object] | None = None, page: str | PathLike[str] | None = None) -> Uncertainty:
         """
         Computes the deviations of results from deviations or tolerances of numbers of the robot file.
 
@@ -1787,6 +1824,8 @@ class Robot(Analyses):
             Number of threads of this process; one per processor if not given.
         progress
             Function that is called with the number of finished items and of all items.
+        page
+            Write a page with the deviations and what they come from (.html).
 
         The other parameters are those of `Robot.equilibrium` and of `Equilibrium.stiffness`.
 
@@ -1799,7 +1838,7 @@ class Robot(Analyses):
         FileError
             The file of the samples cannot be written, or belongs to other work.
         """
-    def workspace(self, /, at_least: Mapping[str, SupportsFloat | SupportsIndex] | None = None, at_most: Mapping[str, SupportsFloat | SupportsIndex] | None = None, grid: Mapping[str, ArrayLike] | None = None, *, step_m: SupportsFloat | SupportsIndex | None = None, orientations: Literal['all', 'some'] = "all", vertex_tolerance_m: SupportsFloat | SupportsIndex | None = None, rays: SupportsIndex | None = None, center_m: ArrayLike | None = None, section: Mapping[str, ArrayLike] | None = None, up_to_hz: SupportsFloat | SupportsIndex | None = None, platform_share: SupportsFloat | SupportsIndex | None = None, payload_center_m: ArrayLike | None = None, required_force_n: ArrayLike | None = None, required_moment_n_m: ArrayLike | None = None, required_shape: Literal['box', 'ellipsoid'] | None = None, required_payload_min_kg: SupportsFloat | SupportsIndex | None = None, required_payload_max_kg: SupportsFloat | SupportsIndex | None = None, required_payload_center_m: ArrayLike | None = None, required_payload_center_reach_m: ArrayLike | None = None, required_acceleration_m_s2: ArrayLike | None = None, required_angular_acceleration_rad_s2: ArrayLike | None = None, required_wind_speed_m_s: SupportsFloat | SupportsIndex | None = None, required_velocity_m_s: ArrayLike | None = None, required_angular_velocity_rad_s: ArrayLike | None = None, pose: Pose | ArrayLike | None = None, mass_kg: SupportsFloat | SupportsIndex | None = None, static_model: StaticModel = "catenary", force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, wind_m_s: ArrayLike | None = None, cable_load_n_per_m: ArrayLike | None = None, tension_rule: TensionRule | None = None, target_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, cable_model: CableModel | None = None, assembly: Assembly = "consistent", in_plane_only: bool = False, winches: Winches = "as-given", compare: Robot | None = None, surface: str | PathLike[str] | Sequence[str | PathLike[str]] = (), page: str | PathLike[str] | None = None, threads: SupportsIndex | None = None, progress: Callable[[int, int], object] | None = None) -> Results:
+    def workspace(self, /, at_least: Mapping[str, SupportsFloat | SupportsIndex] | None = None, at_most: Mapping[str, SupportsFloat | SupportsIndex] | None = None, grid: Mapping[str, ArrayLike] | None = None, *, step_m: SupportsFloat | SupportsIndex | None = None, orientations: Literal['all', 'some'] = "all", vertex_tolerance_m: SupportsFloat | SupportsIndex | None = None, rays: SupportsIndex | None = None, center_m: ArrayLike | None = None, section: Mapping[str, ArrayLike] | None = None, up_to_hz: SupportsFloat | SupportsIndex | None = None, platform_share: SupportsFloat | SupportsIndex | None = None, payload_center_m: ArrayLike | None = None, required_force_n: ArrayLike | None = None, required_moment_n_m: ArrayLike | None = None, required_shape: Literal['box', 'ellipsoid'] | None = None, required_payload_min_kg: SupportsFloat | SupportsIndex | None = None, required_payload_max_kg: SupportsFloat | SupportsIndex | None = None, required_payload_center_m: ArrayLike | None = None, required_payload_center_reach_m: ArrayLike | None = None, required_acceleration_m_s2: ArrayLike | None = None, required_angular_acceleration_rad_s2: ArrayLike | None = None, required_wind_speed_m_s: SupportsFloat | SupportsIndex | None = None, required_velocity_m_s: ArrayLike | None = None, required_angular_velocity_rad_s: ArrayLike | None = None, pose: Pose | ArrayLike | None = None, mass_kg: SupportsFloat | SupportsIndex | None = None, static_model: StaticModel = "catenary", force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, wind_m_s: ArrayLike | None = None, cable_load_n_per_m: ArrayLike | None = None, tension_rule: TensionRule | None = None, target_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, cable_model: CableModel | None = None, assembly: Assembly = "consistent", in_plane_only: bool = False, winches: Winches = "as-given", compare: Robot | None = None, threads: SupportsIndex | None = None, progress: Callable[[int, int], object] | None = None, figure: str | PathLike[str] | None = None, surface: str | PathLike[str] | Sequence[str | PathLike[str]] | None = None, page: str | PathLike[str] | None = None) -> Results:
         """
         Finds all positions at which quantities keep their limits: surface, volume, parts and holes.
 
@@ -1864,14 +1903,16 @@ class Robot(Analyses):
             Largest required angular velocity, both ways about each world axis [rad/s].
         compare
             Robot whose set is compared with this one on the same grid.
-        surface
-            Files of the closed surface, .stl, .ply or .vtp.
-        page
-            HTML file of a page with the surface, the volumes and the sections.
         threads
             Number of threads of this process; one per processor if not given.
         progress
             Function that is called with the number of positions that are done, and of those known to be needed.
+        figure
+            Draw the sections (.svg, .pdf).
+        surface
+            Write the closed surface of the set [m] to FILE.stl, FILE.ply or FILE.vtp (ParaView) (.stl, .ply, .vtp).
+        page
+            Write a page with the surface in space, the volumes and the sections (.html).
 
         The other parameters are those of `Robot.equilibrium` and of `Equilibrium.stiffness`.
 
@@ -2030,6 +2071,11 @@ def argument(command: str, key: str, name: str, value: Any, cables: SupportsGetI
     if there are any. For functions of the package that are written in Python.
     """
 
+def check_files(command: str, given: str, files: SupportsGetItem[int, tuple[str, str | PathLike[str]]]) -> None:
+    """
+    Checks files that a command shall write besides its result, before the work; `given` has its keys as JSON.
+    """
+
 def complete_request(request: str) -> str:
     """
     Adds the defaults to a request; both are JSON.
@@ -2089,6 +2135,12 @@ def numbers(name: str, value: Any) -> list[float]:
     Reads a row of numbers; `name` stands in errors. For functions of the package that are written in Python.
     """
 
+def outputs_of_commands() -> str:
+    """
+    Files that commands write besides their result, as JSON: by the name of the command, with key, meaning, and whether
+    there may be several.
+    """
+
 def peaks(hz: ArrayLike, response: ArrayLike, *, prominence_db: SupportsFloat | SupportsIndex | None = None) -> tuple[NDArray[float64], NDArray[float64], NDArray[float64]]:
     """
     Finds the peaks of a response; returns their frequencies [Hz], heights above the valleys beside them [dB] and
@@ -2139,8 +2191,8 @@ def suggested(word: str, known: SupportsGetItem[int, str]) -> str:
 
 def text_of(request: str, call: str) -> tuple[str, list[str]]:
     """
-    Computes text and caveats of a request of `report`, `live`, `paper`, `export`, `new` or `schema`; `call` is the code
-    that makes a page again.
+    Computes text and caveats of a request whose result is a file, such as `report` or `export`; `call` is the code that
+    makes a page again.
     """
 
 def try_file(path: str | PathLike[str]) -> None:

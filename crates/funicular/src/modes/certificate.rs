@@ -96,7 +96,7 @@ impl DampedModes {
         (!named.is_empty()).then(|| {
             format!(
                 "damping makes neighbouring vibrations one, so that it is not clear which damped vibration belongs to \
-                 which of the modes at {}{} Hz: their eigenvalues and damping ratios are right as a set,
+                 which of the modes at {}{} Hz: their eigenvalues and damping ratios are right as a set, \
                  not mode by mode",
                 named.join(", "),
                 if more > 0 { format!(" and {more} more") } else { String::new() }

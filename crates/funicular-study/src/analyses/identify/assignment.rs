@@ -366,7 +366,7 @@ impl Assigning {
         (!doubts.is_empty()).then(|| {
             format!(
                 "the assignment to modes is not determined for {} without a number: {}. No deviations and intervals \
-                 are given; number the modes (column `label`), fit fewer values,
+                 are given; number the modes (column `label`), fit fewer values, \
                  or measure more frequencies more accurately",
                 counted(self.open, "frequency").replace("frequencys", "frequencies"),
                 doubts.join("; ")

@@ -557,8 +557,7 @@ fn the_rendered_error_looks_as_a_user_expects() {
 5 | mas_kg = 10.0
   | ^^^^^^
   |
-  = help: did you mean `mass_kg`? keys here are `mass_kg`, `motion`, `plane_normal`, `plane_offset_m`, `inertia_kg_m2`,
-  `center_of_mass_m`, `drag_area_m2`, `translational_damping_n_s_m`, `rotational_damping_n_m_s`
+  = help: did you mean `mass_kg`? keys here are `mass_kg`, `motion`, `plane_normal`, `plane_offset_m`, `inertia_kg_m2`, `center_of_mass_m`, `drag_area_m2`, `translational_damping_n_s_m`, `rotational_damping_n_m_s`
 
 error: two cables are called "left"
   --> robots/mine.toml:27:8
