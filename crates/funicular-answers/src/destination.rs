@@ -48,13 +48,15 @@ impl Destination {
         // A symbolic link is followed: its target is replaced, not the link.
         let target = path.canonicalize().unwrap_or_else(|_| path.to_owned());
         if target.is_dir() {
-            bail!("cannot write to {shown}: it is a directory; add a file name");
+            let text = format!("cannot write to {shown}: it is a directory; add a file name");
+            return Err(io::Error::new(io::ErrorKind::IsADirectory, text).into());
         }
         guard.writes(content.name, path)?;
         endings::check(path, content.in_words, content.fitting)?;
         if is_regular_or_new(&target) {
             if fs::metadata(&target).is_ok_and(|metadata| metadata.permissions().readonly()) {
-                bail!("cannot write to {shown}: it is read-only");
+                let text = format!("cannot write to {shown}: it is read-only");
+                return Err(io::Error::new(io::ErrorKind::PermissionDenied, text).into());
             }
             // The empty file is removed again.
             TemporaryFile::beside(&target).map_err(|error| failed(path, error))?;

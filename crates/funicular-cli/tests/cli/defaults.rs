@@ -5,6 +5,7 @@ use funicular::cable::CableModel;
 use funicular::math::Vec3;
 use funicular::robot::Robot;
 use funicular::statics::{StaticModel, TensionRange, TensionRule};
+use funicular_formats::export::TABLE_TOLERANCE;
 use funicular_pages::figures;
 use funicular_study::analyses::reduce;
 use funicular_study::frequency_range::{LOWEST, START_POINTS};
@@ -203,6 +204,7 @@ fn filled_in() -> Vec<(&'static str, &'static str, Vec<String>)> {
     all.extend(["statics", "map", "sweep", "export"].map(tensions));
 
     all.push(("export", "duration-s", vec![format!("{SIMULATED_S} with a scenario")]));
+    all.push(("export", "tolerance-m", vec![format!("{:e}", TABLE_TOLERANCE)]));
 
     // Figures.
     let column = figures::WIDTHS.iter().find(|(_, width)| *width == figures::DEFAULT_WIDTH_MM).unwrap().0;

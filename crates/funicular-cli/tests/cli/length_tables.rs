@@ -192,8 +192,9 @@ fn firmware_has_the_lengths_of_statics_in_double_and_in_float() {
             let [outside, border, none] = [&rows[200], &rows[201], &rows[202]];
             assert_eq!((outside[0], border[0], none[0]), (1.0, 0.0, 1.0), "{}", case.name);
             assert_eq!(outside[1..], border[1..], "{}: {from} {to}", case.name);
+            // A difference over 0.2 mm of lengths up to 16 m, with 24 bits each.
             let gradient = rows[203][0];
-            assert!(gradient < if flags.is_empty() { 1e-5 } else { 2e-3 }, "{}: {gradient}", case.name);
+            assert!(gradient < if flags.is_empty() { 1e-5 } else { 1e-2 }, "{}: {gradient}", case.name);
         }
     }
 }

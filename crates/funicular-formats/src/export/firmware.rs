@@ -17,7 +17,7 @@ use funicular_study::request::{Axis, ExportRequest, Steps};
 use funicular_study::sweep::AXES;
 
 /// Largest error of a length if none is requested [m].
-const TOLERANCE: f64 = 1e-4;
+pub(super) const TOLERANCE: f64 = 1e-4;
 
 /// Narrowest range of a coordinate [m, degrees].
 const MIN_WIDTH: f64 = 1e-6;
