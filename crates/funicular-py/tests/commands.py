@@ -75,7 +75,7 @@ def value(command: str, option: str, text: str) -> Any:
         return text.split(",")
     if option in ("--weights", "--leave-out", "--avoid-hz", "--tension-range-n", "--profile-s", "--shape-modes-hz"):
         return [float(part) for part in text.replace(":", ",").split(",")]
-    if option in ("--input", "--output", "--name", "--rope") or re.search("[a-z]{2}", text):
+    if option in ("--input", "--output", "--name", "--rope", "--to", "--prefix") or re.search("[a-z]{2}", text):
         return text
     found = numbers(text)
     return found[0] if len(found) == 1 else found
@@ -105,6 +105,10 @@ def call(line: str) -> tuple[str, list[str], dict[str, Any], dict[str, Any]]:
         elif word in ("--grid", "--vary", "--section"):
             axis, _, text = next(rest).partition("=")
             keywords.setdefault(key, {})[axis] = steps(text)
+        elif word == "--within":
+            axis, _, text = next(rest).partition("=")
+            ends = [number(part) for part in text.split(":")]
+            keywords.setdefault(key, {})[axis] = tuple(ends) if len(ends) == 2 else ends[0]
         elif word == "--point":
             name, _, text = next(rest).partition("=")
             keywords.setdefault(key, {})[name] = numbers(text)

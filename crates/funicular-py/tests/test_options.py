@@ -13,6 +13,7 @@ import numpy as np
 import pytest
 from conftest import ROOT
 from funicular import Equilibrium, Robot, Sweep
+from funicular._declared import OUTPUTS
 
 DOCUMENT = ROOT / "docs/python.md"
 
@@ -63,6 +64,7 @@ COMMANDS: dict[str, tuple[str, list[Callable[..., Any]]]] = {
 # Options without a keyword of their name, with the object that replaces them; entries of one command go first.
 OTHERS: dict[tuple[str | None, str], tuple[str, Callable[..., Any]]] = {
     ("import", "--trajectory"): ("`funicular.import_trajectory`", funicular.import_trajectory),
+    (None, "--quiet"): ("a call prints nothing", Robot.check),
     (None, "--set"): ("`robot.with_({path: value})`", Robot.with_),
     (None, "--all"): ("`equilibrium.all_equilibria()`", Equilibrium.all_equilibria),
     (None, "--friction-interval"): ("`equilibrium.friction_interval()`", Equilibrium.friction_interval),
@@ -86,18 +88,10 @@ OTHERS: dict[tuple[str | None, str], tuple[str, Callable[..., Any]]] = {
     ("identify", "--tension-std-n"): ("`tension_std_n` of an experiment", Robot.identify),
     ("identify", "--length-std-m"): ("`length_std_m` of an experiment", Robot.identify),
     ("identify", "--output-file"): ("`json.dumps(result.details)`", funicular.Identified.to_dict),
-    ("identify", "--fitted"): ("`result.robot_file`, `result.robot`", funicular.Identified.to_dict),
-    ("identify", "--page"): ("`result.page(path)`", funicular.Identified.page),
-    ("trajectory", "--lengths"): ("`unstrained_lengths_m` of the rows", Robot.trajectory),
-    ("settle", "--lengths"): ("`lengths` of the result", Equilibrium.settle),
-    ("calibrate", "--calibrated"): ("`robot_file` of the result", Robot.calibrate),
     ("simulate", "--resume"): ("a run stays in memory, and Ctrl-C keeps what there is", Robot.simulate),
     ("simulate", "--discard"): ("a run stays in memory, and Ctrl-C keeps what there is", Robot.simulate),
     ("design", "--output-file"): ("`json.dumps(result.details)`", funicular.Designed.to_dict),
-    ("design", "--designed"): ("`result.robot_file`, `result.robot`", funicular.Designed.to_dict),
-    ("design", "--page"): ("`result.page(path)`", funicular.Designed.page),
     ("workspace", "--compare-set"): ("`robot.with_({path: value})` as `compare`", Robot.with_),
-    ("uncertainty", "--page"): ("`result.page(path)`", funicular.Uncertainty.page),
     ("frf", "--output-file"): ("`equilibrium.write_frf(path, …)` for a Universal File", Equilibrium.write_frf),
     ("modes", "--output-file"): ("`equilibrium.write_modes(path, …)` for a Universal File", Equilibrium.write_modes),
     (None, "--from-hz"): ("`hz=numpy.linspace(from_hz, to_hz, points)`", np.linspace),
@@ -127,6 +121,7 @@ OTHERS: dict[tuple[str | None, str], tuple[str, Callable[..., Any]]] = {
     ("new", "--output-file"): ("`new.write(path)`", funicular.NewRobot.write),
     ("schema", "--output-file"): ("`json.dumps(funicular.schema())`", funicular.schema),
     ("import", "--output-file"): ("`imported.write(path)`", funicular.Imported.write),
+    ("request", "--samples-file"): ("`samples_file=` of `Robot.uncertainty`", Robot.uncertainty),
     ("request", "--format"): ("`json.dumps(result)`", funicular.run),
     ("request", "--output-file"): ("`json.dumps(result)`, `rows.write(path)`, `page.write(path)`", funicular.Page.write),
 }
@@ -145,6 +140,10 @@ def equal(command: str, option: str) -> tuple[str, str] | None:
             # `Equilibrium` and `Robot` share the methods of `Analyses`.
             name = name.replace("Analyses.", "Equilibrium.")
             return f"`{keyword}=`", f"`{name}`"
+    # Files of every command are keywords of `funicular.run`.
+    outputs = [output for of, found in OUTPUTS.items() if command in ("request", of) for output in found]
+    if any(output["key"] == keyword for output in outputs):
+        return f"`{keyword}=`", "`funicular.run`"
     return None
 
 
