@@ -25,7 +25,7 @@ const ALLOWED: [(&str, &str, &str); 21] = [
     ("uncertainty/output.rs", "columns", COLUMNS),
     ("analyses/identify.rs", "run", "the steps of a fit, and the fields of its result"),
     ("sweep/quantity/table.rs", "the file", "a row per quantity"),
-    ("answers/src/outputs.rs", "the file", "a row per file that a command writes"),
+    ("funicular-answers/src/outputs.rs", "the file", "a row per file that a command writes"),
     ("analyses/check.rs", "the file", "a finding per part of a robot file"),
     ("analyses/statics.rs", "the file", "columns and text of the table with most columns"),
     ("analyses/identify.rs", "the file", "columns of five tables"),
