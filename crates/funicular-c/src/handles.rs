@@ -56,7 +56,7 @@ impl Model {
 
     /// Counts a loop; false for a model that has ended.
     fn add_loop(&self) -> bool {
-        let more = |count: u32| (count < u32::MAX - 1).then_some(count + 1);
+        let more = |count: u32| count.checked_add(1).filter(|next| *next < u32::MAX);
         self.loops.fetch_update(Ordering::AcqRel, Ordering::Acquire, more).is_ok()
     }
 }
