@@ -331,7 +331,7 @@ fn responses_without_gradients_are_sampled_and_wrong_ones_refused() {
         (json!({"at_hz": [0.0]}), "`at_hz`: at 0 Hz nothing moves"),
         (json!({"at_hz": [1.0, 2.0, 1.0]}), "`at_hz`: 1 Hz is there twice"),
         (json!({"at_hz": []}), "`response` needs `at_hz`"),
-        (json!({"at_hz": -1.0}), "at_hz"),
+        (json!({"at_hz": -1.0}), "`at_hz`: -1 is negative"),
         (json!({"input": null}), "`response` needs `input`"),
         (json!({"output": "cable:9@0.5:az"}), "9"),
     ] {
@@ -340,8 +340,8 @@ fn responses_without_gradients_are_sampled_and_wrong_ones_refused() {
             "input": "fz", "output": "az", "at_hz": [1.0], "deviations": ["platform.mass_kg=1%"],
         });
         request.as_object_mut().unwrap().extend(more.as_object().unwrap().clone());
-        let request = Request::from_json(&request.to_string()).unwrap();
-        let Err(error) = run(&request, &mut Silent) else { panic!("{more} is refused") };
+        let read = Request::from_json(&request.to_string());
+        let Err(error) = read.and_then(|request| run(&request, &mut Silent)) else { panic!("{more} is refused") };
         assert!(format!("{error:#}").contains(message), "{error:#}");
     }
 }

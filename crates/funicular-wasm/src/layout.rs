@@ -226,8 +226,8 @@ mod tests {
         let words: Vec<String> = KINDS.iter().map(|one| format!("\"{}\"", kind(*one).1)).collect();
         [
             "// Layout of the numbers of a frame: names and counts, in their order. Do not edit:\n\
-             // `UPDATE_DOCS=1 cargo test -p funicular-wasm layout` writes this file from src/layout.rs of the
-             // module.\n"
+             // `UPDATE_DOCS=1 cargo test -p funicular-wasm layout` writes this file from \
+             src/layout.rs of the module.\n"
                 .to_owned(),
             script_of("HEADER", "Numbers before the cables.", &header()),
             script_of("CABLE", "Numbers of each cable.", &cable()),
