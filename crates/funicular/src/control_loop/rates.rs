@@ -1,18 +1,17 @@
 //! Rates and accelerations of the lengths in a control loop.
 //!
-//! The lengths of the centre are a smooth function of time. Differences between two times nearby, each solved from the
-//! state between them, give both derivatives. The platform moves by a small part of its distance to the anchors between
-//! the times, so that the differences leave 1e-8 of a rate, and rounding 1e-5 of an acceleration.
+//! The lengths of the centre are a smooth function of time. Differences of the fourth order between times nearby, each
+//! solved from the state between them, give both derivatives. The platform moves by a small part of its distance to the
+//! anchors between the times, so that the differences leave 1e-8 of a rate, and rounding 1e-5 of an acceleration.
 
 use super::input::{LoopInput, check_pose};
 use super::model::{LoopModel, MAX_CABLES};
 use super::solved::{SearchStart, SolvedState, solve};
 use crate::path::PathPoint;
 
-/// Motion between two times, over the distance to the anchors and in radians. At robots of the library it leaves 7e-9 of
-/// a rate and 6e-6 of an acceleration. A larger part has an error of rates that grows with its square; with a smaller
-/// one the rounding of accelerations grows as fast.
-const PART: f64 = 8e-5;
+/// Motion between two times, over the distance to the anchors and in radians. The error of the differences grows with
+/// its fourth power, and the rounding of accelerations falls with its square.
+const PART: f64 = 2e-4;
 
 /// Factor of the time after a difference that left the limits, and maximum number of such attempts: the last is 1 µm in
 /// 10 m.
@@ -70,13 +69,18 @@ fn differences(
         check_pose(model.robot(), &at.pose).ok()?;
         solve(model, &at, &input.wrench(), SearchStart::Near(&solved.near)).ok()
     };
-    let (before, after) = (beside(-time)?, beside(time)?);
+    let near = [beside(-time)?, beside(time)?];
+    let far = [beside(-2.0 * time)?, beside(2.0 * time)?];
 
     let mut motion = [LengthMotion::default(); MAX_CABLES];
     for (i, of) in motion.iter_mut().enumerate().take(count) {
         let here = solved.state.cables[i].length;
-        let [before, after] = [&before, &after].map(|there| there.state.cables[i].length - here);
-        *of = LengthMotion { rate: (after - before) / (2.0 * time), acceleration: (after + before) / (time * time) };
+        let changes = |there: &[SolvedState; 2]| [0, 1].map(|k| there[k].state.cables[i].length - here);
+        let ([before, after], [far_before, far_after]) = (changes(&near), changes(&far));
+        *of = LengthMotion {
+            rate: (8.0 * (after - before) - (far_after - far_before)) / (12.0 * time),
+            acceleration: (16.0 * (after + before) - (far_after + far_before)) / (12.0 * time * time),
+        };
     }
     Some(motion)
 }
