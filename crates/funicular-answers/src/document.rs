@@ -14,9 +14,9 @@ use funicular_study::{Watch, schema};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 
-/// Default destination of a file.
+/// DefaultDestination destination of a file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Default {
+pub enum DefaultDestination {
     /// Standard output.
     Stdout,
     /// File of this name.
@@ -26,15 +26,15 @@ pub enum Default {
 }
 
 /// Commands whose result is a file, with the default destination and the meaning of their `-o`.
-const DOCUMENTS: [(&str, Default, &str); 8] = [
-    ("new", Default::Stdout, "Write the robot file to FILE, which must not exist yet; - is standard output"),
-    ("schema", Default::Stdout, TO_FILE),
-    ("import", Default::Stdout, TO_FILE),
-    ("export", Default::Stdout, TO_FILE),
-    ("report", Default::File("funicular-report.html"), TO_PAGE),
-    ("live", Default::File("funicular-live.html"), TO_PAGE),
-    ("paper", Default::File("funicular-paper.html"), TO_PAGE),
-    ("plot", Default::BesideRows, TO_PAGE_OR_FIGURE),
+const DOCUMENTS: [(&str, DefaultDestination, &str); 8] = [
+    ("new", DefaultDestination::Stdout, "Write the robot file to FILE, which must not exist yet; - is standard output"),
+    ("schema", DefaultDestination::Stdout, TO_FILE),
+    ("import", DefaultDestination::Stdout, TO_FILE),
+    ("export", DefaultDestination::Stdout, TO_FILE),
+    ("report", DefaultDestination::File("funicular-report.html"), TO_PAGE),
+    ("live", DefaultDestination::File("funicular-live.html"), TO_PAGE),
+    ("paper", DefaultDestination::File("funicular-paper.html"), TO_PAGE),
+    ("plot", DefaultDestination::BesideRows, TO_PAGE_OR_FIGURE),
 ];
 
 const TO_FILE: &str = "Write to FILE, completely or not at all; - is standard output";
@@ -42,8 +42,8 @@ const TO_PAGE_OR_FIGURE: &str = "Write the page to FILE, completely or not at al
                                  FILE.parquet with the ending .html]. FILE.svg and FILE.pdf hold one figure";
 const TO_PAGE: &str = "Write the page to FILE, completely or not at all; - is standard output";
 
-/// Default destination of a command whose result is a file, and the meaning of its `-o`; `None` for other commands.
-pub fn destination(command: &str) -> Option<(Default, &'static str)> {
+/// DefaultDestination destination of a command whose result is a file, and the meaning of its `-o`; `None` for other commands.
+pub fn destination(command: &str) -> Option<(DefaultDestination, &'static str)> {
     DOCUMENTS.iter().find(|(name, _, _)| *name == command).map(|(_, default, about)| (*default, *about))
 }
 
@@ -96,8 +96,8 @@ fn of_export(of: &ExportRequest) -> Form {
 /// Destination of a document without another one; `None` is standard output.
 pub fn default_path(request: &Request) -> Option<PathBuf> {
     match (destination(request.command())?.0, request) {
-        (Default::File(name), _) => Some(name.into()),
-        (Default::BesideRows, Request::Plot(of)) => Some(Path::new(&of.file).with_extension("html")),
+        (DefaultDestination::File(name), _) => Some(name.into()),
+        (DefaultDestination::BesideRows, Request::Plot(of)) => Some(Path::new(&of.file).with_extension("html")),
         _ => None,
     }
 }

@@ -1,6 +1,12 @@
 //! Files that commands write besides their result: one table, from which the program has its options, Python its
 //! keywords and a request in JSON its `write_files`.
 
+mod opened;
+mod wanted;
+
+pub use opened::{Opened, Written, told};
+pub use wanted::{FILES, Wanted, schema, take_wanted, wanted_to_value};
+
 use crate::destination::{Bytes, Content, Destination};
 use crate::matrices;
 use anyhow::{Result, anyhow, bail};
@@ -8,18 +14,17 @@ use funicular_files::endings::{self, Kind};
 use funicular_files::{Guard, SweepFile};
 use funicular_formats::surface::{self, SurfaceFormat};
 use funicular_formats::uff_writing::{frf_file, modes_file};
-use funicular_pages::figures::{self, Figure, RequestFigure, Size};
+use funicular_pages::figures::{self, Figure, RequestFigure};
 use funicular_pages::pages;
 use funicular_pages::pages::plot::SweepFigureChoice;
 use funicular_study::analyses::workspace::Workspace;
 use funicular_study::columns::ResultTable;
-use funicular_study::request::{Request, keys_of};
+use funicular_study::request::Request;
 use funicular_study::text::counted;
 use funicular_study::wording::{Words, worded};
 use funicular_study::{Results, Watch};
-use serde_json::{Map, Value, json};
-use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
+use serde_json::{Map, Value};
+use std::path::Path;
 
 /// File that a command writes besides its result.
 #[expect(clippy::struct_excessive_bools, reason = "a row of a table")]
@@ -154,6 +159,16 @@ macro_rules! of {
     };
 }
 
+/// Request of one command, from that of any.
+macro_rules! asked {
+    ($Variant:ident, $at:ident, $request:ident => $made:expr) => {
+        match $at.request {
+            Request::$Variant($request) => $made,
+            other => bail!("`{}` has no such file", other.command()),
+        }
+    };
+}
+
 #[expect(clippy::unnecessary_wraps, reason = "others refuse")]
 fn always(_: &Given, _: &Path) -> Result<()> {
     Ok(())
@@ -251,29 +266,29 @@ static OUTPUTS: &[(&str, &[Output])] = &[
                 Some(Value::Bool(true)) => bail!("a figure shows one equilibrium: leave out ⟪all⟫"),
                 _ => Ok(()),
             },
-            ..drawn("Draw the robot at its equilibrium", |at, _, _| match at.request {
-                Request::Statics(of) => Ok(plain(figures::of_statics(of)?)),
-                other => bail!("`{}` has no such file", other.command()),
-            })
+            ..drawn(
+                "Draw the robot at its equilibrium",
+                |at, _, _| asked!(Statics, at, of => Ok(plain(figures::of_statics(of)?))),
+            )
         }],
     ),
     (
         "modes",
         &[
-            drawn("Draw the spectrum, or the shape of one mode", |at, options, _| match at.request {
-                Request::Modes(of) => Ok(figures::of_modes(of, options.mode)?.into()),
-                other => bail!("`{}` has no such file", other.command()),
-            }),
+            drawn(
+                "Draw the spectrum, or the shape of one mode",
+                |at, options, _| asked!(Modes, at, of => Ok(figures::of_modes(of, options.mode)?.into())),
+            ),
             universal_file(|at, _| of!(Modes, at, found => Ok(modes_file(found).into()))),
         ],
     ),
     (
         "frf",
         &[
-            drawn("Draw magnitude and phase", |at, _, watch| match at.request {
-                Request::Frf(of) => Ok(figures::of_frf(of, watch)?.into()),
-                other => bail!("`{}` has no such file", other.command()),
-            }),
+            drawn(
+                "Draw magnitude and phase",
+                |at, _, watch| asked!(Frf, at, of => Ok(figures::of_frf(of, watch)?.into())),
+            ),
             universal_file(|at, _| of!(Frf, at, found => Ok(frf_file(found)?.into()))),
         ],
     ),
@@ -449,13 +464,12 @@ static OUTPUTS: &[(&str, &[Output])] = &[
     ),
     (
         "plot",
-        &[drawn("Draw one quantity for a paper", |at, options, _| match at.request {
-            Request::Plot(of) => {
+        &[drawn("Draw one quantity for a paper", |at, options, _| {
+            asked!(Plot, at, of => {
                 let rows = SweepFile::open(Path::new(&of.file))?;
                 let made = pages::plot::figure(&rows, &of.file, &options.of_rows)?;
                 Ok(Drawn { figure: made.figure, warnings: Vec::new(), notes: made.notes })
-            }
-            other => bail!("`{}` has no such file", other.command()),
+            })
         })],
     ),
 ];
@@ -492,122 +506,6 @@ pub fn page_of(at: &Answered<'_>) -> Result<String> {
     Ok(worded(&make(at)?, at.words))
 }
 
-/// File that is wanted: its key, and its path.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Wanted {
-    /// Key of the table.
-    pub key: String,
-    /// Path.
-    pub path: PathBuf,
-}
-
-/// Files that have been checked and can be written.
-pub struct Opened {
-    files: Vec<(&'static Output, Destination)>,
-    options: FigureOptions,
-    size: Size,
-}
-
-impl Opened {
-    /// Checks the wanted files of a request, in the order of the table, before the work.
-    ///
-    /// # Errors
-    /// Those of [`Opened::of_keys`].
-    pub fn open(request: &Request, wanted: &[Wanted], options: FigureOptions, guard: &mut Guard) -> Result<Self> {
-        let given = if wanted.is_empty() { Map::new() } else { keys_of(request)? };
-        Self::of_keys(request.command(), &given, wanted, options, guard)
-    }
-
-    /// Checks the wanted files of a command with these keys.
-    ///
-    /// # Errors
-    /// A file that the command does not have, that the request has not, that cannot be written, or that the command
-    /// reads or writes otherwise; options of a figure without one.
-    pub fn of_keys(
-        command: &str,
-        given: &Given,
-        wanted: &[Wanted],
-        options: FigureOptions,
-        guard: &mut Guard,
-    ) -> Result<Self> {
-        let outputs = of(command);
-        if let Some(other) = wanted.iter().find(|of| !outputs.iter().any(|output| output.key == of.key)) {
-            let known: Vec<String> = outputs.iter().map(|output| format!("⟪{}⟫", output.key)).collect();
-            let known = if known.is_empty() { "no other file".to_owned() } else { known.join(", ") };
-            bail!("`{command}` writes no ⟪{}⟫: besides its result it writes {known}", other.key);
-        }
-        let size = Size::new(options.width_mm, options.font_size_pt)?;
-        let mut files = Vec::new();
-        for output in outputs {
-            let paths: Vec<&Path> =
-                wanted.iter().filter(|of| of.key == output.key).map(|of| of.path.as_path()).collect();
-            if paths.len() > 1 && !output.several {
-                bail!("⟪{}⟫ and -o name a file of the same kind: leave out one of them", output.key);
-            }
-            for path in paths {
-                output.refuse(given, path)?;
-                files.push((output, output.destination(path, guard)?));
-            }
-        }
-        let has_figure = files.iter().any(|(output, _)| matches!(output.make, Make::Figure(_)));
-        if let Some(key) = options.given().next().filter(|_| !has_figure) {
-            bail!("⟪{key}⟫ belongs to a figure: write one with -o FILE.svg or -o FILE.pdf, or leave it out");
-        }
-        if options.mode.is_some() && command != "modes" {
-            bail!("⟪figure_mode⟫ chooses a mode shape of `modes`: leave it out for `{command}`");
-        }
-        Ok(Self { files, options, size })
-    }
-
-    /// True with a figure.
-    pub fn has_figure(&self) -> bool {
-        self.files.iter().any(|(output, _)| matches!(output.make, Make::Figure(_)))
-    }
-
-    /// True if some file is made of results.
-    pub fn needs_results(&self) -> bool {
-        self.files.iter().any(|(output, _)| !output.of_request)
-    }
-
-    /// True without any file.
-    pub fn is_empty(&self) -> bool {
-        self.files.is_empty()
-    }
-
-    /// Tells results where their files will be, if their text says so.
-    pub fn tell(&self, results: &mut Results) {
-        if let Results::Reduce(found) = results {
-            found.set_matrices_file(self.files.first().map(|(_, to)| to.path.display().to_string()));
-        }
-    }
-
-    /// Makes all files, in the order of the table.
-    ///
-    /// # Errors
-    /// Results without such a file.
-    pub fn make(self, at: Answered<'_>, watch: &mut dyn Watch) -> Result<Vec<Written>> {
-        let Self { files, options, size } = self;
-        let made = |(output, destination): (&Output, Destination)| {
-            let kind = Kind::of(&destination.path);
-            let Made { bytes, warnings, notes, size } = match output.make {
-                Make::Page(make) => {
-                    let page = worded(&make(&at)?, at.words);
-                    Made { size: Some(size_of_page(page.len())), ..page.into_bytes().into() }
-                }
-                Make::Figure(make) => {
-                    let Drawn { figure, warnings, notes } = make(&at, &options, watch)?;
-                    let is_pdf = kind == Some(Kind::Pdf);
-                    let bytes = if is_pdf { figure.pdf(size) } else { figure.svg(size).into_bytes() };
-                    Made { warnings, notes, ..bytes.into() }
-                }
-                Make::Bytes(make) => make(&at, kind)?,
-            };
-            Ok(Written { destination, bytes, size, warnings, notes })
-        };
-        files.into_iter().map(made).collect()
-    }
-}
-
 impl Output {
     /// Refuses keys without such a file.
     fn refuse(&self, given: &Given, path: &Path) -> Result<()> {
@@ -641,97 +539,6 @@ impl Output {
         }
         Destination::open(path, content, guard)
     }
-}
-
-/// File that has been made.
-pub struct Written {
-    destination: Destination,
-    bytes: Bytes,
-    size: Option<String>,
-    /// Sentences about the file that the user should know.
-    pub warnings: Vec<String>,
-    /// Notes for the user.
-    pub notes: Vec<String>,
-}
-
-impl Written {
-    /// Writes the file, and says so.
-    ///
-    /// # Errors
-    /// The error of the system.
-    pub fn write(&self) -> Result<String> {
-        self.destination.write(&self.bytes)?;
-        Ok(told(&self.destination.path, self.size.as_deref()))
-    }
-}
-
-/// Sentence on a file that was written, with its size in words.
-pub fn told(path: &Path, size: Option<&str>) -> String {
-    match size {
-        Some(size) => format!("wrote {} ({size})", path.display()),
-        None => format!("wrote {}", path.display()),
-    }
-}
-
-/// Key of a request in JSON with the files that it wants: an object with the keys of the table.
-pub const FILES: &str = "write_files";
-
-/// Takes the wanted files out of a request in JSON.
-///
-/// # Errors
-/// No object of paths; only files of which there may be several have a list of paths.
-pub fn take_wanted(request: &mut Value) -> Result<Vec<Wanted>> {
-    let files = request.as_object_mut().and_then(|keys| keys.remove(FILES));
-    let files = match files {
-        None | Some(Value::Null) => return Ok(Vec::new()),
-        Some(Value::Object(files)) => files,
-        Some(other) => bail!("`{FILES}` is {other}: give an object of paths, as in {{\"page\": \"page.html\"}}"),
-    };
-    let mut wanted = Vec::new();
-    for (key, paths) in files {
-        let paths = match paths {
-            Value::Null => continue,
-            Value::Array(paths) => paths,
-            one => vec![one],
-        };
-        for path in paths {
-            let Value::String(path) = path else { bail!("`{FILES}`, `{key}`: {path} is not the path of a file") };
-            wanted.push(Wanted { key: key.clone(), path: path.into() });
-        }
-    }
-    Ok(wanted)
-}
-
-/// Wanted files as the value of [`FILES`]; `None` without any.
-pub fn wanted_to_value(wanted: &[Wanted]) -> Option<Value> {
-    let mut files: BTreeMap<&str, Vec<Value>> = BTreeMap::new();
-    for Wanted { key, path } in wanted {
-        files.entry(key).or_default().push(path.display().to_string().into());
-    }
-    let of_paths = |mut paths: Vec<Value>| if paths.len() == 1 { paths.remove(0) } else { Value::Array(paths) };
-    let object: Map<String, Value> = files.into_iter().map(|(key, paths)| (key.to_owned(), of_paths(paths))).collect();
-    (!object.is_empty()).then_some(Value::Object(object))
-}
-
-/// Schema of the value of [`FILES`] for a command; `None` for one that writes no other file.
-pub fn schema(command: &str) -> Option<Value> {
-    let outputs = of(command);
-    if outputs.is_empty() {
-        return None;
-    }
-    let path = json!({ "type": "string", "minLength": 1 });
-    let property = |output: &Output| {
-        let about = worded(output.about, Words::Json);
-        let one = json!({ "type": "string", "minLength": 1, "description": about });
-        let some = json!({ "anyOf": [path, { "type": "array", "items": path }], "description": about });
-        (output.key.to_owned(), if output.several { some } else { one })
-    };
-    Some(json!({
-        "description": "Files that are written besides the result",
-        "type": "object",
-        "properties": outputs.iter().map(property).collect::<Map<_, _>>(),
-        "additionalProperties": false,
-    }))
 }
 
 #[cfg(test)]

@@ -2,7 +2,7 @@
 
 use crate::layout::Sized32;
 use crate::status::{BAD_INPUT, BAD_POINTER, BAD_STRUCT};
-use funicular::control_loop::{LoopInput, pose_from_quaternion};
+use funicular::control_loop::{LoopInput, MAX_CABLES, pose_from_quaternion};
 use funicular::math::{Vec3, Vec6};
 use funicular::path::PathPoint;
 use std::ffi::c_char;
@@ -60,9 +60,9 @@ fn whole_members<T>(given: usize) -> usize {
 ///
 /// # Safety
 /// If not null, `from` points to `count` readable numbers.
-pub(crate) unsafe fn read_array(from: *const f64, count: usize) -> Checked<[f64; 16]> {
+pub(crate) unsafe fn read_array(from: *const f64, count: usize) -> Checked<[f64; MAX_CABLES]> {
     check(from)?;
-    let mut values = [0.0; 16];
+    let mut values = [0.0; MAX_CABLES];
     let count = count.min(values.len());
     // SAFETY: not null, aligned; `values` has room for `count`.
     unsafe { ptr::copy_nonoverlapping(from, values.as_mut_ptr(), count) };

@@ -8,6 +8,7 @@ use crate::layout::{ForwardResult, InverseResult, PoseInput, WrenchResult};
 use crate::loop_calls::{fn_forward, fn_forward_cold, fn_inverse, fn_reset, fn_wrench};
 use crate::model_calls::{fn_loop_end, fn_model_free, fn_model_from_file};
 use crate::status::{BAD_HANDLE, BAD_POINTER, CERTIFIED, PANIC};
+use funicular::control_loop::MAX_CABLES;
 use std::ffi::c_char;
 use std::mem::size_of;
 use std::ptr;
@@ -141,7 +142,7 @@ pub unsafe extern "C" fn fn_flat_inverse(
         check_wanted(summary)?;
         let mut result = InverseResult {
             struct_size: size_of::<InverseResult>() as u32,
-            cables: 16,
+            cables: MAX_CABLES as u32,
             length_m,
             length_rate_m_s,
             length_acceleration_m_s2,
@@ -182,7 +183,7 @@ pub unsafe extern "C" fn fn_flat_forward(
         check_wanted(position_quaternion)?;
         let mut result = ForwardResult {
             struct_size: size_of::<ForwardResult>() as u32,
-            cables: 16,
+            cables: MAX_CABLES as u32,
             tension_platform_n,
             tension_drum_n,
             ..ForwardResult::default()

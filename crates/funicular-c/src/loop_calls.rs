@@ -4,7 +4,7 @@ use crate::border::{Checked, check_wanted, loop_input, read_array, read_struct, 
 use crate::handles::Loop;
 use crate::layout::{ForwardResult, InverseResult, PoseInput, WrenchResult};
 use crate::status::{BAD_STRUCT, CERTIFIED, NO_START, of_fault, of_status};
-use funicular::control_loop::{ControlLoop, LoopInput, LoopModel, LoopState};
+use funicular::control_loop::{ControlLoop, LoopInput, LoopModel, LoopState, MAX_CABLES};
 use funicular::math::{Vec3, Vec6};
 use funicular::path::PathPoint;
 
@@ -141,12 +141,12 @@ fn warm_up(model: &LoopModel) -> Checked<i32> {
     for _ in 0..2 {
         let found = state.inverse(model, &LoopInput::moving(moving), true).map_err(of_fault)?;
         status = of_status(found.status);
-        let (mut lengths, mut tensions) = ([0.0; 16], [0.0; 16]);
+        let (mut lengths, mut tensions) = ([0.0; MAX_CABLES], [0.0; MAX_CABLES]);
         for (i, cable) in found.cables.iter().enumerate() {
             (lengths[i], tensions[i]) = (cable.length, cable.tension_drum);
         }
         let count = model.cables();
-        // What these find does not matter here.
+        // The paths have to run once; their results are not used.
         let _ = state.forward(model, &lengths[..count], None, None);
         let _ = state.load(model, &LoopInput::at_rest(home), &tensions[..count]);
     }

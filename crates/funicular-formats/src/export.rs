@@ -35,9 +35,6 @@ pub struct Exported {
     pub warnings: Vec<String>,
 }
 
-/// Largest error of a length in a table of lengths if none is requested [m].
-pub const TABLE_TOLERANCE: f64 = firmware::TOLERANCE;
-
 /// Maximum number of elements per cable.
 const MAX_SEGMENTS: usize = 1000;
 

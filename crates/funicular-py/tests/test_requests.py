@@ -319,7 +319,8 @@ def test_a_request_is_valid_by_the_schema_and_with_another_key_it_is_not(
 def test_a_command_line_and_a_call_are_one_request(line: str, executable: str) -> None:
     theirs, mine = asked(executable, line), ours(line)
     # Files are keywords of a call, not of its request.
-    theirs.pop("write_files", None)
+    named = theirs.pop("write_files", {}).values()
+    assert set(named) <= set(commands.shlex.split(line))
     assert mine == theirs
     # JSON keeps every number: a request comes back unchanged.
     assert funicular._study.complete(json.loads(json.dumps(mine))) == mine

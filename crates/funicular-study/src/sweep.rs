@@ -29,7 +29,7 @@ pub use options::Options;
 pub use plan::Plan;
 pub use points::{AXES, Point, Points, Poses};
 pub use prepared::PreparedSweep;
-pub(crate) use prepared::{check_poses, check_poses_alone, options_of, with_request};
+pub(crate) use prepared::{check_poses, options_of, with_request};
 pub use quantity::{MAX_FREQUENCIES, Quantity, UnknownQuantity};
 pub use robot_values::{RobotValues, ValueAxis};
 pub use status::CODES;

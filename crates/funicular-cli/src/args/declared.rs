@@ -4,7 +4,7 @@ use clap::builder::{PossibleValue, PossibleValuesParser, Resettable, StyledStr, 
 use clap::parser::ValueSource;
 use clap::{Arg, ArgAction, ArgMatches, Command, value_parser};
 use funicular_answers::Output;
-use funicular_answers::document::Default;
+use funicular_answers::document::DefaultDestination;
 use funicular_study::request::{Key, Kind, Reader};
 use funicular_study::wording::{Words, worded};
 use funicular_study::written;
@@ -59,13 +59,13 @@ pub(super) fn output(of: &'static Output) -> Arg {
 }
 
 /// Option `-o` of a command whose result is a file.
-pub(super) fn document(default: Default, about: &'static str) -> Arg {
+pub(super) fn document(default: DefaultDestination, about: &'static str) -> Arg {
     let arg = Arg::new("output_file").short('o').long("output-file").value_name("FILE").help(about);
     let arg = arg.help_heading("Output").value_parser(value_parser!(PathBuf));
     match default {
-        Default::Stdout => arg.default_value("-"),
-        Default::File(name) => arg.default_value(name),
-        Default::BesideRows => arg,
+        DefaultDestination::Stdout => arg.default_value("-"),
+        DefaultDestination::File(name) => arg.default_value(name),
+        DefaultDestination::BesideRows => arg,
     }
 }
 
@@ -163,7 +163,7 @@ fn parser(key: &Key) -> ValueParser {
     ValueParser::new(move |text: &str| written::read(&key, text))
 }
 
-/// Default in the form of the command line; `None` without one.
+/// DefaultDestination in the form of the command line; `None` without one.
 fn default(value: &Value) -> Option<String> {
     match value {
         Value::String(text) => Some(text.clone()),

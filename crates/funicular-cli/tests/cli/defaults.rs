@@ -5,12 +5,11 @@ use funicular::cable::CableModel;
 use funicular::math::Vec3;
 use funicular::robot::Robot;
 use funicular::statics::{StaticModel, TensionRange, TensionRule};
-use funicular_formats::export::TABLE_TOLERANCE;
 use funicular_pages::figures;
 use funicular_study::analyses::reduce;
 use funicular_study::frequency_range::{LOWEST, START_POINTS};
 use funicular_study::measurements;
-use funicular_study::request::{RobotText, SIMULATED_S};
+use funicular_study::request::{RobotText, SIMULATED_S, TABLE_TOLERANCE_M};
 use funicular_study::{Request, at_rest};
 use serde_json::{Map, Value};
 use std::collections::BTreeMap;
@@ -204,7 +203,7 @@ fn filled_in() -> Vec<(&'static str, &'static str, Vec<String>)> {
     all.extend(["statics", "map", "sweep", "export"].map(tensions));
 
     all.push(("export", "duration-s", vec![format!("{SIMULATED_S} with a scenario")]));
-    all.push(("export", "tolerance-m", vec![format!("{:e}", TABLE_TOLERANCE)]));
+    all.push(("export", "tolerance-m", vec![format!("{:e}", TABLE_TOLERANCE_M)]));
 
     // Figures.
     let column = figures::WIDTHS.iter().find(|(_, width)| *width == figures::DEFAULT_WIDTH_MM).unwrap().0;

@@ -13,11 +13,8 @@ use funicular::warnings;
 use funicular_study::NoSolution;
 use funicular_study::at_rest::{self, check_pose};
 use funicular_study::names::ExportFormat;
-use funicular_study::request::{Axis, ExportRequest, Steps};
+use funicular_study::request::{Axis, ExportRequest, Steps, TABLE_TOLERANCE_M};
 use funicular_study::sweep::AXES;
-
-/// Largest error of a length if none is requested [m].
-pub(super) const TOLERANCE: f64 = 1e-4;
 
 /// Narrowest range of a coordinate [m, degrees].
 const MIN_WIDTH: f64 = 1e-6;
@@ -107,7 +104,7 @@ pub(super) fn file(robot: &Robot, request: &ExportRequest) -> Result<Exported> {
         Ok(found) => found.rule.is_some(),
     };
 
-    let tolerance = request.tolerance_m.unwrap_or(TOLERANCE);
+    let tolerance = request.tolerance_m.unwrap_or(TABLE_TOLERANCE_M);
     let table = length_table(robot, &pose_box, model, &rule, tolerance).map_err(|error| told(&error))?;
     if !has_choice {
         caveats.clear();

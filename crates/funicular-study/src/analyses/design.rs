@@ -220,11 +220,10 @@ fn check(request: &DesignRequest) -> Result<()> {
     if state.lengths_m.is_some() || state.hold_lengths_of_pose {
         bail!("a design holds its poses: leave out ⟪lengths_m⟫ and ⟪hold_lengths_of_pose⟫, and give ⟪pose⟫ or ⟪poses⟫");
     }
-    if let Some(poses) = poses {
-        crate::sweep::check_poses_alone(state)?;
-        if !(1..=MAX_POSES).contains(&poses.len()) {
-            bail!("⟪poses⟫: {} poses are not possible: give 1 to {MAX_POSES}", poses.len());
-        }
+    if let Some(poses) = poses
+        && !(1..=MAX_POSES).contains(&poses.len())
+    {
+        bail!("⟪poses⟫: {} poses are not possible: give 1 to {MAX_POSES}", poses.len());
     }
 
     if let Some(weights) = weights {

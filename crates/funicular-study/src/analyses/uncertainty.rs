@@ -111,7 +111,6 @@ impl UncertaintyStudy {
         let poses: Vec<Option<[f64; 6]>> = match &request.poses {
             None => vec![None],
             Some(poses) => {
-                crate::sweep::check_poses_alone(&request.state)?;
                 crate::sweep::check_poses(poses, &robot)?;
                 poses.iter().copied().map(Some).collect()
             }

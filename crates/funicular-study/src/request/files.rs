@@ -6,6 +6,9 @@ use super::simulate::Scenario;
 use super::source_file::SourceFile;
 use crate::names::{ExportFormat, LengthUnit, NewMotion, RopeType, SchemaSubject, optional};
 
+/// Largest error of a length in a table of lengths if none is requested [m].
+pub const TABLE_TOLERANCE_M: f64 = 1e-4;
+
 declared! {
     /// Write a robot file with starting values and comments.
     ///

@@ -71,7 +71,6 @@ impl PreparedSweep {
         let points = match &request.poses {
             Some(_) if !request.grid.is_empty() => bail!("give ⟪grid⟫ or ⟪poses⟫, not both"),
             Some(poses) => {
-                check_poses_alone(&request.point.options.state)?;
                 check_poses(poses, &robot)?;
                 Poses::list(robot.clone(), poses.clone())
             }
@@ -304,14 +303,6 @@ fn base_pose(robot: &Robot, request: &MapRequest) -> Result<Option<Pose>> {
             Some(rest.pose)
         }
     })
-}
-
-/// Refuses a state that gives a pose or lengths beside a list of poses.
-pub(crate) fn check_poses_alone(state: &crate::request::State) -> Result<()> {
-    if state.pose.is_some() || state.lengths_m.is_some() {
-        bail!("⟪poses⟫ gives the poses of the robot: leave out ⟪pose⟫ and ⟪lengths_m⟫");
-    }
-    Ok(())
 }
 
 /// Refuses poses that the platform cannot have.

@@ -1,9 +1,10 @@
 //! Tables of lengths: their error against statics, their convergence, and boxes that have none.
 
-use funicular::length_table::{BoxSide, LengthTableError, PoseBox, length_table, length_table_of_degree};
+use funicular::length_table::{BoxSide, LengthTable, LengthTableError, PoseBox, length_table, length_table_of_degree};
 use funicular::math::chebyshev::even_point;
 use funicular::robot::{Pose, Robot, State, TensionLimits};
-use funicular::statics::{self, StaticModel, TensionRule};
+use funicular::statics::{self, CableState, StaticModel, TensionRule};
+use std::f64::consts::PI;
 
 fn pose_box(sides: &[(usize, f64, f64)]) -> PoseBox {
     let sides = sides.iter().map(|(axis, from, to)| BoxSide { axis: *axis, from: *from, to: *to }).collect();
@@ -17,7 +18,7 @@ fn cogiro() -> Robot {
 }
 
 /// Largest error at poses that neither the fit nor its tests have used.
-fn held_out(robot: &Robot, rule: &TensionRule, table: &funicular::length_table::LengthTable, count: usize) -> f64 {
+fn held_out(robot: &Robot, rule: &TensionRule, table: &LengthTable, count: usize) -> f64 {
     let n = table.pose_box.sides().len();
     let mut largest = 0.0_f64;
     for i in 0..count {
@@ -31,19 +32,50 @@ fn held_out(robot: &Robot, rule: &TensionRule, table: &funicular::length_table::
     largest
 }
 
-/// A separate program, which sampled 150 random poses and projected onto the products at Chebyshev's nodes, has 0.351,
-/// 0.069, 0.033 and 0.016 mm for total degrees 2 to 5. The largest error of 150 other poses and of another projection
-/// is within a factor of two of it (1.5 for degrees 2 and 3), less than what two
-/// degrees change.
+/// Corrections of all cables of a robot at a place of a box, from statics.
+fn corrections(robot: &Robot, table: &LengthTable, place: &[f64]) -> Vec<f64> {
+    let pose = table.pose_box.pose(&table.pose_box.coordinates(place));
+    let rest = statics::solve_at(robot, &State::Pose(pose), StaticModel::Catenary, &TensionRule::Centre).unwrap();
+    let of_cable = |(k, state): (usize, &CableState)| state.unstrained_length - table.lines[k].length(&pose);
+    rest.equilibrium.cables.iter().enumerate().map(of_cable).collect()
+}
+
+/// Coefficients of all cables by another method: sums over the (N + 3)³ nodes of Chebyshev, in which the products are
+/// orthogonal, cut at the total degree N.
+fn projected(robot: &Robot, table: &LengthTable) -> Vec<Vec<f64>> {
+    let count = table.basis.degree() + 3;
+    let angle = |j: usize| PI * (j as f64 + 0.5) / count as f64;
+    let mut sums = vec![vec![0.0; table.basis.exponents().len()]; robot.cables.len()];
+    for node in 0..count.pow(3) {
+        let j = [node % count, node / count % count, node / count / count];
+        let found = corrections(robot, table, &j.map(|j| angle(j).cos()));
+        for (k, exponents) in table.basis.exponents().iter().enumerate() {
+            let factor = |axis: usize| {
+                let twice = if exponents[axis] == 0 { 1.0 } else { 2.0 };
+                twice * (exponents[axis] as f64 * angle(j[axis])).cos() / count as f64
+            };
+            let product = factor(0) * factor(1) * factor(2);
+            sums.iter_mut().zip(&found).for_each(|(row, correction)| row[k] += product * correction);
+        }
+    }
+    sums
+}
+
+/// The errors of a projection, and those that a separate program printed for it at 150 random poses: 0.351, 0.069, 0.033
+/// and 0.016 mm. The largest of 150 errors of a function that peaks in the corners depends on the poses, up to a factor
+/// of two.
 #[test]
 fn errors_fall_with_the_degree_as_in_a_separate_program() {
     let (robot, poses) = (cogiro(), pose_box(&COGIRO));
+    let rule = TensionRule::Centre;
     for (degree, theirs_mm) in [(2, 0.351), (3, 0.069), (4, 0.033), (5, 0.016)] {
-        let rule = TensionRule::Centre;
         let table = length_table_of_degree(&robot, &poses, StaticModel::Catenary, &rule, degree).unwrap().unwrap();
-        let ours_mm = 1e3 * held_out(&robot, &rule, &table, 150);
-        println!("degree {degree}: {ours_mm} mm at 150 poses, {} mm at {}", 1e3 * table.error, table.tested);
-        assert!((0.5..2.0).contains(&(ours_mm / theirs_mm)), "degree {degree}: {ours_mm} mm, {theirs_mm} mm");
+        let other = LengthTable { coefficients: projected(&robot, &table), ..table.clone() };
+        let [ours_mm, projected_mm] = [&table, &other].map(|table| 1e3 * held_out(&robot, &rule, table, 150));
+        let all_mm = 1e3 * table.error;
+        println!("degree {degree}: {ours_mm} mm at 150 poses, projected {projected_mm} mm, {all_mm} mm at all");
+        assert!(ours_mm < 1.5 * projected_mm, "degree {degree}: {ours_mm} mm, projected {projected_mm} mm");
+        assert!((0.5..2.0).contains(&(projected_mm / theirs_mm)), "degree {degree}: {projected_mm} mm, {theirs_mm} mm");
     }
 }
 

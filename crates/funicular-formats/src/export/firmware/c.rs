@@ -64,7 +64,7 @@ pub(super) fn text(of: &Firmware) -> Result<String> {
         variable.map_or(Coordinate::Fixed(fixed), Coordinate::Variable)
     };
 
-    // What is fixed is subtracted from the anchors.
+    // Fixed coordinates move the anchors.
     let turns = table.pose_box.turns();
     let end = |line: &funicular::length_table::StraightLine| {
         let mut end = line.anchor_w;

@@ -5,8 +5,8 @@ use crate::simulation::rope::WoundLength;
 
 /// Angle off the tangent at which a rope may leave its wheel [rad]: the rope is then longer by `r δ³/6`, 2e-11 m at a
 /// radius of a tenth of a metre. At rest it is rounding.
-const LEAST_WRAP: f64 = 1e-3;
-const LEAST_WRAP_AT_REST: f64 = 1e-12;
+const MIN_WRAP: f64 = 1e-3;
+const MIN_WRAP_AT_REST: f64 = 1e-12;
 /// Time constant with which a wheel follows its rope [s]: waves at the end of a rope are faster, the motion of a
 /// platform slower. A rope that turns with 1 rad/s is then 0.01 rad off its tangent, and 2e-8 m longer at a radius of
 /// 0.1 m.
@@ -54,8 +54,8 @@ impl Stepper {
             let (Some(swivel), Some(length)) = (places.swivel, places.feed) else { continue };
             let turned = self.now.x[numbers.start + swivel];
             let (wrap, least) = match when {
-                Rolling::AtRest => (far.missing_wrap(turned, &forces.exit_w), LEAST_WRAP_AT_REST),
-                Rolling::Between => (far.off_tangent, LEAST_WRAP),
+                Rolling::AtRest => (far.missing_wrap(turned, &forces.exit_w), MIN_WRAP_AT_REST),
+                Rolling::Between => (far.off_tangent, MIN_WRAP),
             };
             if wrap.abs() <= least {
                 continue;
