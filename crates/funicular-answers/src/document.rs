@@ -14,7 +14,7 @@ use funicular_study::{Watch, schema};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 
-/// DefaultDestination destination of a file.
+/// Default destination of a file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum DefaultDestination {
     /// Standard output.
@@ -42,7 +42,7 @@ const TO_PAGE_OR_FIGURE: &str = "Write the page to FILE, completely or not at al
                                  FILE.parquet with the ending .html]. FILE.svg and FILE.pdf hold one figure";
 const TO_PAGE: &str = "Write the page to FILE, completely or not at all; - is standard output";
 
-/// DefaultDestination destination of a command whose result is a file, and the meaning of its `-o`; `None` for other commands.
+/// Default destination of a command whose result is a file, and the meaning of its `-o`; `None` for other commands.
 pub fn destination(command: &str) -> Option<(DefaultDestination, &'static str)> {
     DOCUMENTS.iter().find(|(name, _, _)| *name == command).map(|(_, default, about)| (*default, *about))
 }

@@ -17,8 +17,9 @@ pub const MAX_DEGREE: usize = 12;
 /// Maximum number of coefficients per cable: six variables reach it at degree 6.
 pub const MAX_COEFFICIENTS: usize = 1000;
 
-/// Number of fitted poses per coefficient: with fewer the polynomial swings between them.
-const FITTED_PER_COEFFICIENT: usize = 4;
+/// Number of fitted poses per coefficient: errors are then those of a projection. With a quarter of them they are half
+/// as large again.
+const FITTED_PER_COEFFICIENT: usize = 16;
 
 /// Number of poses inside the box at which the error is computed, besides its corners.
 const TESTED: usize = 1000;

@@ -163,7 +163,7 @@ fn parser(key: &Key) -> ValueParser {
     ValueParser::new(move |text: &str| written::read(&key, text))
 }
 
-/// DefaultDestination in the form of the command line; `None` without one.
+/// Default in the form of the command line; `None` without one.
 fn default(value: &Value) -> Option<String> {
     match value {
         Value::String(text) => Some(text.clone()),

@@ -61,9 +61,8 @@ fn projected(robot: &Robot, table: &LengthTable) -> Vec<Vec<f64>> {
     sums
 }
 
-/// The errors of a projection, and those that a separate program printed for it at 150 random poses: 0.351, 0.069, 0.033
-/// and 0.016 mm. The largest of 150 errors of a function that peaks in the corners depends on the poses, up to a factor
-/// of two.
+/// Errors of a projection, and those that a separate program printed for it at 150 random poses: 0.351, 0.069, 0.033
+/// and 0.016 mm. Its poses are others: the largest of 150 errors differs by up to a seventh.
 #[test]
 fn errors_fall_with_the_degree_as_in_a_separate_program() {
     let (robot, poses) = (cogiro(), pose_box(&COGIRO));
@@ -74,8 +73,9 @@ fn errors_fall_with_the_degree_as_in_a_separate_program() {
         let [ours_mm, projected_mm] = [&table, &other].map(|table| 1e3 * held_out(&robot, &rule, table, 150));
         let all_mm = 1e3 * table.error;
         println!("degree {degree}: {ours_mm} mm at 150 poses, projected {projected_mm} mm, {all_mm} mm at all");
-        assert!(ours_mm < 1.5 * projected_mm, "degree {degree}: {ours_mm} mm, projected {projected_mm} mm");
-        assert!((0.5..2.0).contains(&(projected_mm / theirs_mm)), "degree {degree}: {projected_mm} mm, {theirs_mm} mm");
+        assert!(ours_mm < 1.1 * projected_mm, "degree {degree}: {ours_mm} mm, projected {projected_mm} mm");
+        let ratio = projected_mm / theirs_mm;
+        assert!((0.8..1.25).contains(&ratio), "degree {degree}: {projected_mm} mm, {theirs_mm} mm");
     }
 }
 
