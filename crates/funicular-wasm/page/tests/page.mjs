@@ -1113,7 +1113,7 @@ test("a simulated release and a simulated stop move the robot as the program say
   const robot = { text: readFileSync(new URL("yuan2014-4mm.toml", library), "utf8") };
   const scenario = { release: [{ at_s: 0, mass_kg: 1 }] };
   const answer = native({ command: "simulate", robot, scenario, duration_s: 0.3, sample_time_s: 0.3 / 700 });
-  const told = Number(/differs by at most ([\d.e-]+) mm/.exec(await text("#simulate p"))[1]);
+  const told = Number(/is at most ([\d.e-]+) mm/.exec(await text("#simulate p"))[1]);
   const position = answer.errors.find(({ column }) => column === "position_m");
   near(told, 1000 * position.largest, 0.05, "difference of the finer run");
   await page.screenshot({ path: join(pictures, "simulation.png") });
