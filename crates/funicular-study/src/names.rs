@@ -1,6 +1,6 @@
 //! Names of models, rules and terms in requests, on the command line and in Python.
 
-use crate::measure::Measure;
+use crate::measure::{MEASURES, MIN_STIFFNESS, Measure, MeasureGoal, MeasureGroup, RobotMeasure};
 use funicular::cable::CableModel;
 use funicular::dynamics::Assembly;
 use funicular::gradient::Hold;
@@ -318,14 +318,35 @@ named! {
     }
 }
 
+/// Number that a design improves.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub enum DesignGoal {
+    /// Highest first natural frequency, cables included.
+    #[default]
+    First,
+    /// Highest first natural frequency of the platform on the static stiffness of its cables.
+    Platform,
+    /// Highest minimum stiffness.
+    Stiffness,
+    /// Best value of a measure of the robot at rest.
+    Measure(GoalMeasure),
+}
+
+/// Measure of the robot at rest with its goal.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct GoalMeasure {
+    measure: &'static RobotMeasure,
+    sign: f64,
+    about: &'static str,
+}
+
 impl DesignGoal {
     /// Number that improves; with [`Self::Platform`] that of the platform on the static stiffness of its cables.
     pub(crate) fn measure(self) -> Measure {
         match self {
             Self::First | Self::Platform => Measure::Frequency(0),
-            Self::Stiffness => Measure::MinStiffness,
-            Self::RopeMass => Measure::RopeMass,
-            Self::RopeLength => Measure::RopeLength,
+            Self::Stiffness => Measure::Robot(&MIN_STIFFNESS),
+            Self::Measure(of) => Measure::Robot(of.measure),
         }
     }
 
@@ -334,9 +355,8 @@ impl DesignGoal {
         match self {
             Self::First => "first natural frequency",
             Self::Platform => "first natural frequency of the platform",
-            Self::Stiffness => "minimum stiffness",
-            Self::RopeMass => "mass of the ropes",
-            Self::RopeLength => "length of the ropes",
+            Self::Stiffness => MIN_STIFFNESS.name,
+            Self::Measure(of) => of.measure.name,
         }
     }
 
@@ -344,21 +364,69 @@ impl DesignGoal {
     pub(crate) fn sign(self) -> f64 {
         match self {
             Self::First | Self::Platform | Self::Stiffness => 1.0,
-            Self::RopeMass | Self::RopeLength => -1.0,
+            Self::Measure(of) => of.sign,
         }
     }
 }
 
-named! {
-    /// Number that a design improves.
-    #[derive(Default)]
-    enum DesignGoal, "goal of a design" {
-        #[default]
-        First "first-frequency", "Highest first natural frequency, cables included";
-        Platform "platform", "Highest first natural frequency of the platform on the static stiffness of its cables";
-        Stiffness "stiffness-min", "Highest minimum stiffness, as `statics` prints it";
-        RopeMass "rope-mass", "Least mass of all ropes";
-        RopeLength "rope-length", "Least length of all ropes";
+/// Number of goals: three with a search of their own, and those of measures.
+const GOAL_COUNT: usize = {
+    let (mut count, mut i) = (3, 0);
+    while i < MEASURES.len() {
+        count += GoalMeasure::of(&MEASURES[i]).is_some() as usize;
+        i += 1;
+    }
+    count
+};
+
+/// All goals, in the order of lists and messages.
+static GOALS: [DesignGoal; GOAL_COUNT] = {
+    let mut goals = [DesignGoal::First; GOAL_COUNT];
+    (goals[1], goals[2]) = (DesignGoal::Platform, DesignGoal::Stiffness);
+    let (mut count, mut i) = (3, 0);
+    while i < MEASURES.len() {
+        if let Some(of) = GoalMeasure::of(&MEASURES[i]) {
+            goals[count] = DesignGoal::Measure(of);
+            count += 1;
+        }
+        i += 1;
+    }
+    goals
+};
+
+impl GoalMeasure {
+    /// Goal of a group of measures, if it has one.
+    const fn of(group: &MeasureGroup) -> Option<Self> {
+        match group {
+            MeasureGroup::Robot(measure) => match measure.goal {
+                Some(MeasureGoal { sign, about }) => Some(Self { measure, sign, about }),
+                None => None,
+            },
+            _ => None,
+        }
+    }
+}
+
+impl Named for DesignGoal {
+    const WHAT: &'static str = "goal of a design";
+    const ALL: &'static [Self] = &GOALS;
+
+    fn name(self) -> &'static str {
+        match self {
+            Self::First => "first-frequency",
+            Self::Platform => "platform",
+            Self::Stiffness => MIN_STIFFNESS.key,
+            Self::Measure(of) => of.measure.key,
+        }
+    }
+
+    fn about(self) -> &'static str {
+        match self {
+            Self::First => "Highest first natural frequency, cables included",
+            Self::Platform => "Highest first natural frequency of the platform on the static stiffness of its cables",
+            Self::Stiffness => "Highest minimum stiffness, as `statics` prints it",
+            Self::Measure(of) => of.about,
+        }
     }
 }
 

@@ -66,6 +66,16 @@ pub fn clean(text: &str) -> String {
     line.chars().filter(|c| !is_hidden(*c)).take(MAX_LENGTH).collect()
 }
 
+/// Number with its unit, "1" of a ratio left out.
+pub fn with_unit(number: &str, unit: &str) -> String {
+    if unit == "1" { number.to_owned() } else { format!("{number} {unit}") }
+}
+
+/// Title of a column or an axis with its unit in brackets, "1" of a ratio left out.
+pub fn titled(title: &str, unit: &str) -> String {
+    if unit == "1" { title.to_owned() } else { format!("{title} [{unit}]") }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -126,6 +126,52 @@ fn no_random_design_is_better_than_the_optimum() {
     assert!(best > found.before, "{best} {}", found.before);
 }
 
+/// Load factor of a robot file at a pose, by `loads`.
+fn load_factor(text: &str, pose: [f64; 3]) -> f64 {
+    let request = json!({"command": "loads", "robot": {"text": text}, "pose": pose});
+    let Ok(Results::Loads(found)) = run(&Request::from_json(&request.to_string()).unwrap(), &mut Silent) else {
+        panic!("loads were requested")
+    };
+    found.required.unwrap().load_factor.unwrap()
+}
+
+/// The worst load factor of three poses rises as far as no random design does, and `loads` confirms it at each pose. A
+/// heavier platform changes it.
+#[test]
+fn attachments_of_cogiro_hold_more_of_the_required_loads() {
+    let text =
+        format!("{}\n[required]\nforce_n = [200, 200, 300]\nmoment_n_m = [50, 50, 0]\n", funicular_robots::COGIRO);
+    let poses = [[2.0, 1.0, 1.2], [0.0, 0.0, 1.5], [-2.0, -1.0, 2.0]];
+    let worst = |text: &str| poses.iter().map(|pose| load_factor(text, *pose)).fold(f64::INFINITY, f64::min);
+    let rows: Vec<[f64; 6]> = poses.iter().map(|[x, y, z]| [*x, *y, *z, 0.0, 0.0, 0.0]).collect();
+    let change = json!([{"path": "cables.*.attachment_m.z", "plus_minus": 0.2}]);
+    let request = json!({"robot": {"text": text}, "poses": rows, "goal": "load-factor", "change": change});
+    let found = designed(&request).unwrap();
+
+    assert!((worst(&text) / found.before - 1.0).abs() < 1e-9);
+    assert!((worst(&found.robot_file) / found.after - 1.0).abs() < 1e-9);
+    for (pose, row) in poses.iter().zip(&found.poses) {
+        assert!((load_factor(&found.robot_file, *pose) / row.after - 1.0).abs() < 1e-9, "{pose:?}");
+    }
+    let best = (0..40)
+        .map(|i| {
+            let heights: Vec<f64> = (0..8)
+                .map(|k| {
+                    let row = &found.values[k];
+                    let (center, reach) = if i % 2 == 0 { (row.start, 0.2) } else { (row.value, 0.05) };
+                    (center + reach * spread(i, k)).clamp(row.minimum, row.maximum)
+                })
+                .collect();
+            worst(&with_heights_of(&text, &heights))
+        })
+        .fold(0.0, f64::max);
+    assert!(found.after > 1.02 * found.before, "{} {}", found.before, found.after);
+    assert!(best <= found.after * (1.0 + 1e-5), "{best} {}", found.after);
+
+    let heavier = found.robot_file.replacen("mass_kg = 91.058", "mass_kg = 91.97", 1);
+    assert!((worst(&heavier) / found.after - 1.0).abs() > 1e-4);
+}
+
 /// CoGiRo with its pulleys and winches at three poses, with every rule that has derivatives: the file that is written
 /// has the frequencies that are told, and no random design within the bounds is better.
 #[test]

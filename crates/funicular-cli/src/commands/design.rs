@@ -3,18 +3,18 @@
 use crate::output::Printed;
 use crate::table::{Table, counted, significant};
 use funicular_study::analyses::design::{ChosenValue, DemandRow, Designed};
+use funicular_study::text::{titled, with_unit};
 use std::fmt::Write as _;
 
 impl Printed for Designed {
     fn text(&self) -> String {
         let per_cent = 100.0 * (self.after / self.before - 1.0);
         let mut text = format!(
-            "{}: {} {} → {} {} ({per_cent:+.2} %)\n{}\n{}, {}: {}.\n",
+            "{}: {} {} → {} ({per_cent:+.2} %)\n{}\n{}, {}: {}.\n",
             self.robot,
             self.goal_means,
             significant(self.before, 5),
-            significant(self.after, 5),
-            self.unit,
+            with_unit(&significant(self.after, 5), self.unit),
             self.models.line(),
             counted(self.values.len(), "value"),
             counted(self.iterations, "iteration"),
@@ -41,7 +41,7 @@ fn short(value: f64) -> String {
 /// Table of the poses with the goal before and after.
 fn poses(found: &Designed) -> Table {
     let unit = found.unit;
-    let (before, after) = (format!("before [{unit}]"), format!("after [{unit}]"));
+    let (before, after) = (titled("before", unit), titled("after", unit));
     let mut table =
         Table::new(&["pose", "x [m]", "y [m]", "z [m]", "roll [°]", "pitch [°]", "yaw [°]", &before, &after, "share"]);
 

@@ -6,6 +6,7 @@ use super::table::{PageTable, fixed, significant};
 use anyhow::Context as _;
 use askama::Template;
 use funicular_study::analyses::design::{ChosenValue, DemandRow, Designed};
+use funicular_study::text::{titled, with_unit};
 use serde_json::{Value, json};
 
 const CONTENTS: &[(&str, &str)] =
@@ -36,11 +37,10 @@ pub fn page(found: &Designed, command_line: String) -> anyhow::Result<String> {
         shell: Shell::new(format!("{}: design", found.robot), CONTENTS),
         found,
         summary: format!(
-            "{} from {} to {} {}",
+            "{} from {} to {}",
             found.goal_means,
             significant(found.before, 5),
-            significant(found.after, 5),
-            found.unit
+            with_unit(&significant(found.after, 5), found.unit)
         ),
         poses_figure: poses_figure(found),
         poses: poses(found),
@@ -64,7 +64,6 @@ fn poses_figure(found: &Designed) -> PageFigure {
         points("before", &x, &of(|row| row.before), colour::ORANGE, "circle-open"),
         points("after", &x, &of(|row| row.after), colour::BLUE, "circle"),
     ];
-    let unit = found.unit;
     PageFigure::new(
         "figure-poses",
         340,
@@ -75,7 +74,7 @@ fn poses_figure(found: &Designed) -> PageFigure {
         &data,
         json!({
             "xaxis": axis("pose", json!({"dtick": 1})),
-            "yaxis": axis(&format!("goal [{unit}]"), json!({})),
+            "yaxis": axis(&titled("goal", found.unit), json!({})),
         }),
     )
 }
@@ -202,7 +201,7 @@ fn room(found: &Designed) -> PageFigure {
         &data,
         json!({
             "margin": {"l": 210},
-            "xaxis": axis(&format!("gain [{}]", found.unit), json!({"exponentformat": "power"})),
+            "xaxis": axis(&titled("gain", found.unit), json!({"exponentformat": "power"})),
         }),
     )
 }
@@ -224,6 +223,6 @@ fn history(found: &Designed) -> PageFigure {
         300,
         format!("Goal after every step that improved it; {} points were computed.", found.evaluations),
         &[course],
-        json!({"xaxis": axis("step", json!({})), "yaxis": axis(&format!("goal [{}]", found.unit), json!({}))}),
+        json!({"xaxis": axis("step", json!({})), "yaxis": axis(&titled("goal", found.unit), json!({}))}),
     )
 }

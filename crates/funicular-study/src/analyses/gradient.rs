@@ -147,18 +147,18 @@ pub fn run(robot: Robot, request: &GradientRequest) -> Result<GradientTable> {
 }
 
 /// Groups of results of a request, checked.
-fn groups(request: &GradientRequest) -> Result<Vec<MeasureGroup>> {
+fn groups(request: &GradientRequest) -> Result<Vec<&'static MeasureGroup>> {
     let groups = result_groups(&request.of, request.below_hz)?;
     let signals = [request.input.as_deref(), request.output.as_deref()];
     refuse_unused(&groups, request.below_hz, request.at_hz.is_some(), signals, &request.points)?;
-    if groups.contains(&MeasureGroup::Response) {
+    if groups.contains(&&MeasureGroup::Response) {
         for (option, is_given) in [
             ("at_hz", request.at_hz.is_some()),
             ("input", request.input.is_some()),
             ("output", request.output.is_some()),
         ] {
             if !is_given {
-                return Err(missing_option(MeasureGroup::Response, option));
+                return Err(missing_option(&MeasureGroup::Response, option));
             }
         }
     }
@@ -185,7 +185,7 @@ pub fn about(at_rest: &AtRest, request: &GradientRequest) -> Result<GradientTabl
     let limit = request.below_hz.into_iter().chain(request.at_hz).fold(0.0, f64::max);
     let mut warnings = at_rest.warnings(None);
     let of_modes = groups.iter().any(|group| group.is_of_modes());
-    if of_modes || groups.contains(&MeasureGroup::Response) {
+    if of_modes || groups.contains(&&MeasureGroup::Response) {
         let (dynamics, found) = at_rest.dynamics_for_gradients(linearisation, limit)?;
         warnings = found;
         let vibration = gradients.vibration(&dynamics)?;
@@ -195,7 +195,7 @@ pub fn about(at_rest: &AtRest, request: &GradientRequest) -> Result<GradientTabl
                 warnings.push(nothing_below(below_hz));
             }
         }
-        if groups.contains(&MeasureGroup::Response) {
+        if groups.contains(&&MeasureGroup::Response) {
             rows.response(robot, &vibration, request)?;
         }
     }

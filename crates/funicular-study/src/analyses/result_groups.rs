@@ -1,6 +1,6 @@
 //! Groups of results that a request of `gradient` or `uncertainty` names: one rule for both.
 
-use crate::measure::MeasureGroup;
+use crate::measure::{MEASURES, MeasureGroup};
 use crate::names::{listed, suggestion};
 use crate::request;
 use anyhow::{Result, anyhow, bail};
@@ -9,19 +9,19 @@ use anyhow::{Result, anyhow, bail};
 ///
 /// # Errors
 /// A name that no group has, no name at all, or a limit that is missing or not positive.
-pub(crate) fn result_groups(names: &[String], below_hz: Option<f64>) -> Result<Vec<MeasureGroup>> {
-    let known = || MeasureGroup::ALL.map(|group| group.name().to_owned());
+pub(crate) fn result_groups(names: &[String], below_hz: Option<f64>) -> Result<Vec<&'static MeasureGroup>> {
+    let known = || MeasureGroup::names().map(str::to_owned).collect::<Vec<_>>();
     let group = |name: &String| {
-        let found = MeasureGroup::ALL.into_iter().find(|group| group.name() == name);
+        let found = MEASURES.iter().find(|group| group.name() == name);
         found.ok_or_else(|| anyhow!("⟪of⟫: there is no result `{name}`{}", suggestion(name, &known())))
     };
-    let groups: Vec<MeasureGroup> = names.iter().map(group).collect::<Result<_>>()?;
+    let groups: Vec<&MeasureGroup> = names.iter().map(group).collect::<Result<_>>()?;
     if groups.is_empty() {
         bail!("⟪of⟫ names no result{}", listed(&known()));
     }
 
     // In the order of all groups, whatever the order of the request.
-    let mut of_modes = MeasureGroup::ALL.into_iter().filter(|group| group.is_of_modes() && groups.contains(group));
+    let mut of_modes = MEASURES.iter().filter(|group| group.is_of_modes() && groups.contains(group));
     if let Some(group) = of_modes.next().filter(|_| below_hz.is_none()) {
         return Err(missing_option(group, "below_hz"));
     }
@@ -34,14 +34,14 @@ pub(crate) fn result_groups(names: &[String], below_hz: Option<f64>) -> Result<V
 /// # Errors
 /// A limit of the frequencies or an option of a response without such results.
 pub(crate) fn refuse_unused(
-    groups: &[MeasureGroup],
+    groups: &[&MeasureGroup],
     below_hz: Option<f64>,
     has_at_hz: bool,
     [input, output]: [Option<&str>; 2],
     points: &request::ResponsePoints,
 ) -> Result<()> {
     let of_modes = groups.iter().any(|group| group.is_of_modes());
-    let of_response = groups.contains(&MeasureGroup::Response);
+    let of_response = groups.contains(&&MeasureGroup::Response);
     for (option, is_given, is_used, wanted) in [
         ("below_hz", below_hz.is_some(), of_modes, "`frequencies` or `damping`"),
         ("at_hz", has_at_hz, of_response, "`response`"),
@@ -58,7 +58,7 @@ pub(crate) fn refuse_unused(
 }
 
 /// Names of groups for the middle of a sentence.
-fn listed_alone(groups: &[MeasureGroup]) -> String {
+fn listed_alone(groups: &[&MeasureGroup]) -> String {
     groups.iter().map(|group| format!("`{}`", group.name())).collect::<Vec<_>>().join(", ")
 }
 
@@ -68,6 +68,6 @@ pub(crate) fn nothing_below(below_hz: f64) -> String {
 }
 
 /// Error of a group of results without an option that it needs.
-pub(crate) fn missing_option(group: MeasureGroup, option: &str) -> anyhow::Error {
+pub(crate) fn missing_option(group: &MeasureGroup, option: &str) -> anyhow::Error {
     anyhow!("`{}` needs ⟪{option}⟫", group.name())
 }

@@ -83,7 +83,7 @@ pub fn run(request: &UncertaintyRequest, watch: &mut dyn Watch) -> Result<Uncert
 /// Request that is ready to run: poses first, then samples.
 pub struct UncertaintyStudy {
     request: UncertaintyRequest,
-    of: Vec<MeasureGroup>,
+    of: Vec<&'static MeasureGroup>,
     /// Frequency response, if it is among the results.
     requested: Option<RequestedResponse>,
     robot: Robot,
@@ -107,7 +107,7 @@ impl UncertaintyStudy {
         let of = groups(request)?;
         let robot = request.robot.read()?.robot;
         let requested =
-            of.contains(&MeasureGroup::Response).then(|| RequestedResponse::new(request, &robot)).transpose()?;
+            of.contains(&&MeasureGroup::Response).then(|| RequestedResponse::new(request, &robot)).transpose()?;
         let poses: Vec<Option<[f64; 6]>> = match &request.poses {
             None => vec![None],
             Some(poses) => {
@@ -409,7 +409,7 @@ fn largest_shares(inputs: &Inputs, shares: &[f64]) -> Vec<ShareOfInput> {
 }
 
 /// Groups of results of a request, after a check of them and of the sample size.
-fn groups(request: &UncertaintyRequest) -> Result<Vec<MeasureGroup>> {
+fn groups(request: &UncertaintyRequest) -> Result<Vec<&'static MeasureGroup>> {
     let groups = result_groups(&request.of, request.below_hz)?;
     let signals = [request.input.as_deref(), request.output.as_deref()];
     refuse_unused(&groups, request.below_hz, request.at_hz.is_some(), signals, &request.points)?;
@@ -427,7 +427,7 @@ fn groups(request: &UncertaintyRequest) -> Result<Vec<MeasureGroup>> {
 /// Linear deviations of an equilibrium, by the method of a request.
 fn linear_at(
     request: &UncertaintyRequest,
-    of: &[MeasureGroup],
+    of: &[&MeasureGroup],
     requested: Option<&RequestedResponse>,
     inputs: &Inputs,
     at_rest: AtRest,

@@ -2,6 +2,7 @@
 
 use super::key::declared;
 use super::parts::{Model, ResponsePoints, RobotText, State, Tensions};
+use crate::measure::MeasureGroup;
 use crate::names::Per;
 use funicular::gradient::Hold;
 
@@ -13,9 +14,8 @@ declared! {
     pub struct GradientRequest {
         /// Robot file.
         robot: RobotText = RobotText::default() => (Data(shape::robot)).required();
-        /// Results: pose, lengths, tensions, rope-length, rope-mass, stiffness-min, load-factor, frequencies, damping,
-        /// response; separated by commas.
-        of: Vec<String> = frequencies() => (Texts).form("RESULTS");
+        /// Results, separated by commas.
+        of: Vec<String> = frequencies() => (Texts).form("RESULTS").one_of(MeasureGroup::names());
         /// Numbers of the robot file, by paths that `parameters` lists, separated by commas; * stands for any key, and
         /// a path to a table or vector for all numbers in it.
         by: Vec<String> = Vec::new() => (Texts).form("PATHS").otherwise("all");

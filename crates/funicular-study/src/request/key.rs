@@ -182,6 +182,8 @@ pub struct Key {
     pub kind: Kind,
     /// True if a request without it is refused.
     pub required: bool,
+    /// Names that a text can be, which the meaning lists; empty for any text.
+    pub names: Vec<&'static str>,
     /// Value of a request that does not give it; null without one.
     pub default: Value,
     /// Substitute for a value that is not given, in words.
@@ -215,6 +217,7 @@ impl Key {
             name: "",
             about: String::new(),
             kind,
+            names: Vec::new(),
             required: false,
             default: Value::Null,
             otherwise: None,
@@ -240,6 +243,12 @@ impl Key {
     /// Says in words what stands for the value if it is not given.
     pub(crate) fn otherwise(self, otherwise: &'static str) -> Self {
         Self { otherwise: Some(otherwise), ..self }
+    }
+
+    /// Adds the names that a text can be to its meaning.
+    pub(crate) fn one_of(mut self, names: impl Iterator<Item = &'static str>) -> Self {
+        self.names = names.collect();
+        self
     }
 
     /// Sets the form of the value in help texts.
@@ -271,6 +280,9 @@ impl Key {
     pub(crate) fn named(mut self, name: &'static str, about: &[&str], default: Option<&Value>) -> Self {
         self.name = name;
         self.about = sentence(about);
+        if !self.names.is_empty() {
+            self.about = format!("{}: {}", self.about, self.names.join(", "));
+        }
         if !self.required {
             self.default = default.cloned().unwrap_or_default();
         }

@@ -2,6 +2,7 @@
 
 use super::key::declared;
 use super::parts::{Model, ResponsePoints, RobotText, State, Tensions};
+use crate::measure::MeasureGroup;
 use crate::names::UncertaintyMethod;
 use funicular::gradient::Hold;
 use serde::{Deserialize, Deserializer};
@@ -25,9 +26,8 @@ declared! {
         /// Tolerances PATH=VALUE or PATH=PERCENT% of numbers with a uniform distribution within ± their tolerance,
         /// separated by commas.
         tolerances: Vec<String> = Vec::new() => (Sizes).form("TOLERANCES");
-        /// Results: pose, lengths, tensions, rope-length, rope-mass, stiffness-min, load-factor, frequencies, damping,
-        /// response; separated by commas.
-        of: Vec<String> = pose_and_tensions() => (Texts).form("RESULTS");
+        /// Results, separated by commas.
+        of: Vec<String> = pose_and_tensions() => (Texts).form("RESULTS").one_of(MeasureGroup::names());
         /// Quantity that is held while the numbers deviate; with the pose held, the tensions parallel to the chords of
         /// more cables than degrees of freedom change least, or follow their rule.
         #[serde(with = "crate::names")]

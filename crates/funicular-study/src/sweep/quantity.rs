@@ -1,13 +1,15 @@
-//! Quantities of a map or sweep: one row of [`TABLE`] per quantity.
+//! Quantities of a map or sweep: one row of [`TABLE`] per quantity, and one per [`measure`](crate::measure) that maps
+//! show.
 //!
 //! A row holds everything about its quantity: name, description, text of docs/sweeps.md, requirements, columns and
-//! values. Names, help texts, documentation and the evaluation of points read this table. No other code knows a
+//! values. Names, help texts, documentation and the evaluation of points read these rows. No other code knows a
 //! quantity.
 
 mod table;
 
 use super::evaluation::PointEvaluation;
 use super::sensitivity::Sensitivity;
+use crate::measure::{self, CableMeasure, Measure, MeasureQuantity, RobotMeasure};
 use crate::set_values;
 use crate::table::{Column, Value};
 use crate::wording::{Words, worded};
@@ -16,10 +18,12 @@ use funicular::robot::{PlatformMotion, Pose, Robot};
 use funicular::statics::StaticModel;
 use funicular::suggest::nearest;
 use std::fmt;
+use std::sync::LazyLock;
 use table::TABLE;
 use thiserror::Error;
 
 /// Definition of one quantity.
+#[derive(Clone)]
 struct Definition {
     /// Name, with the form of its parameter.
     name: &'static str,
@@ -34,6 +38,8 @@ struct Definition {
     columns: fn(&Robot, &Parameter) -> Vec<Column>,
     /// Function that adds the values of a point, one per column.
     values: fn(&mut PointEvaluation<'_>, &Parameter, &mut Vec<Value>),
+    /// Measures in place of `columns` and `values`.
+    shows: Option<StaticMeasure>,
     /// Value of a quantity that depends on the pose alone, also where no tensions hold the platform.
     at_pose: Option<fn(&Robot, &Pose) -> f64>,
 }
@@ -50,11 +56,49 @@ impl Definition {
         frequencies: |_| 0,
         columns: |_, _| Vec::new(),
         values: |_, _, _| {},
+        shows: None,
         at_pose: None,
     };
+
+    /// All quantities, in the order of the documentation.
+    fn all() -> &'static [Self] {
+        static ALL: LazyLock<Vec<Definition>> = LazyLock::new(|| {
+            let of_cables = measure::of_cables().map(|of| (of.key, of.quantity, StaticMeasure::Cables(of)));
+            let of_robot = measure::of_robot().filter_map(|of| Some((of.key, of.quantity?, StaticMeasure::Robot(of))));
+            let of_measures =
+                of_cables.chain(of_robot).map(|(key, quantity, of)| Definition::of_measure(key, quantity, of));
+            TABLE.iter().cloned().chain(of_measures).collect()
+        });
+        &ALL
+    }
+
+    /// Quantity that shows a measure.
+    fn of_measure(name: &'static str, quantity: MeasureQuantity, shows: StaticMeasure) -> Self {
+        let MeasureQuantity { about, documentation, is_elastic } = quantity;
+        let needs = if is_elastic { RequiredModel::Elastic } else { RequiredModel::Anything };
+        Self { name, about, documentation, needs, shows: Some(shows), ..Self::PLAIN }
+    }
+}
+
+/// Measure of the robot at rest.
+#[derive(Clone, Copy)]
+enum StaticMeasure {
+    Cables(&'static CableMeasure),
+    Robot(&'static RobotMeasure),
+}
+
+impl StaticMeasure {
+    /// Measures of the robot, one per column.
+    fn members(self, robot: &Robot) -> Vec<Measure> {
+        match self {
+            Self::Cables(of) => of.members(robot),
+            Self::Robot(of) => vec![Measure::Robot(of)],
+        }
+    }
 }
 
 /// Kind of parameter after the colon of a name.
+#[derive(Clone)]
 enum ParameterKind {
     Nothing,
     /// Number from 1 to [`MAX_FREQUENCIES`].
@@ -68,6 +112,7 @@ enum ParameterKind {
 }
 
 /// Static models for which a quantity exists.
+#[derive(Clone)]
 enum RequiredModel {
     Anything,
     /// Models whose cables stretch.
@@ -122,12 +167,12 @@ pub struct UnknownQuantity {
 impl Quantity {
     /// Names of all quantities, with the form of their parameters, in the order of the documentation.
     pub fn names() -> impl Iterator<Item = &'static str> {
-        TABLE.iter().map(|definition| definition.name)
+        Definition::all().iter().map(|definition| definition.name)
     }
 
     /// Rows of a Markdown table of all quantities: name, description.
     pub fn documentation() -> String {
-        let rows: Vec<String> = TABLE
+        let rows: Vec<String> = Definition::all()
             .iter()
             .map(|of| format!("| `{}` | {} |\n", of.name, worded(of.documentation, Words::Program)))
             .collect();
@@ -136,7 +181,7 @@ impl Quantity {
 
     /// Every quantity with one of its parameters, and its name with the form of the parameter.
     pub(super) fn examples() -> impl Iterator<Item = (&'static str, Self)> {
-        TABLE.iter().filter_map(|definition| {
+        Definition::all().iter().filter_map(|definition| {
             let parameter = match definition.takes {
                 ParameterKind::Nothing => Some(Parameter::None),
                 ParameterKind::Count => Some(Parameter::Count(1)),
@@ -180,7 +225,9 @@ impl Quantity {
 
     /// Columns of the quantity for a robot.
     pub fn columns(&self, robot: &Robot) -> Vec<Column> {
-        (self.definition.columns)(robot, &self.parameter)
+        let Some(shows) = self.definition.shows else { return (self.definition.columns)(robot, &self.parameter) };
+        let column = |of: Measure| table::column(of.column(robot), of.unit(), self.definition.about);
+        shows.members(robot).into_iter().map(column).collect()
     }
 
     /// Number of the lowest natural frequencies that it shows, with the cable model of the options.
@@ -211,7 +258,9 @@ impl Quantity {
 
     /// Adds the values of the quantity at a point.
     pub(super) fn values(&self, row: &mut PointEvaluation<'_>, out: &mut Vec<Value>) {
-        (self.definition.values)(row, &self.parameter, out);
+        let Some(shows) = self.definition.shows else { return (self.definition.values)(row, &self.parameter, out) };
+        let value = |of: Measure| Value::real(of.static_value(row.robot, row.rest, &row.rest.pose));
+        out.extend(shows.members(row.robot).into_iter().map(value));
     }
 }
 
@@ -310,7 +359,7 @@ impl std::str::FromStr for Quantity {
             Some((head, parameter)) => (head, Some(parameter)),
             None => (text, None),
         };
-        TABLE
+        Definition::all()
             .iter()
             .find(|definition| definition.head() == head)
             .and_then(|definition| Some(Self { definition, parameter: definition.parameter(parameter)? }))
@@ -321,7 +370,7 @@ impl std::str::FromStr for Quantity {
 fn hint(text: &str) -> String {
     let head = text.split(':').next().unwrap_or(text);
 
-    match TABLE.iter().find(|definition| definition.head() == head).map(|definition| &definition.takes) {
+    match Definition::all().iter().find(|definition| definition.head() == head).map(|definition| &definition.takes) {
         Some(ParameterKind::Count) => {
             return format!(": give a whole number from 1 to {MAX_FREQUENCIES} after the colon, as in {head}:3");
         }
@@ -340,8 +389,8 @@ fn hint(text: &str) -> String {
         _ => {}
     }
 
-    let near = nearest(head, TABLE.iter().map(Definition::head));
-    match near.and_then(|near| TABLE.iter().find(|definition| definition.head() == near)) {
+    let near = nearest(head, Definition::all().iter().map(Definition::head));
+    match near.and_then(|near| Definition::all().iter().find(|definition| definition.head() == near)) {
         Some(definition) => format!("; did you mean `{}`?", definition.name),
         None => format!("; there are {}", Quantity::names().collect::<Vec<_>>().join(", ")),
     }

@@ -2,7 +2,7 @@
 
 use super::evaluation::PointEvaluation;
 use super::status::Status;
-use crate::measure::{Measure, MeasureGroup, TensionPlace};
+use crate::measure::{self, Measure};
 use crate::set_values::{self, ValuePath};
 use crate::table::{Column, Value};
 use funicular::gradient::{GradientError, Gradients};
@@ -11,19 +11,14 @@ use funicular::robot::{Robot, RobotChange};
 use funicular::suggest::nearest;
 use std::fmt::Display;
 
-/// Quantities that can be differentiated, by their names; without a group, the first natural frequency.
-const RESULTS: [(&str, Option<MeasureGroup>); 7] = [
-    ("first-frequency", None),
-    of_group(MeasureGroup::MinStiffness),
-    of_group(MeasureGroup::LoadFactor),
-    of_group(MeasureGroup::Tensions),
-    of_group(MeasureGroup::Lengths),
-    of_group(MeasureGroup::RopeLength),
-    of_group(MeasureGroup::RopeMass),
-];
+/// Quantity of the first natural frequency.
+const FIRST_FREQUENCY: &str = "first-frequency";
 
-const fn of_group(group: MeasureGroup) -> (&'static str, Option<MeasureGroup>) {
-    (group.name(), Some(group))
+/// Names of the quantities that can be differentiated: the first natural frequency, and the measures of the robot at
+/// rest.
+fn results() -> impl Iterator<Item = &'static str> {
+    let at_rest = measure::of_robot().map(|of| of.key).chain(measure::of_cables().map(|of| of.key));
+    std::iter::once(FIRST_FREQUENCY).chain(at_rest)
 }
 
 /// Derivative of a quantity by a number of the robot file.
@@ -40,7 +35,7 @@ impl Sensitivity {
     /// Derivative from `RESULT:PATH`.
     pub(super) fn parse(text: &str) -> Option<Self> {
         let (result, path) = text.split_once(':')?;
-        let (result, _) = RESULTS.into_iter().find(|(name, _)| *name == result)?;
+        let result = results().find(|name| *name == result)?;
         Some(Self { result, path: set_values::path(path).ok()? })
     }
 
@@ -48,12 +43,12 @@ impl Sensitivity {
     pub(super) fn hint(text: &str) -> String {
         let mut parts = text.splitn(3, ':').skip(1);
         if let (Some(result), Some(path)) = (parts.next(), parts.next())
-            && !RESULTS.iter().any(|(name, _)| *name == result)
-            && let Some(near) = nearest(result, RESULTS.iter().map(|(name, _)| *name))
+            && !results().any(|name| name == result)
+            && let Some(near) = nearest(result, results())
         {
             return format!("; did you mean `sensitivity:{near}:{path}`?");
         }
-        let names: Vec<&str> = RESULTS.iter().map(|(name, _)| *name).collect();
+        let names: Vec<&str> = results().collect();
         format!(
             ": give a result and the path of a number after the colon, as in \
              sensitivity:{}; results are {}",
@@ -96,11 +91,11 @@ impl Sensitivity {
 
     /// Measures that are differentiated, one per column.
     fn measures(&self, robot: &Robot) -> Vec<Measure> {
-        let group = RESULTS.iter().find_map(|(name, group)| (*name == self.result).then_some(*group).flatten());
-        match group {
-            Some(group) => group.of_statics(robot, &[], &[TensionPlace::Platform]),
-            None => vec![Measure::Frequency(0)],
+        if let Some(of) = measure::of_cables().find(|of| of.key == self.result) {
+            return of.members(robot);
         }
+        let of_robot = measure::of_robot().find(|of| of.key == self.result).map(Measure::Robot);
+        vec![of_robot.unwrap_or(Measure::Frequency(0))]
     }
 
     /// Adds the derivatives at a point, one per column.

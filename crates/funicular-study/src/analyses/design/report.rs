@@ -8,7 +8,7 @@ use super::variables::Variable;
 use crate::chosen_numbers::at_bound;
 use crate::columns::{Columns, Style, column, only_read};
 use crate::request::DesignRequest;
-use crate::text::{counted, significant};
+use crate::text::{counted, significant, with_unit};
 use anyhow::Result;
 use funicular::math::max_min::{Found, MaxMinEnding};
 use funicular::math::rotation;
@@ -317,7 +317,7 @@ impl DesignReport<'_> {
             let nearer = if i == 0 { " (the nearer sides)" } else { "" };
             let chosen = if tried.is_chosen { ", chosen" } else { "" };
             let after = match tried.after {
-                Some(after) => format!("{} {unit}", significant(after, 5)),
+                Some(after) => with_unit(&significant(after, 5), unit),
                 None => "demands not met".to_owned(),
             };
             format!("{}{nearer}: {after}{chosen}", numbers.join(", "))
@@ -349,9 +349,9 @@ impl DesignReport<'_> {
         sentences.extend(self.sides_tried());
         for row in self.demands() {
             if row.gain_per_unit > 0.0 {
-                let gain = significant(row.gain_per_unit, 3);
+                let gain = with_unit(&significant(row.gain_per_unit, 3), unit);
                 sentences.push(format!(
-                    "{} {} {}: {gain} {unit} {better} per {} by which it is relaxed",
+                    "{} {} {}: {gain} {better} per {} by which it is relaxed",
                     row.name,
                     significant(row.limit, 6),
                     row.unit,
@@ -368,10 +368,10 @@ impl DesignReport<'_> {
         for value in bounds.iter().take(MAX_BOUNDS) {
             let (per, factor) = if value.unit == "m" { ("cm", 0.01) } else { (value.unit, 1.0) };
             sentences.push(format!(
-                "{} is at its {}: {} {unit} {better} per {per} of more room",
+                "{} is at its {}: {} {better} per {per} of more room",
                 value.path,
                 value.at_bound.unwrap_or_default(),
-                significant(value.gain_per_unit * factor, 3),
+                with_unit(&significant(value.gain_per_unit * factor, 3), unit),
             ));
         }
         sentences

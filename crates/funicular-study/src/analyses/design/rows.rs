@@ -151,7 +151,7 @@ impl PoseRows<'_> {
                 smallest_first(&self.lowest(of_goal)?)
             }
             DesignGoal::Stiffness => smallest_first(&self.stiffnesses()?),
-            goal @ (DesignGoal::RopeMass | DesignGoal::RopeLength) => {
+            goal @ DesignGoal::Measure(_) => {
                 let (value, slopes) = self.at_rest(goal.measure())?;
                 (value, vec![self.row(value, &slopes, goal.sign())])
             }
@@ -236,9 +236,11 @@ impl PoseRows<'_> {
     fn at_rest(&self, measure: Measure) -> Result<(f64, Slopes)> {
         let AtRest { robot, equilibrium, .. } = self.at_rest;
         let none = || anyhow!("the {} has no derivatives", measure.name(robot));
-        let value = measure.static_value(robot, equilibrium, &equilibrium.pose).ok_or_else(none)?;
+        // The gradient says why a value does not exist.
         let gradient = Measure::static_gradients(&[measure], self.gradients).pop().flatten().ok_or_else(none)?;
-        Ok((value, self.along(&gradient.map_err(no_solution)?)))
+        let gradient = gradient.map_err(no_solution)?;
+        let value = measure.static_value(robot, equilibrium, &equilibrium.pose).ok_or_else(none)?;
+        Ok((value, self.along(&gradient)))
     }
 }
 

@@ -1,7 +1,7 @@
 //! Results with their derivatives, one row each.
 
 use super::{GradientResult, RefusedResult};
-use crate::measure::{Measure, MeasureGroup, ResponsePart, TensionPlace};
+use crate::measure::{MEASURES, Measure, MeasureGroup, ResponsePart, TensionPlace};
 use crate::request::{self, GradientRequest};
 use anyhow::{Result, bail};
 use funicular::dynamics::Dynamics;
@@ -21,12 +21,12 @@ pub(super) struct GradientRows<'a> {
 
 impl GradientRows<'_> {
     /// Adds the results of the equilibrium that a request names.
-    pub(super) fn statics(&mut self, robot: &Robot, gradients: &Gradients, groups: &[MeasureGroup]) {
+    pub(super) fn statics(&mut self, robot: &Robot, gradients: &Gradients, groups: &[&MeasureGroup]) {
         let rest = gradients.equilibrium();
         let has_drums = rest.cables.iter().any(|cable| cable.drive.is_some());
         let places = [TensionPlace::Platform, TensionPlace::Anchor, TensionPlace::Drum];
         let places = if has_drums { &places[..] } else { &places[..2] };
-        let requested = MeasureGroup::ALL.into_iter().filter(|group| groups.contains(group));
+        let requested = MEASURES.iter().filter(|group| groups.contains(group));
         let measures: Vec<Measure> =
             requested.flat_map(|group| group.of_statics(robot, &[0, 1, 2, 3, 4, 5], places)).collect();
 
@@ -44,14 +44,14 @@ impl GradientRows<'_> {
         &mut self,
         dynamics: &Dynamics,
         vibration: &VibrationGradients,
-        groups: &[MeasureGroup],
+        groups: &[&MeasureGroup],
         below_hz: f64,
     ) -> usize {
         let found = modes::below(dynamics, below_hz);
-        if groups.contains(&MeasureGroup::Frequencies) {
+        if groups.contains(&&MeasureGroup::Frequencies) {
             self.frequencies(&found.modes, vibration);
         }
-        if groups.contains(&MeasureGroup::Damping) {
+        if groups.contains(&&MeasureGroup::Damping) {
             let damped = modes::damped::damped_modes(dynamics, &found);
             for (k, mode) in damped.modes.iter().enumerate() {
                 let gradient = vibration.damped(mode).map(|gradient| gradient.damping_ratio);

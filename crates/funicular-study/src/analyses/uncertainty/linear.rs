@@ -54,7 +54,7 @@ impl LinearPose {
     /// A robot without such an equilibrium, or too few cables to hold its pose.
     pub(crate) fn new(
         request: &UncertaintyRequest,
-        of: &[MeasureGroup],
+        of: &[&MeasureGroup],
         requested: Option<&RequestedResponse>,
         inputs: &Inputs,
         at_rest: AtRest,
@@ -66,8 +66,8 @@ impl LinearPose {
         let distributions = inputs.distributions(&input_values);
         let changes = inputs.changes(robot);
 
-        let needs_damping = of.contains(&MeasureGroup::Damping);
-        let below_hz = request.below_hz.filter(|_| needs_damping || of.contains(&MeasureGroup::Frequencies));
+        let needs_damping = of.contains(&&MeasureGroup::Damping);
+        let below_hz = request.below_hz.filter(|_| needs_damping || of.contains(&&MeasureGroup::Frequencies));
         let at_hz = requested.map_or(&[][..], RequestedResponse::at_hz);
         let modes = (below_hz.is_some() || requested.is_some())
             .then(|| NominalModes::new(&at_rest, linearisation, below_hz.unwrap_or(0.0), needs_damping, at_hz))

@@ -38,7 +38,7 @@ impl RequestedResponse {
     /// A frequency or signal that is missing, a frequency that is negative or given twice, or a signal that the robot
     /// does not have.
     pub(super) fn new(request: &UncertaintyRequest, robot: &Robot) -> Result<Self> {
-        let needs = |option: &str| missing_option(MeasureGroup::Response, option);
+        let needs = |option: &str| missing_option(&MeasureGroup::Response, option);
         let at_hz = request.at_hz.clone().filter(|all| !all.is_empty()).ok_or_else(|| needs("at_hz"))?;
         let input = request::input(request.input.as_ref().ok_or_else(|| needs("input"))?)?;
         let output = request::output(request.output.as_ref().ok_or_else(|| needs("output"))?)?;

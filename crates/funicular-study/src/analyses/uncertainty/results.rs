@@ -2,18 +2,18 @@
 
 use super::responses::Responses;
 use crate::at_rest::AtRest;
-use crate::measure::{Measure, MeasureGroup, ResponsePart, TensionPlace};
+use crate::measure::{MEASURES, Measure, MeasureGroup, ResponsePart, TensionPlace};
 use funicular::dynamics::{Dynamics, Linearisation};
 use funicular::modes;
 use funicular::robot::{Pose, Robot};
 use funicular::statics::{Equilibrium, Stability};
 
 /// Measures of the groups of a request at an equilibrium with `modes` modes, and responses at frequencies [Hz].
-pub(super) fn of_groups(of: &[MeasureGroup], robot: &Robot, modes: usize, at_hz: &[f64]) -> Vec<Measure> {
+pub(super) fn of_groups(of: &[&MeasureGroup], robot: &Robot, modes: usize, at_hz: &[f64]) -> Vec<Measure> {
     let components: Vec<usize> = robot.platform.motion.components().into_iter().collect();
     let places = [TensionPlace::Platform, TensionPlace::Anchor];
     let mut all = Vec::new();
-    for group in MeasureGroup::ALL.into_iter().filter(|group| of.contains(group)) {
+    for group in MEASURES.iter().filter(|group| of.contains(group)) {
         match group {
             MeasureGroup::Frequencies => all.extend((0..modes).map(Measure::Frequency)),
             MeasureGroup::Damping => all.extend((0..modes).map(Measure::Damping)),

@@ -1,8 +1,6 @@
 //! Table of all quantities.
 
 use super::{Definition, Parameter, ParameterKind, Quantity, RequiredModel, twist_axes};
-use crate::measure::{Measure, TensionPlace};
-use crate::sweep::evaluation::PointEvaluation;
 use crate::sweep::points::AXES;
 use crate::sweep::status::Status;
 use crate::table::{Column, ColumnKind, Value};
@@ -15,7 +13,7 @@ use funicular::statics::{self, TensionRange};
 /// Reason why the cables have no margin.
 const NO_FACETS: &str = "no maximum tension limits the loads, or the cables do not span all degrees of freedom";
 
-/// Every quantity, in the order of the documentation.
+/// Every quantity that is no [`measure`](crate::measure) of the robot at rest, in the order of the documentation.
 pub(super) static TABLE: &[Definition] = &[
     Definition {
         name: "first-frequency",
@@ -154,45 +152,6 @@ pub(super) static TABLE: &[Definition] = &[
         ..Definition::PLAIN
     },
     Definition {
-        name: "tensions",
-        about: "tension of every cable at its platform end",
-        documentation: "`tension_platform_NAME_n`: tension of every cable at its platform end",
-        columns: |robot, _| {
-            columns_of_measures(
-                robot,
-                &Measure::tensions(robot, TensionPlace::Platform),
-                "tension of a cable at its platform end",
-            )
-        },
-        values: |row, _, out| push_measures(row, &Measure::tensions(row.robot, TensionPlace::Platform), out),
-        ..Definition::PLAIN
-    },
-    Definition {
-        name: "exit-tensions",
-        about: "tension of every cable where it leaves its anchor or pulley",
-        documentation: "`tension_anchor_NAME_n`: tension of every cable at its anchor, over a pulley at the exit point",
-        columns: |robot, _| {
-            columns_of_measures(
-                robot,
-                &Measure::tensions(robot, TensionPlace::Anchor),
-                "tension of a cable at its anchor",
-            )
-        },
-        values: |row, _, out| push_measures(row, &Measure::tensions(row.robot, TensionPlace::Anchor), out),
-        ..Definition::PLAIN
-    },
-    Definition {
-        name: "drum-tensions",
-        about: "tension of every cable at its drum",
-        documentation: "`tension_drum_NAME_n`: tension of every cable at its drum; without pulley and winch that at \
-                        its anchor",
-        columns: |robot, _| {
-            columns_of_measures(robot, &Measure::tensions(robot, TensionPlace::Drum), "tension of a cable at its drum")
-        },
-        values: |row, _, out| push_measures(row, &Measure::tensions(row.robot, TensionPlace::Drum), out),
-        ..Definition::PLAIN
-    },
-    Definition {
         name: "wrap-max",
         about: "maximum wrap angle on a pulley",
         documentation: "`wrap_max_deg`: maximum wrap angle of a cable on its pulley; empty without pulleys and with \
@@ -202,30 +161,6 @@ pub(super) static TABLE: &[Definition] = &[
             let wraps = row.rest.cables.iter().filter_map(|cable| cable.drive.as_ref()?.contact);
             out.push(Value::real(wraps.map(|contact| contact.wrap.to_degrees()).reduce(f64::max)));
         },
-        ..Definition::PLAIN
-    },
-    Definition {
-        name: "lengths",
-        about: "unstrained length of every cable",
-        documentation: "`unstrained_length_NAME_m`: unstrained length of every cable",
-        columns: |robot, _| columns_of_measures(robot, &Measure::lengths(robot), "unstrained length of a cable"),
-        values: |row, _, out| push_measures(row, &Measure::lengths(row.robot), out),
-        ..Definition::PLAIN
-    },
-    Definition {
-        name: "rope-length",
-        about: "unstrained length of all ropes",
-        documentation: "`rope_length_m`: sum of the unstrained lengths of all cables",
-        columns: |robot, _| columns_of_measures(robot, &[Measure::RopeLength], "unstrained length of all ropes"),
-        values: |row, _, out| push_measures(row, &[Measure::RopeLength], out),
-        ..Definition::PLAIN
-    },
-    Definition {
-        name: "rope-mass",
-        about: "mass of all ropes",
-        documentation: "`rope_mass_kg`: mass of all ropes, from the platform to the winches",
-        columns: |robot, _| columns_of_measures(robot, &[Measure::RopeMass], "mass of all ropes"),
-        values: |row, _, out| push_measures(row, &[Measure::RopeMass], out),
         ..Definition::PLAIN
     },
     Definition {
@@ -487,18 +422,6 @@ pub(super) static TABLE: &[Definition] = &[
         ..Definition::PLAIN
     },
     Definition {
-        name: "stiffness-min",
-        about: "minimum eigenvalue of the static stiffness, rotations scaled by the platform's size",
-        documentation: "`stiffness_min_n_per_m`: minimum eigenvalue of the static stiffness, rotations scaled by the \
-                        platform's size; in wind, of the symmetric part of the stiffness",
-        needs: RequiredModel::Elastic,
-        columns: |robot, _| {
-            columns_of_measures(robot, &[Measure::MinStiffness], "minimum eigenvalue of the scaled static stiffness")
-        },
-        values: |row, _, out| push_measures(row, &[Measure::MinStiffness], out),
-        ..Definition::PLAIN
-    },
-    Definition {
         name: "stiffness",
         about: "static stiffness along every coordinate, with the other coordinates free",
         documentation: "`stiffness_x_n_per_m` … `stiffness_rz_n_m_per_rad`: static stiffness along one coordinate \
@@ -576,10 +499,10 @@ pub(super) static TABLE: &[Definition] = &[
     Definition {
         name: "sensitivity:RESULT:PATH",
         about: "derivative of a result by a number of the robot file",
-        documentation: "`first_frequency_hz_by_PATH`, `stiffness_min_n_per_m_by_PATH`, \
-                        `load_factor_by_PATH`, `tension_platform_NAME_n_by_PATH` or \
-                        `unstrained_length_NAME_m_by_PATH`: derivative of `first-frequency`, `stiffness-min`, \
-                        `load-factor`, `tensions` or `lengths` by a number of the robot file, as in \
+        documentation: "`first_frequency_hz_by_PATH`, `load_factor_by_PATH`, `tension_platform_NAME_n_by_PATH` …: \
+                        derivative of `first-frequency`, `stiffness-min`, `load-factor`, `rope-length`, `rope-mass`, \
+                        `lengths` or a tension (`tensions`, `exit-tensions`, `drum-tensions`) by a number of the robot \
+                        file, as in \
                         `sensitivity:first-frequency:platform.mass_kg`, in the unit of the result over that of the \
                         number. The lengths are held if the state gives them and with `⟪hold_lengths_of_pose⟫`; \
                         otherwise the pose is held, and the tensions follow their rule",
@@ -640,23 +563,13 @@ fn columns_of(name: &str, robot: &Robot) -> Vec<Column> {
 }
 
 /// Column of numbers.
-fn column(name: String, unit: &'static str, about: &str) -> Column {
+pub(super) fn column(name: String, unit: &'static str, about: &str) -> Column {
     Column { name, unit: unit.into(), about: about.to_owned(), kind: ColumnKind::Real }
 }
 
 /// Single column of numbers.
 fn one(name: &str, unit: &'static str, about: &str) -> Vec<Column> {
     vec![column(name.to_owned(), unit, about)]
-}
-
-/// Columns of measures of a robot.
-fn columns_of_measures(robot: &Robot, measures: &[Measure], about: &str) -> Vec<Column> {
-    measures.iter().map(|measure| column(measure.column(robot), measure.unit(), about)).collect()
-}
-
-/// Adds the values of measures of the equilibrium of a row.
-fn push_measures(row: &PointEvaluation<'_>, measures: &[Measure], out: &mut Vec<Value>) {
-    out.extend(measures.iter().map(|measure| Value::real(measure.static_value(row.robot, row.rest, &row.rest.pose))));
 }
 
 fn stiffness_columns(robot: &Robot) -> Vec<Column> {
