@@ -73,6 +73,7 @@ pub mod statics;
 pub mod suggest;
 pub mod trajectory;
 pub mod warnings;
+pub mod winch_needs;
 
 /// Number with its noun in the singular or plural: "1 cable", "2 cables", "2 frequencies", "2 masses".
 #[doc(hidden)]

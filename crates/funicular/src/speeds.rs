@@ -88,6 +88,8 @@ pub struct WorstUse {
     pub driving: f64,
     /// Largest power that the motor takes while it brakes [W].
     pub braking: f64,
+    /// Largest torque of the motor [N m]; `None` without a radius of the drum.
+    pub torque: Option<f64>,
     /// Largest used part of each limit.
     pub uses: [(LimitOfWinch, f64); 5],
 }
@@ -232,18 +234,28 @@ impl WinchAtRest {
         self.by_twist.abs().dot(half_widths)
     }
 
-    /// Largest powers and uses of the limits in a box of twists with these half widths.
+    /// Largest powers and uses of the limits in a box of twists with these half widths, at constant speeds.
     pub fn worst_in(&self, half_widths: &Vec6) -> WorstUse {
-        let speed = self.speed_in(half_widths);
-        let mut worst = WorstUse { speed, driving: 0.0, braking: 0.0, uses: LimitOfWinch::ALL.map(|of| (of, 0.0)) };
-        for direction in [-1.0, 1.0] {
-            let before = self.turns().into_iter().filter(|turn| *turn < speed);
+        self.worst_up_to(self.speed_in(half_widths), 0.0)
+    }
+
+    /// Largest powers and uses of the limits up to a speed and an acceleration of the cable at the drum [m/s, m/s²],
+    /// both in either direction.
+    pub fn worst_up_to(&self, speed: f64, acceleration: f64) -> WorstUse {
+        let uses = LimitOfWinch::ALL.map(|of| (of, 0.0));
+        let mut worst = WorstUse { speed, driving: 0.0, braking: 0.0, torque: None, uses };
+        let accelerations = if acceleration > 0.0 { &[-acceleration, acceleration][..] } else { &[0.0] };
+        for (direction, acceleration) in [-1.0, 1.0].iter().flat_map(|way| accelerations.iter().map(move |a| (way, *a)))
+        {
+            let before = self.turns(acceleration).into_iter().filter(|turn| *turn < speed);
             let barely = [0.0, BARELY.min(speed)];
-            for speed in barely.into_iter().chain(before).chain([speed]) {
-                let power = self.power(direction * speed);
-                worst.driving = worst.driving.max(power);
-                worst.braking = worst.braking.max(-power);
-                for (most, of) in worst.uses.iter_mut().zip(self.uses(direction * speed)) {
+            for speed in barely.into_iter().chain(before).chain([speed]).map(|speed| direction * speed) {
+                let motor = self.winch.motor(self.tension, speed, acceleration);
+                worst.driving = worst.driving.max(motor.power);
+                worst.braking = worst.braking.max(-motor.power);
+                worst.torque = motor.torque.map(|torque| torque.abs().max(worst.torque.unwrap_or(0.0)));
+                let uses = self.winch.limits.use_of(speed, acceleration, &motor);
+                for (most, of) in worst.uses.iter_mut().zip(uses) {
                     most.1 = most.1.max(of.1);
                 }
             }
@@ -251,12 +263,13 @@ impl WinchAtRest {
         worst
     }
 
-    /// Speeds between which every used part is monotonic, ascending: corners of the torque–speed curve, the largest
-    /// braking power and the end of braking if damping takes the place of the motor.
-    fn turns(&self) -> Vec<f64> {
+    /// Speeds between which every used part is monotonic at an acceleration of the cable [m/s²], ascending: corners of
+    /// the torque–speed curve, the largest braking power and the end of braking if damping takes the place of the
+    /// motor.
+    fn turns(&self, acceleration: f64) -> Vec<f64> {
         let lever = self.winch.drum_radius.map_or(0.0, |radius| radius / self.winch.gear_ratio);
         let corners = self.winch.limits.torque_speed.iter().map(|[speed, _]| speed * lever);
-        let alone = self.tension / self.winch.damping;
+        let alone = (self.tension - self.winch.drum_mass * acceleration) / self.winch.damping;
         let mut turns: Vec<f64> =
             corners.chain([0.5 * alone, alone]).filter(|turn| *turn > 0.0 && turn.is_finite()).collect();
         turns.sort_unstable_by(f64::total_cmp);
@@ -270,7 +283,7 @@ impl WinchAtRest {
             |value: f64, just_beyond: f64| SpeedLimit { value, limit: Some(self.most_used(direction * just_beyond).0) };
 
         let mut from = 0.0_f64;
-        for to in self.turns().into_iter().chain([SEARCHED]) {
+        for to in self.turns(0.0).into_iter().chain([SEARCHED]) {
             // The use may jump at the beginning of a piece: at rest by the friction of the gear, and at the end of the
             // torque–speed curve.
             let first = from.next_up().max(BARELY);

@@ -92,8 +92,13 @@ impl RequiredLoads {
     /// Half widths of the box of twists that the winches have to give: velocity of the platform origin [m/s], then
     /// angular velocity [rad/s], world axes.
     pub fn twists_w(&self) -> Vec6 {
-        let (velocity_w, angular_w) = (self.velocity_w, self.angular_velocity_w);
-        Vec6::new(velocity_w.x, velocity_w.y, velocity_w.z, angular_w.x, angular_w.y, angular_w.z)
+        stacked(&self.velocity_w, &self.angular_velocity_w)
+    }
+
+    /// Half widths of the box of accelerations from rest: of the platform origin [m/s²], then angular [rad/s²], world
+    /// axes.
+    pub fn accelerations_w(&self) -> Vec6 {
+        stacked(&self.acceleration_w, &self.angular_acceleration_w)
     }
 
     /// Refuses loads that contradict themselves or have no meaning for a platform with this motion.
@@ -111,4 +116,8 @@ impl RequiredLoads {
         }
         self.listed.iter().try_for_each(|load| Ok(load.check(motion)?))
     }
+}
+
+fn stacked(linear: &Vec3, angular: &Vec3) -> Vec6 {
+    Vec6::new(linear.x, linear.y, linear.z, angular.x, angular.y, angular.z)
 }

@@ -36,3 +36,4 @@ mod stretch_loss;
 mod support;
 mod trajectory;
 mod warnings;
+mod winch_needs;

@@ -4,6 +4,9 @@ use crate::math::{Mat3, Mat6, Vec3, Vec6, skew};
 use crate::platform::{Coordinates, mass_matrix, wrench_of};
 use crate::robot::{LoadShape, Pose, RequiredLoads, Robot};
 
+/// Maximum number of loads that are tried one by one where all are wanted: each takes an equilibrium of some 50 µs.
+const MAX_TRIED: usize = 1024;
+
 /// Maximum number of combinations of corners that are formed: a box of forces and moments, one of accelerations and an
 /// uncertain payload have 64 · 8 · 64 · 2.
 const MAX_VERTICES: usize = 65_536;
@@ -180,6 +183,26 @@ impl RequiredSet {
     pub(super) fn load(&self, coefficients: &LoadCoefficients) -> Vec6 {
         let parts = self.parts.iter().zip(&coefficients.0);
         parts.flat_map(|(part, of)| part.generators().iter().zip(of)).map(|(generator, of)| generator * *of).sum()
+    }
+
+    /// Loads that ask most of cables: all vertices if they are not too many, otherwise those farthest along each of the
+    /// given directions and against it. The dead load alone is the first.
+    pub(super) fn extremes(&self, directions: &[Vec6]) -> Vec<Vec6> {
+        let alone = vec![Vec6::zeros()];
+        if self.is_empty() {
+            return alone;
+        }
+        if let Some(vertices) = self.vertices().filter(|vertices| vertices.len() <= MAX_TRIED) {
+            return [alone, vertices].concat();
+        }
+        let mut found: Vec<LoadCoefficients> = Vec::new();
+        for direction in directions.iter().flat_map(|n| [*n, -n]) {
+            let farthest = self.farthest(&direction);
+            if !found.contains(&farthest) {
+                found.push(farthest);
+            }
+        }
+        [alone, found.iter().map(|of| self.load(of)).collect()].concat()
     }
 
     /// Coefficients of a load, by its number among [`Self::vertices`].

@@ -3,13 +3,14 @@
 //! Equation (40l1) of docs/theory.md.
 
 use super::required_set::RequiredSet;
-use super::{LoadCapacity, LoadFactor, wind_loads_cables};
-use crate::math::{Vec3, any_normal};
+use super::{LoadCapacity, LoadFactor, unscaled, wind_loads_cables, with_lightest_payload};
+use crate::math::{DMat, Vec3, Vec6, any_normal};
 use crate::platform::{Coordinates, wrench_of};
-use crate::robot::{Pose, Robot, Wind};
+use crate::robot::{Cable, Pose, RequiredLoads, Robot, Wind};
 use crate::statics::error::StaticsError;
 use crate::statics::exit_points;
 use crate::statics::model::StaticModel;
+use crate::statics::tension::with_wrench;
 use crate::statics::wrench_set::{BulgeSearch, Facet};
 use std::borrow::Cow;
 use std::cell::Cell;
@@ -168,17 +169,72 @@ impl<'a> LoadCapacity<'a> {
     /// Capacity in wind from one direction. Its force on the platform is one of the required loads; its drag on the
     /// straight cables, times a multiple, is a part of their loads.
     fn in_wind(&self, wind: &Wind, multiple: f64) -> Result<LoadCapacity<'a>, StaticsError> {
-        let mut loaded = self.loaded.clone().into_owned();
-        for cable in &mut loaded.cables {
-            let width = cable.material.drag_width.unwrap_or(0.0) * multiple;
-            cable.load_per_length_w += wind.drag_along_w(&cable.chord_w(&self.pose)) * width;
-        }
-        loaded.required.wind_speed = 0.0;
-
-        let arm_w = self.pose.rot_wp * loaded.platform.center_of_mass_p;
-        let force = wrench_of(&(wind.pressure_w() * loaded.platform.drag_area), &arm_w);
-        let mut required = RequiredSet::of(&loaded, &self.pose, &loaded.required);
-        required.add_fixed(Coordinates::of(&loaded).reduce(&force));
+        let (loaded, required) = blown(&self.loaded, &self.pose, wind, multiple);
         LoadCapacity::about(self.given, Cow::Owned(loaded), &self.pose, self.model, (self.rest.clone(), required))
     }
+}
+
+/// Robot with the drag of a required wind on its straight cables, times a multiple, and its other required loads with
+/// the force of this wind on the platform.
+fn blown(robot: &Robot, pose: &Pose, wind: &Wind, multiple: f64) -> (Robot, RequiredSet) {
+    let mut loaded = robot.clone();
+    for cable in &mut loaded.cables {
+        let width = cable.material.drag_width.unwrap_or(0.0) * multiple;
+        cable.load_per_length_w += wind.drag_along_w(&cable.chord_w(pose)) * width;
+    }
+    loaded.required.wind_speed = 0.0;
+
+    let arm_w = pose.rot_wp * loaded.platform.center_of_mass_p;
+    let force = wrench_of(&(wind.pressure_w() * loaded.platform.drag_area), &arm_w);
+    let mut required = RequiredSet::of(&loaded, pose, &loaded.required);
+    required.add_fixed(Coordinates::of(&loaded).reduce(&force));
+    (loaded, required)
+}
+
+/// Required loads of a robot at a pose, each as a robot that carries it, with its wrench in addition to the dead load,
+/// world axes about the platform origin (N, N m). The first is the dead load with the lightest payload; wind comes from
+/// [`DIRECTIONS`] sides.
+///
+/// All corners of the required loads are there. Where there are too many, and where a part of the loads is a ball, the
+/// loads are those that straight cables feel most.
+pub(crate) fn robots_under_required_loads(robot: &Robot, pose: &Pose) -> Vec<(Robot, Vec6)> {
+    let loaded = with_lightest_payload(robot, pose);
+    let directions = directions_of_tensions(robot, pose);
+    let mut sets = vec![((*loaded).clone(), without_wind(&loaded, pose))];
+    if robot.required.wind_speed > 0.0 {
+        let up_w = robot.up_w();
+        let along_w = any_normal(&up_w);
+        let across_w = up_w.cross(&along_w);
+        sets.extend((0..DIRECTIONS).map(|k| {
+            let (sin, cos) = (TAU * k as f64 / DIRECTIONS as f64).sin_cos();
+            let velocity_w = (along_w * cos + across_w * sin) * robot.required.wind_speed;
+            blown(&loaded, pose, &Wind { velocity_w, ..robot.wind }, 1.0)
+        }));
+    }
+    let under = |(robot, required): &(Robot, RequiredSet)| {
+        let loads = required.extremes(&directions).into_iter().map(|load| unscaled(robot, &load));
+        loads.map(|load_w| (with_wrench(robot, pose, &load_w), load_w)).collect::<Vec<_>>()
+    };
+    sets.iter().flat_map(under).collect()
+}
+
+/// Required loads without the wind.
+fn without_wind(robot: &Robot, pose: &Pose) -> RequiredSet {
+    RequiredSet::of(robot, pose, &RequiredLoads { wind_speed: 0.0, ..robot.required.clone() })
+}
+
+/// Directions of loads, reduced, along which the tension of each straight cable rises most.
+fn directions_of_tensions(robot: &Robot, pose: &Pose) -> Vec<Vec6> {
+    let coordinates = Coordinates::of(robot);
+    let column = |cable: &Cable| {
+        let force_w = cable.chord_w(pose).try_normalize(0.0).unwrap_or_else(Vec3::zeros);
+        coordinates.reduce_force(&force_w, &(pose.rot_wp * cable.attachment_p))
+    };
+    let columns: Vec<Vec6> = robot.cables.iter().map(column).collect();
+    let matrix = DMat::from_fn(6, columns.len(), |i, j| columns[j][i]);
+    let least = f64::EPSILON.sqrt() * matrix.norm();
+    // The tensions that balance a load are minus this inverse times the load.
+    matrix
+        .pseudo_inverse(least)
+        .map_or(columns, |inverse| inverse.row_iter().map(|row| -Vec6::from_iterator(row.iter().copied())).collect())
 }

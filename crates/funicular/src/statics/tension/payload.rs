@@ -6,7 +6,7 @@
 
 use super::TensionRule;
 use super::ray::{CONVERGED, LimitAtCable, RayEnd, RaySearch, WrenchRay, equilibrium_of, limits_reached};
-use crate::math::Vec3;
+use crate::math::{Vec3, Vec6};
 use crate::platform::{Coordinates, wrench_of};
 use crate::robot::{Load, Pose, Robot};
 use crate::statics::equilibrium::{CableState, Equilibrium};
@@ -175,4 +175,13 @@ pub(in crate::statics) fn with_weight(robot: &Robot, pose: &Pose, center_p: &Vec
     let Load { force_w: own_force_w, moment_w, point_p } = robot.load;
     let arm_w = pose.rot_wp * (center_p - point_p);
     robot.with_load(Load { force_w: own_force_w + force_w, moment_w: moment_w + arm_w.cross(&force_w), point_p })
+}
+
+/// Robot with a wrench in addition to its load, world axes about the platform origin (N, N m).
+pub(in crate::statics) fn with_wrench(robot: &Robot, pose: &Pose, wrench_w: &Vec6) -> Robot {
+    let (force_w, about_origin_w) = (wrench_w.fixed_rows::<3>(0), wrench_w.fixed_rows::<3>(3));
+    let Load { force_w: own_force_w, moment_w, point_p } = robot.load;
+    let arm_w = pose.rot_wp * point_p;
+    let moment_w = moment_w + about_origin_w - arm_w.cross(&force_w.into_owned());
+    robot.with_load(Load { force_w: own_force_w + force_w, moment_w, point_p })
 }

@@ -1,0 +1,258 @@
+//! Needs of winches at a pose: tensions, speeds, accelerations, torques, powers and rope for everything that is
+//! required there.
+//!
+//! Every required load is an equilibrium of its own, with tensions by their rule. The required velocities and
+//! accelerations act in every combination with the loads, so that the largest tension and the largest acceleration of a
+//! cable count together, even if no single motion has both.
+
+use crate::gradient::GradientError;
+use crate::math::{Vec3, Vec6};
+use crate::robot::{Constraint, Pose, Robot, State};
+use crate::speeds::WinchSpeeds;
+use crate::statics::{self, CableState, Equilibrium, StaticModel, StaticsError, TensionRule};
+use thiserror::Error;
+
+/// Quantity for which a winch is chosen.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum WinchNeed {
+    /// Tension at the drum [N].
+    Tension,
+    /// Speed of the cable at the drum [m/s].
+    Speed,
+    /// Acceleration of the cable at the drum [m/s²].
+    Acceleration,
+    /// Torque of the motor at its own shaft [N m].
+    Torque,
+    /// Mechanical power of the motor while it drives [W].
+    Power,
+    /// Mechanical power that the motor takes while it brakes [W].
+    BrakePower,
+}
+
+impl WinchNeed {
+    /// All needs.
+    pub const ALL: [Self; 6] =
+        [Self::Tension, Self::Speed, Self::Acceleration, Self::Torque, Self::Power, Self::BrakePower];
+}
+
+/// Largest value of a need, with what asks for it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LargestNeed {
+    /// Value, in the unit of the need.
+    pub value: f64,
+    /// Pose.
+    pub pose: Pose,
+    /// Load in addition to the dead load, world axes about the platform origin (N, N m).
+    pub load_w: Vec6,
+    /// Twist of the platform, world axes (m/s, rad/s).
+    pub twist_w: Vec6,
+}
+
+/// Needs of the winch of one cable.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CableNeeds {
+    /// Largest values in the order of [`WinchNeed::ALL`]; a torque needs a radius of the drum.
+    pub largest: [Option<LargestNeed>; 6],
+    /// Least and largest unstrained length [m].
+    pub lengths: [f64; 2],
+}
+
+/// Needs of all winches, in the order of the cables.
+///
+/// # Example
+/// ```
+/// use funicular::math::Vec3;
+/// use funicular::robot::{Pose, Robot};
+/// use funicular::statics::{StaticModel, TensionRule};
+/// use funicular::winch_needs::{WinchNeed, WinchNeeds};
+///
+/// let mut robot = Robot::from_toml(funicular_robots::COGIRO_WINCHES)?;
+/// robot.required.velocity_w = Vec3::repeat(1.0); // m/s, every way along every axis
+/// robot.required.acceleration_w = Vec3::repeat(2.0); // m/s²
+/// let pose = Pose::new([1.0, 1.0, 1.5], [0.0; 3]);
+/// let needs = WinchNeeds::at(&robot, &pose, StaticModel::Catenary, &TensionRule::Lowest)?;
+/// let power = needs.cables[0].of(WinchNeed::Power).unwrap();
+/// assert!(power.value > 100.0 && power.twist_w.norm() > 1.0);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # References
+/// docs/theory.md, equations (40z13) and (40z14).
+#[derive(Debug, Clone, PartialEq)]
+pub struct WinchNeeds {
+    /// Needs of each cable.
+    pub cables: Vec<CableNeeds>,
+}
+
+/// Pose at which winches cannot be chosen.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum WinchNeedsError {
+    /// Required load that the cables do not hold within their limits.
+    #[error("{reason}{}", beside(load_w))]
+    NotHeld {
+        /// Load in addition to the dead load, world axes about the platform origin (N, N m).
+        load_w: Vec6,
+        /// Reason.
+        reason: StaticsError,
+    },
+    /// Equilibrium without rates of its lengths.
+    #[error(transparent)]
+    NoRates(#[from] GradientError),
+}
+
+fn beside(load_w: &Vec6) -> String {
+    if *load_w == Vec6::zeros() {
+        return String::new();
+    }
+    let [fx, fy, fz, mx, my, mz] = (*load_w).into();
+    format!(", with the required load ({fx:.1}, {fy:.1}, {fz:.1}) N, ({mx:.1}, {my:.1}, {mz:.1}) N m")
+}
+
+impl WinchNeeds {
+    /// Needs at a pose for the required loads, accelerations and velocities of a robot; tensions follow a rule if the
+    /// cables leave a choice.
+    ///
+    /// # Errors
+    /// [`WinchNeedsError`]: a required load that the cables do not hold, fewer cables than degrees of freedom, or an
+    /// equilibrium without rates.
+    pub fn at(robot: &Robot, pose: &Pose, model: StaticModel, rule: &TensionRule) -> Result<Self, WinchNeedsError> {
+        // Every load, with the tensions and lengths that it needs.
+        let mut held = Vec::new();
+        for (loaded, load_w) in statics::robots_under_required_loads(robot, pose) {
+            let not_held = |reason| WinchNeedsError::NotHeld { load_w, reason };
+            if let Constraint::Under(_) = robot.constraint() {
+                let (cables, dof) = (robot.cables.len(), robot.platform.motion.count());
+                return Err(not_held(StaticsError::InverseCableCount { cables, dof }));
+            }
+            let found = statics::solve_at(&loaded, &State::Pose(*pose), model, rule).map_err(not_held)?;
+            held.push(UnderLoad { robot: loaded, rest: found.equilibrium, load_w });
+        }
+        let mut needs = Self { cables: (0..robot.cables.len()).map(|i| CableNeeds::at_rest(&held, i, pose)).collect() };
+
+        // Speeds and powers: the rates of the lengths differ from load to load as the sag does.
+        let rule = robot.constraint().is_redundant().then_some(rule);
+        for under in &held {
+            needs.add_motion(under, &WinchSpeeds::at(&under.robot, &under.rest, rule)?);
+        }
+        Ok(needs)
+    }
+
+    /// Larger of these needs and those at other poses, cable by cable.
+    pub fn merge(&mut self, other: &Self) {
+        for (cable, other) in self.cables.iter_mut().zip(&other.cables) {
+            for need in other.largest.iter().zip(WinchNeed::ALL).filter_map(|(need, of)| Some((of, (*need)?))) {
+                cable.take(need.0, need.1);
+            }
+            cable.lengths = [cable.lengths[0].min(other.lengths[0]), cable.lengths[1].max(other.lengths[1])];
+        }
+    }
+
+    /// Needs of one winch that serves every cable, with the cable that asks for each; none without cables.
+    pub fn of_one(&self, need: WinchNeed) -> Option<(usize, LargestNeed)> {
+        let of_cables = self.cables.iter().enumerate().filter_map(|(i, cable)| Some((i, cable.of(need)?)));
+        of_cables.reduce(|most, of| if of.1.value > most.1.value { of } else { most })
+    }
+
+    /// Adds what a load asks for while the platform moves.
+    fn add_motion(&mut self, under: &UnderLoad, speeds: &WinchSpeeds) {
+        let required = &under.robot.required;
+        let [twists, accelerations] = [required.twists_w(), required.accelerations_w()];
+        let cables = self.cables.iter_mut().zip(speeds.winches()).zip(&under.rest.cables);
+        for ((needs, winch), state) in cables {
+            let pose = under.rest.pose;
+            let with = |value, twist_w| LargestNeed { value, pose, load_w: under.load_w, twist_w };
+            let fastest_w = twists.zip_map(&winch.by_twist, |half, rate| half * sign(rate));
+            let (bend, bending_w) = largest_bend(state, &twists);
+            let (speed, acceleration) = (winch.speed_in(&twists), winch.speed_in(&accelerations) + bend);
+
+            let worst = winch.worst_up_to(speed, acceleration);
+            needs.take(WinchNeed::Speed, with(speed, fastest_w));
+            needs.take(WinchNeed::Acceleration, with(acceleration, bending_w));
+            if let Some(torque) = worst.torque {
+                needs.take(WinchNeed::Torque, with(torque, fastest_w));
+            }
+            needs.take(WinchNeed::Power, with(worst.driving, -fastest_w));
+            needs.take(WinchNeed::BrakePower, with(worst.braking, fastest_w));
+        }
+    }
+}
+
+/// Robot at rest under one of its required loads.
+struct UnderLoad {
+    robot: Robot,
+    rest: Equilibrium,
+    load_w: Vec6,
+}
+
+impl CableNeeds {
+    /// Largest value of a need, with what asks for it.
+    pub fn of(&self, need: WinchNeed) -> Option<LargestNeed> {
+        self.largest[need as usize]
+    }
+
+    /// Rope that goes on and off the drum between the extreme lengths [m].
+    pub fn stroke(&self) -> f64 {
+        self.lengths[1] - self.lengths[0]
+    }
+
+    fn value(&self, need: WinchNeed) -> f64 {
+        self.of(need).map_or(0.0, |largest| largest.value)
+    }
+
+    /// Takes a need if it is the largest.
+    fn take(&mut self, need: WinchNeed, of: LargestNeed) {
+        if self.of(need).is_none_or(|most| of.value > most.value) {
+            self.largest[need as usize] = Some(of);
+        }
+    }
+
+    /// Tension and lengths of a cable under all loads at a pose.
+    fn at_rest(held: &[UnderLoad], i: usize, pose: &Pose) -> Self {
+        let mut found = Self { largest: [None; 6], lengths: [f64::INFINITY, f64::NEG_INFINITY] };
+        for UnderLoad { rest, load_w, .. } in held {
+            let state = &rest.cables[i];
+            let need =
+                LargestNeed { value: state.tension_drum(), pose: *pose, load_w: *load_w, twist_w: Vec6::zeros() };
+            found.take(WinchNeed::Tension, need);
+            let length = state.unstrained_length;
+            found.lengths = [found.lengths[0].min(length), found.lengths[1].max(length)];
+        }
+        found
+    }
+}
+
+/// One with the sign of a number; zero for zero.
+fn sign(value: f64) -> f64 {
+    if value == 0.0 { 0.0 } else { value.signum() }
+}
+
+/// Largest acceleration of a straight cable while the platform moves with a constant twist of a box, given by its half
+/// widths [m/s²], and the twist: equation (40z14).
+fn largest_bend(state: &CableState, half_widths: &Vec6) -> (f64, Vec6) {
+    let axes: Vec<usize> = (0..6).filter(|axis| half_widths[*axis] > 0.0).collect();
+    let mut most = (0.0, Vec6::zeros());
+    // Opposite twists bend alike: the sign of the first axis is free.
+    for corner in 0..1_usize << axes.len().saturating_sub(1) {
+        let mut twist_w = Vec6::zeros();
+        for (bit, axis) in axes.iter().enumerate() {
+            let is_negative = bit > 0 && corner >> (bit - 1) & 1 == 1;
+            twist_w[*axis] = if is_negative { -half_widths[*axis] } else { half_widths[*axis] };
+        }
+        let bend = bend(state, &twist_w).abs();
+        if bend > most.0 {
+            most = (bend, twist_w);
+        }
+    }
+    most
+}
+
+/// Acceleration of the length of a straight cable while the platform moves with a constant twist [m/s²].
+fn bend(state: &CableState, twist_w: &Vec6) -> f64 {
+    let (velocity_w, turn_w): (Vec3, Vec3) = (twist_w.fixed_rows::<3>(0).into(), twist_w.fixed_rows::<3>(3).into());
+    let length = state.chord();
+    let outwards_w = -state.chord_w() / length;
+    let of_end_w = velocity_w + turn_w.cross(&state.lever_w);
+    let along = outwards_w.dot(&of_end_w);
+    let across_squared = (of_end_w.norm_squared() - along * along).max(0.0);
+    across_squared / length + outwards_w.dot(&turn_w.cross(&turn_w.cross(&state.lever_w)))
+}
