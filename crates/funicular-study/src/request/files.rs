@@ -16,7 +16,7 @@ declared! {
     /// that every command runs on it at once. docs/robot-file.md explains every key.
     pub struct NewRequest {
         /// Name of the robot.
-        name: Option<String> = None => (Text);
+        name: Option<String> = None => (Text).form("NAME");
         /// Number of cables, up to 64, in a symmetric layout.
         cables: Option<usize> = None => (Count(0..=u64::MAX)).otherwise("8; 4 for planar-xz and point-mass");
         /// Motion of the platform.
