@@ -441,7 +441,8 @@ impl<R> Field<R> {
         }
         let mut cells = Vec::new();
         (self.values)(row, &mut cells);
-        let numbers = cells.iter().filter_map(|cell| if let Cell::Number(number) = cell { Some(*number) } else { None });
+        let numbers =
+            cells.iter().filter_map(|cell| if let Cell::Number(number) = cell { Some(*number) } else { None });
         match form {
             ReadingForm::Lowest(digits) => {
                 return Some(style.significant(numbers.fold(f64::INFINITY, f64::min), *digits));
@@ -592,10 +593,8 @@ mod tests {
     fn of_rows(has_margin: bool) -> Columns<PulledCable> {
         Columns::new([
             column("name", "", "name", |row: &PulledCable| row.name).plain("cable"),
-            parts("force_{}_n", ["x", "y"], "N", "force, {}", |row: &PulledCable| row.force).decimals("force", "N", 1),
-            column("margin_n", "N", "margin", |row: &PulledCable| row.margin)
-                .only_if(has_margin)
-                .short("margin", "N", 3),
+            parts("force_{}_n", ["x", "y"], "N", "force, {}", |row: &PulledCable| row.force).decimals("force", 1),
+            column("margin_n", "N", "margin", |row: &PulledCable| row.margin).only_if(has_margin).short("margin", 3),
         ])
     }
 

@@ -45,7 +45,7 @@ mod quantiles;
 mod refused;
 pub mod request;
 pub mod robot_file;
-mod rows;
+pub mod rows;
 mod run;
 pub mod schema;
 pub mod set_values;

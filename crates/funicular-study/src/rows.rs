@@ -5,7 +5,6 @@ use crate::columns::{Cell, Field, ToCell};
 use crate::request::key::sentence;
 use crate::table::{Column, ColumnKind};
 use crate::units;
-use serde::Serialize;
 use serde::ser::SerializeMap;
 use serde_json::{Map, Value, json};
 use std::borrow::Cow;
@@ -83,7 +82,8 @@ impl<T: Row> Part for Option<T> {
 pub(crate) fn key<T: Described>(name: &'static str, about: &[&str], is_sparse: bool) -> Vec<RowKey> {
     let mut schema = T::schema();
     if let Value::Object(schema) = &mut schema {
-        let about = sentence(about);
+        // A list has one key for all parts.
+        let about = sentence(about).replace("cable {}", "each cable").replace(", {}", "");
         if !about.is_empty() {
             schema.insert("description".to_owned(), about.into());
         }
@@ -335,7 +335,7 @@ impl ReadBack for Vec<[f64; 3]> {
 ///
 /// A type may be followed by `= sparse` (the key is left out for an empty value), `= spread` (the keys of this part stand
 /// among those of the whole) or `= hidden` (no key). After `=>` stands the column: `one`, `one("name")`, `each(parts)`,
-/// `each(parts, "pattern_{}")`, with the methods of [`Field`]; for a part the arguments of its columns. The meaning of a
+/// `each(parts, "pattern_{}")`, `each(parts, "pattern_{}", "meaning of {}")`, with the methods of [`Field`]; for a part the arguments of its columns. The meaning of a
 /// column is the first paragraph of the doc comment. An entry that begins with `=>` is a column without a key.
 ///
 /// `in tables(names: &Names)` gives the function `columns`, `read back` the function `read`.
@@ -343,13 +343,18 @@ macro_rules! rows {
     (
         $(#[doc = $about:literal])+
         $(#[derive($($derive:path),*)])?
-        $visibility:vis struct $Name:ident $(in tables($($arg:ident: $Arg:ty),*) $(read $back:ident)?)? { $($body:tt)* }
+        $visibility:vis struct $Name:ident in tables($($arg:ident: $Arg:ty),*) $(read $back:ident)? { $($body:tt)* }
     ) => {
-        crate::rows::structure! {
-            [$($about),+] [$($($derive),*)?] $visibility $Name { $($body)* }
-        }
+        crate::rows::structure! { [$($about),+] [$($($derive),*)?] $visibility $Name { $($body)* } }
 
-        $(crate::rows::columns! { $Name ($($arg: $Arg),*) { $($body)* } $($back)? })?
+        crate::rows::columns! { $Name ($($arg: $Arg),*) { $($body)* } $($back)? }
+    };
+    (
+        $(#[doc = $about:literal])+
+        $(#[derive($($derive:path),*)])?
+        $visibility:vis struct $Name:ident { $($body:tt)* }
+    ) => {
+        crate::rows::structure! { [$($about),+] [$($($derive),*)?] $visibility $Name { $($body)* } }
     };
 }
 
@@ -406,9 +411,9 @@ macro_rules! structure {
 
 /// Columns of [`rows!`], and the reading of their numbers.
 macro_rules! columns {
-    ($Name:ident ($($arg:ident: $Arg:ty),*) { $($body:tt)* } back) => {
-        crate::rows::columns! { $Name ($($arg: $Arg),*) { $($body)* } }
-        crate::rows::read_back! { $Name ($($arg: $Arg),*) { $($body)* } }
+    ($Name:ident ($($arg:ident: $Arg:ty),*) $body:tt back) => {
+        crate::rows::columns! { $Name ($($arg: $Arg),*) $body }
+        crate::rows::read_back! { $Name ($($arg: $Arg),*) $body }
     };
     (
         $Name:ident ($($arg:ident: $Arg:ty),*) {
@@ -511,6 +516,9 @@ macro_rules! column {
     };
     ($about:ident, $field:ident: $Type:ty, each($parts:expr, $pattern:expr)) => {
         crate::rows::columns_of($pattern, $about, Some(&crate::rows::texts($parts)), |row: &Self| &row.$field)
+    };
+    ($about:ident, $field:ident: $Type:ty, each($parts:expr, $pattern:expr, $of_part:literal)) => {
+        crate::rows::columns_of($pattern, &[$of_part], Some(&crate::rows::texts($parts)), |row: &Self| &row.$field)
     };
     ($about:ident, $field:ident: $Type:ty, columns($($a:tt)*)) => {
         <<$Type as crate::rows::Part>::Of>::columns($($a)*).within(|row: &Self| crate::rows::Part::part(&row.$field))

@@ -569,10 +569,10 @@ impl CheckedLimits {
     fn fields<R>(of: impl Fn(&R) -> &Self + Copy + 'static, are_given: bool) -> [Field<R>; 2] {
         [
             column("minimum_tension_n", "N", "minimum tension that is allowed", move |row| of(row).minimum_tension_n)
-                .short("min T", "N", 4)
+                .short("min T", 4)
                 .read_if(are_given),
             column("maximum_tension_n", "N", "maximum tension that is allowed", move |row| of(row).maximum_tension_n)
-                .short("max T", "N", 4)
+                .short("max T", 4)
                 .read_if(are_given),
         ]
     }
@@ -590,40 +590,34 @@ impl CheckedRope {
         let stiffer = ropes.iter().any(|rope| rope.dynamic_axial_stiffness_n.is_some());
         let own = [
             column("name", "", "name of the rope", |rope: &Self| rope.name.clone()).plain("rope"),
-            column("axial_stiffness_n", "N", "axial stiffness EA", |rope: &Self| rope.axial_stiffness_n)
-                .short("EA", "N", 6),
+            column("axial_stiffness_n", "N", "axial stiffness EA", |rope: &Self| rope.axial_stiffness_n).short("EA", 6),
             column("dynamic_axial_stiffness_n", "N", "axial stiffness in vibration", |rope: &Self| {
                 rope.dynamic_axial_stiffness_n
             })
-            .short("EA in vibration", "N", 6)
+            .short("EA in vibration", 6)
             .read_if(stiffer),
-            column("mass_kg_per_m", "kg/m", "mass per length", |rope: &Self| rope.mass_kg_per_m)
-                .short("mass", "kg/m", 5),
-            column("damping_ratio", "1", "damping ratio", |rope: &Self| rope.damping_ratio).short(
-                "damping ratio",
-                "",
-                4,
-            ),
+            column("mass_kg_per_m", "kg/m", "mass per length", |rope: &Self| rope.mass_kg_per_m).short("mass", 5),
+            column("damping_ratio", "1", "damping ratio", |rope: &Self| rope.damping_ratio).short("damping ratio", 4),
             column("viscous_damping_n_s_m2", "N s/m²", "viscous damping per length", |rope: &Self| {
                 rope.viscous_damping_n_s_m2
             })
-            .short("viscous damping", "N s/m²", 4),
+            .short("viscous damping", 4),
         ];
         let lossy = ropes.iter().any(|rope| rope.axial_loss_factor.is_some() || rope.axial_damping_time_s.is_some());
         let loss = [
             column("axial_loss_factor", "1", "loss factor of the stretch", |rope: &Self| rope.axial_loss_factor)
-                .short("loss factor", "", 4)
+                .short("loss factor", 4)
                 .read_if(lossy),
             column("axial_damping_time_s", "s", "damping time of the stretch", |rope: &Self| rope.axial_damping_time_s)
-                .short("damping time", "s", 4)
+                .short("damping time", 4)
                 .read_if(lossy),
         ];
         let further = [
             column("breaking_load_n", "N", "breaking load", |rope: &Self| rope.breaking_load_n)
-                .short("breaks at", "N", 4)
+                .short("breaks at", 4)
                 .read_if(limited),
             column("drag_width_m", "m", "drag coefficient times diameter", |rope: &Self| rope.drag_width_m)
-                .short("drag width", "m", 4)
+                .short("drag width", 4)
                 .read_if(dragged),
         ];
         Columns::new(
@@ -644,13 +638,13 @@ impl CheckedCable {
             fields::cable_name(|cable: &Self| cable.name.clone()),
             column("material", "", "name of its rope", |cable: &Self| cable.material.clone()).plain("rope"),
             parts("anchor_{}_m", AXES, "m", "anchor, world axes, {}", |cable: &Self| cable.anchor_m)
-                .components("anchor", "m", 4),
+                .components("anchor", 4),
             parts("attachment_{}_m", AXES, "m", "attachment, platform axes, {}", |cable: &Self| cable.attachment_m)
-                .components("attachment", "m", 4),
+                .components("attachment", 4),
             column("unstrained_length_m", "m", "unstrained length of the file", |cable: &Self| {
                 cable.unstrained_length_m
             })
-            .decimals("unstrained", "m", 4),
+            .decimals("unstrained", 4),
         ];
         let load = [
             parts("load_{}_n_per_m", AXES, "N/m", "load per length besides weight and wind, {}", |cable: &Self| {

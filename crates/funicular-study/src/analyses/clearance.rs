@@ -214,9 +214,9 @@ impl ClearanceRow {
             column("distance_m", "m", "distance between the surfaces, negative in an overlap", |row: &Self| {
                 row.distance_m
             })
-            .decimals("distance", "m", 4),
+            .decimals("distance", 4),
             column("fraction", "1", "fraction of the move where the margin is least", |row: &Self| row.fraction)
-                .decimals("at part of way", "", 4)
+                .decimals("at part of way", 4)
                 .read_if(moves),
             column(
                 "crosses_at",
@@ -224,13 +224,13 @@ impl ClearanceRow {
                 "first fraction of the move at which the cables cross each other",
                 |row: &Self| row.crossing_fractions.first().copied(),
             )
-            .decimals("crosses at", "", 6)
+            .decimals("crosses at", 6)
             .read_if(moves),
-            column("required_m", "m", "required distance", |row: &Self| row.required_m).decimals("required", "m", 4),
+            column("required_m", "m", "required distance", |row: &Self| row.required_m).decimals("required", 4),
             column("vibration_m", "m", "part of the required distance for the motions in gusts", |row: &Self| {
                 row.vibration_m
             })
-            .decimals("for gusts", "m", 4)
+            .decimals("for gusts", 4)
             .read_if(sways),
             column("margin_m", "m", "distance beyond the required one", |row: &Self| row.margin_m).read_if(false),
             parts(
@@ -240,7 +240,7 @@ impl ClearanceRow {
                 "nearest point of the first, on the centre line of a cable, {}",
                 |row: &Self| row.points_m[0].map(Some),
             )
-            .decimals("at", "m", 3),
+            .decimals("at", 3),
             parts("second_{}_m", AXES, "m", "nearest point of the second, {}", |row: &Self| row.points_m[1].map(Some))
                 .read_if(false),
         ])

@@ -362,7 +362,7 @@ impl AirDamping {
             move |mode: &Self, style: crate::columns::Style| style.significant(100.0 * ratio(mode), 3)
         };
         Columns::new([
-            column("frequency_hz", "Hz", "natural frequency", |mode: &Self| mode.frequency_hz).decimals("f", "Hz", 4),
+            column("frequency_hz", "Hz", "natural frequency", |mode: &Self| mode.frequency_hz).decimals("f", 4),
             column("damping_ratio", "1", "damping ratio in still air", |mode: &Self| mode.damping_ratio).shown(
                 "damping",
                 "%",
@@ -382,21 +382,23 @@ impl GustRow {
         Columns::new([
             column("output", "", "output", |row: &Self| row.output.clone()).plain("output"),
             column("unit", "", "unit", |row: &Self| row.unit.clone()).plain("unit"),
-            column("mean", "", "mean", |row: &Self| row.mean).significant("mean", "", 4),
-            column("rms", "", "r.m.s. value about the mean", |row: &Self| row.rms).significant("r.m.s.", "", 4),
+            column("mean", "", "mean", |row: &Self| row.mean).significant("mean", 4),
+            column("rms", "", "r.m.s. value about the mean", |row: &Self| row.rms).significant("r.m.s.", 4),
             column("quasi_static_rms", "", "r.m.s. value without dynamics", |row: &Self| row.quasi_static_rms)
-                .significant("slow gusts", "", 4),
+                .significant("slow gusts", 4),
             column("main_mode_hz", "Hz", "mode nearest to which most of the variance is", |row: &Self| {
                 row.main_mode.map(|(hz, _)| hz)
             })
-            .significant("mostly near", "Hz", 3),
+            .significant("mostly near", 3),
             column("main_share", "1", "part of the variance there", |row: &Self| row.main_mode.map(|(_, part)| part))
-                .significant("part", "1", 2),
-            column("rate_hz", "Hz", "rate of crossings", |row: &Self| row.rate_hz).significant("rate", "Hz", 3),
-            column("smallest", "", "expected smallest value", Self::smallest).significant("smallest", "", 4),
-            column("largest", "", "expected largest value", Self::largest).significant("largest", "", 4),
+                .significant("part", 2)
+                .with_unit("1"),
+            column("rate_hz", "Hz", "rate of crossings", |row: &Self| row.rate_hz).significant("rate", 3),
+            column("smallest", "", "expected smallest value", Self::smallest).significant("smallest", 4),
+            column("largest", "", "expected largest value", Self::largest).significant("largest", 4),
             column("slack_probability", "1", "probability of a slack cable", |row: &Self| row.slack_probability)
-                .significant("slack", "1", 2),
+                .significant("slack", 2)
+                .with_unit("1"),
         ])
     }
 }

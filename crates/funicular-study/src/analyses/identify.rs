@@ -553,7 +553,7 @@ impl<'a> FittedValue<'a> {
         let values = [
             column("path", "", "path of the number", |of: &Self| of.row.path.clone()).plain("value"),
             column("unit", "", "unit of the number", |of: &Self| of.row.unit).plain("unit"),
-            column("start", "", "value of the file", |of: &Self| of.row.start).significant("start", "", 6),
+            column("start", "", "value of the file", |of: &Self| of.row.start).significant("start", 6),
             column("value", "", "identified value", |of: &Self| of.row.value)
                 .shown("identified", "", |of, style| style.significant(of.row.value, of.row.digits())),
             column(
@@ -562,7 +562,7 @@ impl<'a> FittedValue<'a> {
                 "standard deviation; empty if the measurements do not determine the value",
                 |of: &Self| of.row.deviation,
             )
-            .significant("deviation", "", 2),
+            .significant("deviation", 2),
             from,
             to,
             column("prior", "", "value that was known beforehand", |of: &Self| of.row.prior)

@@ -569,7 +569,7 @@ impl SettlingMode {
         let is_shaped = modes.iter().any(|mode| mode.amplitude_without_m.is_some());
         Columns::new([
             column("frequency_hz", "Hz", "frequency of the damped mode", |mode: &Self| mode.frequency_hz)
-                .decimals("f", "Hz", 4),
+                .decimals("f", 4),
             column("damping_ratio", "1", "damping ratio", |mode: &Self| mode.damping_ratio).shown(
                 "damping",
                 "%",
@@ -587,7 +587,7 @@ impl SettlingMode {
             column("settled_s", "s", "time in which this amplitude alone falls to the tolerance", |mode: &Self| {
                 mode.settled_s
             })
-            .significant("to the tolerance", "s", 3),
+            .significant("to the tolerance", 3),
         ])
     }
 }

@@ -1,11 +1,13 @@
 //! Rows that several commands share.
 
+use super::fields::{ANGLES, AXES};
 use crate::at_rest::AtRest;
 use crate::columns::Style;
+use crate::rows::{ReadBack, rows};
 use crate::text::{short, vector};
 use funicular::cable::{LocalAxes, Sag};
 use funicular::dynamics::Linearisation;
-use funicular::math::rotation;
+use funicular::math::{Vec6, rotation};
 use funicular::modes;
 use funicular::pose_error::PoseDifference;
 use funicular::robot::{Load, Pose, WinchMode, Wind};
@@ -97,12 +99,17 @@ impl SagNumbers {
     }
 }
 
-/// Pose of the platform.
-#[derive(Serialize)]
-pub struct PoseRow {
-    pub position_m: [f64; 3],
-    pub quaternion_wxyz: [f64; 4],
-    pub roll_pitch_yaw_deg: [f64; 3],
+rows! {
+    /// Pose of the platform.
+    pub struct PoseRow in tables(decimals: [usize; 2]) {
+        /// Position of the platform origin, {}.
+        pub position_m: [f64; 3] => each(AXES, "{}_m").decimals("position", decimals[0]);
+        /// Orientation as a quaternion w, x, y, z.
+        pub quaternion_wxyz: [f64; 4];
+        /// Roll, pitch, yaw of the platform.
+        pub roll_pitch_yaw_deg: [f64; 3] => each(ANGLES, "{}_deg", "{} of the platform")
+            .decimals("roll, pitch, yaw", decimals[1]);
+    }
 }
 
 impl PoseRow {
@@ -112,6 +119,41 @@ impl PoseRow {
             quaternion_wxyz: rotation::quaternion_wxyz(&pose.rot_wp),
             roll_pitch_yaw_deg: rotation::to_roll_pitch_yaw_deg(&pose.rot_wp),
         }
+    }
+
+    /// Takes a pose from the numbers of its columns.
+    pub(crate) fn read(numbers: &mut &[f64], _: [usize; 2]) -> Option<Self> {
+        let (position_m, roll_pitch_yaw_deg) = (<[f64; 3]>::take(3, numbers)?, <[f64; 3]>::take(3, numbers)?);
+        let [roll, pitch, yaw] = roll_pitch_yaw_deg;
+        let rot_wp = rotation::from_roll_pitch_yaw_deg(roll, pitch, yaw);
+        Some(Self { position_m, quaternion_wxyz: rotation::quaternion_wxyz(&rot_wp), roll_pitch_yaw_deg })
+    }
+}
+
+rows! {
+    /// Platform in motion.
+    pub struct MotionRow in tables(decimals: [usize; 2]) read back {
+        /// Pose.
+        pub pose: PoseRow = spread => columns(decimals);
+        /// Velocity of the platform origin, {}.
+        pub velocity_m_s: [f64; 3] => each(AXES);
+        /// Angular velocity of the platform, {}.
+        pub angular_velocity_rad_s: [f64; 3] => each(AXES);
+        /// Acceleration of the platform origin, {}.
+        pub acceleration_m_s2: [f64; 3] => each(AXES);
+        /// Angular acceleration of the platform, {}.
+        pub angular_acceleration_rad_s2: [f64; 3] => each(AXES);
+    }
+}
+
+impl MotionRow {
+    /// Row of a pose with a velocity and an acceleration, world axes.
+    pub fn of(pose: &Pose, velocity_w: &Vec6, acceleration_w: &Vec6) -> Self {
+        let halves = |of: &Vec6| [[of[0], of[1], of[2]], [of[3], of[4], of[5]]];
+        let [velocity_m_s, angular_velocity_rad_s] = halves(velocity_w);
+        let [acceleration_m_s2, angular_acceleration_rad_s2] = halves(acceleration_w);
+        let pose = PoseRow::of(pose);
+        Self { pose, velocity_m_s, angular_velocity_rad_s, acceleration_m_s2, angular_acceleration_rad_s2 }
     }
 }
 

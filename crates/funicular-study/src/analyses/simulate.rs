@@ -152,17 +152,17 @@ impl StretchLossRow {
             column("frequency_hz", "Hz", "natural frequency of the platform on massless ropes", |row: &Self| {
                 row.frequency_hz
             })
-            .significant("mode", "Hz", 4),
+            .significant("mode", 4),
             column("stretch_share", "1", "share of the stretch in the energy of deformation", |row: &Self| {
                 row.stretch_share
             })
-            .significant("stretch", "", 2),
+            .significant("stretch", 2),
             column("damping_ratio", "1", "damping ratio by the losses of the robot file", |row: &Self| {
                 row.damping_ratio
             })
-            .significant("ratio", "", 2),
+            .significant("ratio", 2),
             column("damping_ratio_in_time", "1", "damping ratio in this run", |row: &Self| row.damping_ratio_in_time)
-                .significant("in time", "", 2),
+                .significant("in time", 2),
         ])
     }
 }

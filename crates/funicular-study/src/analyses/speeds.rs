@@ -272,20 +272,19 @@ impl CableSpeeds {
                 "speed of the cable at the drum per angular velocity about {}, paying out",
                 |row: &Self| row.rate_per_angular_velocity_m_per_rad,
             ),
-            column("tension_drum_n", "N", "tension at the drum", |row: &Self| row.tension_drum_n)
-                .decimals("T drum", "N", 2),
+            column("tension_drum_n", "N", "tension at the drum", |row: &Self| row.tension_drum_n).decimals("T drum", 2),
             column("motor_torque_at_rest_n_m", "N m", "torque of the motor at rest", |row: &Self| {
                 row.motor_torque_at_rest_n_m
             })
-            .significant("torque at rest", "N m", 4),
+            .significant("torque at rest", 4),
             column("speed_max_in_m_s", "m/s", "largest speed of the cable while it winds in", |row: &Self| {
                 row.speed_max_in_m_s
             })
-            .significant("in up to", "m/s", 4),
+            .significant("in up to", 4),
             column("speed_max_out_m_s", "m/s", "largest speed of the cable while it pays out", |row: &Self| {
                 row.speed_max_out_m_s
             })
-            .significant("out up to", "m/s", 4),
+            .significant("out up to", 4),
             column("limit", "", "limit that is reached first", |row: &Self| row.limit).plain("limit"),
             column(
                 "platform_speed_max_m_s",
@@ -293,15 +292,15 @@ impl CableSpeeds {
                 "largest speed of the platform in every direction, as far as this winch allows",
                 |row: &Self| row.platform_speed_max_m_s,
             )
-            .significant("platform", "m/s", 4),
+            .significant("platform", 4),
             column("speed_m_s", "m/s", "largest speed for the required velocities", required(|of| of.speed_m_s))
-                .significant("speed", "m/s", 4)
+                .significant("speed", 4)
                 .read_if(asks),
             column("driving_power_w", "W", "largest power of the motor that drives", required(|of| of.driving_power_w))
-                .significant("drives", "W", 4)
+                .significant("drives", 4)
                 .read_if(asks),
             column("braking_power_w", "W", "largest power of the motor that brakes", required(|of| of.braking_power_w))
-                .significant("brakes", "W", 4)
+                .significant("brakes", 4)
                 .read_if(asks),
             shown(used("used_speed", |of| of.used_speed), "of speed", |of| of.used_speed),
             shown(used("used_torque", |of| of.used_torque), "of torque", |of| of.used_torque),

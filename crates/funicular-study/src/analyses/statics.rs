@@ -270,7 +270,7 @@ impl FrictionCableRow {
             column("friction_exponent", "1", "friction exponent of the pulley", move |row| {
                 of(row).map(|f| f.friction_exponent)
             })
-            .decimals("exponent", "", 4),
+            .decimals("exponent", 4),
             range("excess_length_{}_m", "{}imum change of the unstrained length beyond the exit point", |f| {
                 f.excess_length_m
             })
@@ -393,21 +393,25 @@ impl DriveRow {
             parts("exit_{}_m", AXES, "m", "point at which the cable leaves its pulley, {}", move |row| {
                 of(row).map_or([None; 3], |drive| drive.exit_m.map(Some))
             })
-            .decimals("exit point", "m", 4),
+            .decimals("exit point", 4),
             column("wrap_deg", "deg", "angle over which the cable touches its wheel", move |row| {
                 of(row).and_then(|d| d.wrap_deg)
             })
-            .decimals("wrap", "°", 2),
+            .decimals("wrap", 2),
             number("tension_drum_n", "N", "tension at the drum", |drive| drive.tension_drum_n)
-                .decimals("T drum", "N", 3),
+                .decimals("T drum", 3)
+                .with_unit("N"),
             number("free_length_m", "m", "unstrained length of the free span", |drive| drive.free_length_m)
-                .decimals("free", "m", 4),
+                .decimals("free", 4)
+                .with_unit("m"),
             number("arc_length_m", "m", "unstrained length on the wheel", |drive| drive.arc_length_m)
-                .decimals("on wheel", "m", 4),
+                .decimals("on wheel", 4)
+                .with_unit("m"),
             number("drum_side_length_m", "m", "unstrained length from the pulley to the drum", |drive| {
                 drive.drum_side_length_m
             })
-            .decimals("to drum", "m", 4),
+            .decimals("to drum", 4)
+            .with_unit("m"),
             number("winch_yield_m", "m", "length that the winch pays out because it yields", |drive| {
                 drive.winch_yield_m
             })
@@ -445,21 +449,18 @@ impl CableRow {
             fields::cable_name(move |row| of(row).name.clone()),
             only_read().shown("rope", "", move |row, _| of(row).rope.clone()).only_in(Style::Typeset),
             column("unstrained_length_m", "m", "length without tension", move |row| of(row).unstrained_length_m)
-                .decimals("unstrained", "m", 4),
+                .decimals("unstrained", 4),
             only_read().shown("chord", "m", move |row, style| style.decimals(of(row).chord_m, 4)).aligned(false),
             at_platform,
             at_anchor,
             column("chord_m", "m", "distance between the ends of the free span", move |row| of(row).chord_m),
-            column("sag_ratio", "1", "sag divided by the chord", move |row| of(row).sag.sag_ratio).decimals(
-                "sag/chord",
-                "",
-                5,
-            ),
-            column("lambda2", "1", "Irvine's parameter", move |row| of(row).sag.lambda2).significant("λ²", "", 4),
+            column("sag_ratio", "1", "sag divided by the chord", move |row| of(row).sag.sag_ratio)
+                .decimals("sag/chord", 5),
+            column("lambda2", "1", "Irvine's parameter", move |row| of(row).sag.lambda2).significant("λ²", 4),
             column("string_frequency_hz", "Hz", "first natural frequency of the taut cable alone", move |row| {
                 of(row).sag.string_frequency_hz
             })
-            .decimals("string", "Hz", 3),
+            .decimals("string", 3),
             parts("force_on_platform_{}_n", AXES, "N", "force of the cable on the platform, {}", move |row| {
                 of(row).force_on_platform_n
             }),

@@ -58,15 +58,14 @@ impl CalibratedValue {
             column("path", "", "path of the number in the robot file, or its name", |row: &Self| row.path.clone())
                 .plain("value"),
             column("unit", "", "unit of the number", |row: &Self| row.unit).plain("unit"),
-            column("start", "", "value of the file", |row: &Self| row.start).significant("start", "", 5),
+            column("start", "", "value of the file", |row: &Self| row.start).significant("start", 5),
             column("value", "", "calibrated value", |row: &Self| row.value)
                 .shown("value", "", |row, style| style.significant(row.value, row.digits())),
-            column("deviation", "", "standard deviation in the frame", |row: &Self| row.deviation)
-                .significant("±", "", 3),
+            column("deviation", "", "standard deviation in the frame", |row: &Self| row.deviation).significant("±", 3),
             low,
             high,
             column("inner_deviation", "", "standard deviation with inner conditions", |row: &Self| row.inner_deviation)
-                .significant("inner ±", "", 3),
+                .significant("inner ±", 3),
             column("remark", "", "what holds the value, or that nothing determines it; its prior", remark).plain(""),
             column("prior", "", "value that was known beforehand", |row: &Self| row.prior),
             column("prior_deviation", "", "its standard deviation", |row: &Self| row.prior_deviation),
@@ -91,9 +90,9 @@ impl DistanceRow {
         Columns::new([
             column("first", "", "cable of one anchor", |row: &Self| row.first.clone()).plain("anchor"),
             column("second", "", "cable of the other anchor", |row: &Self| row.second.clone()).plain("anchor"),
-            column("distance_m", "m", "distance", |row: &Self| row.distance_m).decimals("distance", "m", 5),
+            column("distance_m", "m", "distance", |row: &Self| row.distance_m).decimals("distance", 5),
             column("deviation_m", "m", "standard deviation of the distance", |row: &Self| row.deviation_m)
-                .significant("±", "m", 3),
+                .significant("±", 3),
         ])
     }
 }
@@ -143,19 +142,16 @@ impl ReadingRow {
         Columns::new([
             column("row", "1", "number of the row, from 1", |row: &Self| row.row).plain("row"),
             parts("{}_m", fields::AXES, "m", "position of the platform origin, {}", |row: &Self| row.position_m)
-                .components("position", "m", 4),
+                .components("position", 4),
             parts("{}_deg", ["roll", "pitch", "yaw"], "deg", "{} of the platform", |row: &Self| row.roll_pitch_yaw_deg)
-                .components("roll, pitch, yaw", "°", 3)
+                .components("roll, pitch, yaw", 3)
                 .read_if(turns),
             column("residual_rms_m", "m", "root mean square of the residuals of the row", |row: &Self| row.rms())
                 .shown("residual", "mm", |row, style| style.significant(1e3 * row.rms(), 3)),
-            column("chi2_drop", "1", "decrease of χ² if the row is left out", |row: &Self| row.chi2_drop).significant(
-                "χ² without it falls by",
-                "",
-                3,
-            ),
+            column("chi2_drop", "1", "decrease of χ² if the row is left out", |row: &Self| row.chi2_drop)
+                .significant("χ² without it falls by", 3),
             column("chi2_limit", "1", "largest decrease that noise gives with 95 %", |row: &Self| row.chi2_limit)
-                .significant("limit", "", 3),
+                .significant("limit", 3),
             column("shift_m", "m", "largest change of a value if the row is left out", |row: &Self| row.shift_m).shown(
                 "values move by",
                 "mm",
@@ -237,9 +233,9 @@ impl ProposalRow {
         Columns::new([
             column("number", "1", "number of proposed poses up to this one", |row: &Self| row.number).plain("next"),
             parts("{}_m", fields::AXES, "m", "position of the platform origin, {}", |row: &Self| row.position_m)
-                .components("position", "m", 4),
+                .components("position", 4),
             parts("{}_deg", ["roll", "pitch", "yaw"], "deg", "{} of the platform", |row: &Self| row.roll_pitch_yaw_deg)
-                .components("roll, pitch, yaw", "°", 3)
+                .components("roll, pitch, yaw", 3)
                 .read_if(turns),
             column("total_m", "m", "root of the sum of the variances of the chosen values then", |row: &Self| {
                 row.total_m

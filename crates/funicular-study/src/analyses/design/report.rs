@@ -76,10 +76,10 @@ impl ChosenValue {
         Columns::new([
             column("path", "", "path of the number", |row: &Self| row.path.clone()).plain("value"),
             column("unit", "", "unit of the number", |row: &Self| row.unit).plain("unit"),
-            column("start", "", "value of the file", |row: &Self| row.start).significant("before", "", 6),
-            column("value", "", "chosen value", |row: &Self| row.value).significant("after", "", 6),
-            column("minimum", "", "lower bound", |row: &Self| row.minimum).significant("minimum", "", 6),
-            column("maximum", "", "upper bound", |row: &Self| row.maximum).significant("maximum", "", 6),
+            column("start", "", "value of the file", |row: &Self| row.start).significant("before", 6),
+            column("value", "", "chosen value", |row: &Self| row.value).significant("after", 6),
+            column("minimum", "", "lower bound", |row: &Self| row.minimum).significant("minimum", 6),
+            column("maximum", "", "upper bound", |row: &Self| row.maximum).significant("maximum", 6),
             column("at_bound", "", "bound at which the value is", |row: &Self| row.at_bound)
                 .shown("remark", "", |row, _| row.remark())
                 .only_in(Style::Typeset),
@@ -114,10 +114,10 @@ impl DemandRow {
     pub fn columns() -> Columns<Self> {
         Columns::new([
             column("name", "", "demand", |row: &Self| row.name.clone()).plain("demand"),
-            column("limit", "", "limit", |row: &Self| row.limit).significant("limit", "", 5),
+            column("limit", "", "limit", |row: &Self| row.limit).significant("limit", 5),
             column("before", "", "value with the numbers of the file", |row: &Self| row.before)
-                .significant("before", "", 5),
-            column("after", "", "value with the chosen numbers", |row: &Self| row.after).significant("after", "", 5),
+                .significant("before", 5),
+            column("after", "", "value with the chosen numbers", |row: &Self| row.after).significant("after", 5),
             column("unit", "", "unit", |row: &Self| row.unit).plain("unit"),
             column("pose", "1", "number of the pose, from 1", |row: &Self| row.pose).plain("at pose"),
         ])

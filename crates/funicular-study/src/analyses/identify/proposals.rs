@@ -69,17 +69,17 @@ impl ProposedMeasurement {
             column("number", "1", "number of proposed measurements up to this one", |row: &Self| row.number)
                 .plain("next"),
             parts("{}_m", fields::AXES, "m", "position of the platform origin, {}", |row: &Self| row.position_m)
-                .components("position", "m", 4),
+                .components("position", 4),
             parts("{}_deg", ["roll", "pitch", "yaw"], "deg", "{} of the platform", |row: &Self| row.roll_pitch_yaw_deg)
-                .components("roll, pitch, yaw", "°", 3),
+                .components("roll, pitch, yaw", 3),
             column("payload_kg", "kg", "payload that the platform carries there", |row: &Self| row.payload_kg)
-                .significant("payload", "kg", 4)
+                .significant("payload", 4)
                 .only_if(has_payloads),
             column("measured", "", "what is measured there", |row: &Self| row.measured.clone()).plain("measured"),
             column("largest_percent", "%", "largest relative deviation of a chosen value then", |row: &Self| {
                 row.largest_percent
             })
-            .significant("largest ±", "%", 3),
+            .significant("largest ±", 3),
             column("largest_of", "", "value with the largest relative deviation", |row: &Self| row.largest_of.clone())
                 .plain("of"),
         ])

@@ -76,13 +76,11 @@ impl StaticRow {
         Columns::new([
             column("experiment", "", "experiment", |row: &Self| row.experiment.clone()).plain("experiment"),
             column("quantity", "", "quantity with its unit", |row: &Self| row.quantity.clone()).plain("quantity"),
-            column("measured", "", "measured value", |row: &Self| row.measured).significant("measured", "", 6),
-            column("fitted", "", "value of the fit", |row: &Self| row.fitted).significant("fitted", "", 6),
-            column("difference", "1", "difference in deviations", Self::difference).significant(
-                "difference",
-                "deviations",
-                3,
-            ),
+            column("measured", "", "measured value", |row: &Self| row.measured).significant("measured", 6),
+            column("fitted", "", "value of the fit", |row: &Self| row.fitted).significant("fitted", 6),
+            column("difference", "1", "difference in deviations", Self::difference)
+                .significant("difference", 3)
+                .with_unit("deviations"),
         ])
     }
 }

@@ -182,11 +182,7 @@ impl StatesRow {
             only_read().shown("states", "", |of: &Self, _| {
                 if of.states == 1 { format!("{}", of.first + 1) } else { format!("{}, {}", of.first + 1, of.first + 2) }
             }),
-            column("frequency_hz", "Hz", "natural frequency", |of: &Self| of.frequency_hz).decimals(
-                "frequency",
-                "Hz",
-                4,
-            ),
+            column("frequency_hz", "Hz", "natural frequency", |of: &Self| of.frequency_hz).decimals("frequency", 4),
             column("damping_ratio", "1", "damping ratio", |of: &Self| of.damping_ratio).shown(
                 "damping ratio",
                 "%",

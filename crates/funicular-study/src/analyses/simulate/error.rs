@@ -76,9 +76,9 @@ pub(super) fn errors(
         error(column.to_owned(), off, None)
     };
     let mut errors = vec![
-        vector("position_m", |row| row.pose.position_m),
-        vector("velocity_m_s", |row| row.velocity_m_s),
-        vector("angular_velocity_rad_s", |row| row.angular_velocity_rad_s),
+        vector("position_m", |row| row.motion.pose.position_m),
+        vector("velocity_m_s", |row| row.motion.velocity_m_s),
+        vector("angular_velocity_rad_s", |row| row.motion.angular_velocity_rad_s),
     ];
     let margins = rows.iter().zip(finer).filter_map(|(a, b)| Some((a.clearance_margin_m?, b.clearance_margin_m?)));
     if margins.clone().next().is_some() {
@@ -136,11 +136,11 @@ impl ColumnError {
     pub fn columns() -> Columns<Self> {
         Columns::new([
             column("column", "", "column of the result", |row: &Self| row.column.clone()).plain("column"),
-            column("largest", "", "bound of the largest error", |row: &Self| row.largest).significant("largest", "", 2),
+            column("largest", "", "bound of the largest error", |row: &Self| row.largest).significant("largest", 2),
             column("root_mean_square", "", "root mean square", |row: &Self| row.root_mean_square)
-                .significant("r.m.s.", "", 2),
+                .significant("r.m.s.", 2),
             column("relative", "1", "root mean square over that of the column", |row: &Self| row.relative)
-                .significant("relative", "", 2),
+                .significant("relative", 2),
         ])
     }
 }
@@ -150,18 +150,15 @@ impl Peak {
     pub fn columns() -> Columns<Self> {
         Columns::new([
             column("cable", "", "name of the cable", |row: &Self| row.cable.clone()).plain("cable"),
-            column("peak_n", "N", "largest tension", |row: &Self| row.peak_n).significant("largest tension", "N", 4),
-            column("finer_peak_n", "N", "largest tension of the finer run", |row: &Self| row.finer_peak_n).significant(
-                "finer run",
-                "N",
-                4,
-            ),
+            column("peak_n", "N", "largest tension", |row: &Self| row.peak_n).significant("largest tension", 4),
+            column("finer_peak_n", "N", "largest tension of the finer run", |row: &Self| row.finer_peak_n)
+                .significant("finer run", 4),
             column("root_mean_square_n", "N", "root mean square", |row: &Self| row.root_mean_square_n)
-                .significant("r.m.s.", "N", 4),
+                .significant("r.m.s.", 4),
             column("finer_root_mean_square_n", "N", "root mean square of the finer run", |row: &Self| {
                 row.finer_root_mean_square_n
             })
-            .significant("finer run", "N", 4),
+            .significant("finer run", 4),
         ])
     }
 }

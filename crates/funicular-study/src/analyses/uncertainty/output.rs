@@ -218,11 +218,7 @@ impl<'a> ResultAtPose<'a> {
                 "",
                 move |of, style| style.significant(of.result.value, digits(of)),
             ),
-            column("deviation", "", "standard deviation", |of: &Self| of.result.deviation).significant(
-                "deviation",
-                "",
-                3,
-            ),
+            column("deviation", "", "standard deviation", |of: &Self| of.result.deviation).significant("deviation", 3),
             from,
             to,
             column("method", "", "method: linear or sampled", |of: &Self| of.result.method).plain("method"),
@@ -238,10 +234,10 @@ impl<'a> ResultAtPose<'a> {
                 "change at the corner of the tolerances with the smallest linear result",
                 move |of: &Self| worst(of, |case| case.down),
             )
-            .significant("corner down", "", 3)
+            .significant("corner down", 3)
             .read_if(has_worst),
             column("worst_up", "", "change at the opposite corner", move |of: &Self| worst(of, |case| case.up))
-                .significant("up", "", 3)
+                .significant("up", 3)
                 .read_if(has_worst),
             column("sampling_reason", "", "reason for sampling", |of: &Self| {
                 of.result.sampling_reason.clone().unwrap_or_default()
@@ -279,11 +275,10 @@ impl UncertainInput {
         Columns::new([
             column("path", "", "path of the number", |of: &Self| of.path.clone()).plain("number"),
             column("unit", "", "unit of the number", |of: &Self| of.unit).plain("unit"),
-            column("value", "", "value; empty if it changes from pose to pose", |of: &Self| of.value)
-                .short("value", "", 6),
+            column("value", "", "value; empty if it changes from pose to pose", |of: &Self| of.value).short("value", 6),
             column("distribution", "", "distribution", |of: &Self| of.distribution).plain("distribution"),
-            column("deviation", "", "standard deviation", |of: &Self| of.deviation).short("deviation", "", 6),
-            column("tolerance", "", "half width of the tolerance", |of: &Self| of.tolerance).short("tolerance", "", 6),
+            column("deviation", "", "standard deviation", |of: &Self| of.deviation).short("deviation", 6),
+            column("tolerance", "", "half width of the tolerance", |of: &Self| of.tolerance).short("tolerance", 6),
             column("group", "", "group of the number", move |of: &Self| names[of.group].clone()).plain("group"),
         ])
     }

@@ -412,16 +412,16 @@ impl VolumeRow {
         Columns::new([
             column("by", "", "grid, rays, or hull of rays", |row: &Self| row.by).plain("by"),
             column("step_m", "m", "largest step of the grid, or between points of a ray", |row: &Self| row.step_m)
-                .short("step", "m", 4),
+                .short("step", 4),
             column("rays", "1", "number of rays", |row: &Self| row.rays).plain("rays"),
-            column("volume_m3", "m³", "volume of the set", |row: &Self| row.volume_m3).significant("volume", "m³", 6),
+            column("volume_m3", "m³", "volume of the set", |row: &Self| row.volume_m3).significant("volume", 6),
             column("volume_error_m3", "m³", "largest expected error of the volume", |row: &Self| row.volume_error_m3)
-                .significant("error", "m³", 2),
-            column("area_m2", "m²", "area of its surface", |row: &Self| row.area_m2).significant("area", "m²", 6),
+                .significant("error", 2),
+            column("area_m2", "m²", "area of its surface", |row: &Self| row.area_m2).significant("area", 6),
             parts("centroid_{}_m", AXES, "m", "centroid of its volume, {}", |row: &Self| {
                 row.centroid_m.map_or([None; 3], |centroid| centroid.map(Some))
             })
-            .decimals("centroid", "m", 3),
+            .decimals("centroid", 3),
             column("parts", "1", "number of parts that do not touch each other", |row: &Self| row.parts).plain("parts"),
             column("holes", "1", "number of holes that the outside does not reach", |row: &Self| row.holes)
                 .plain("holes"),
