@@ -131,12 +131,20 @@ macro_rules! described {
 described! {
     f64: "number", empty value: !value.is_finite();
     usize: "integer";
+    i64: "integer";
     u64: "integer";
     u32: "integer";
     bool: "boolean", empty value: !*value;
     String: "string", empty value: value.as_str().is_empty();
     &'static str: "string", empty value: str::is_empty(value);
     Cow<'static, str>: "string", empty value: str::is_empty(value);
+}
+
+/// Identity of a result, whose further keys depend on its kind.
+impl Described for Value {
+    fn schema() -> Value {
+        json!({ "type": "object", "properties": { "kind": { "type": "string" } }, "required": ["kind"] })
+    }
 }
 
 impl<T: Described> Described for Option<T> {

@@ -32,11 +32,13 @@ use crate::columns::{CommandTables, ResultTable, Tabled};
 use crate::error::Error;
 use crate::json;
 use crate::request::{Request, RobotText};
+use crate::rows::Described;
 use crate::watch::Watch;
 use crate::wording::Words;
 use anyhow::{Result, anyhow};
 use funicular::robot::Robot;
 use serde::Serialize;
+use serde_json::Value;
 
 /// Declares the commands that need nothing but their request: type of the results, and the analysis of a request `of`
 /// for its robot, with a watch. A command that starts from an equilibrium can say after `at` how it goes on from one.
@@ -57,6 +59,11 @@ macro_rules! answers {
             /// Name of every command, with the columns of its tables in files as [`Tabled::tables`] gives them.
             pub fn tables() -> Vec<CommandTables> {
                 vec![$((<$Found as Found>::COMMAND, <$Found as Tabled>::tables()),)*]
+            }
+
+            /// Name of every command, with the JSON Schema of its results without the keys that all results have.
+            pub(crate) fn schemas() -> Vec<(&'static str, Value)> {
+                vec![$((<$Found as Found>::COMMAND, <$Found as Described>::schema()),)*]
             }
 
             /// Sentences that the user should know before trusting the numbers.

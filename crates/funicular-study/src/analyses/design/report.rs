@@ -8,12 +8,12 @@ use super::variables::Variable;
 use crate::chosen_numbers::at_bound;
 use crate::columns::{Columns, Style, column, only_read};
 use crate::request::DesignRequest;
+use crate::rows::rows;
 use crate::text::{counted, significant};
 use anyhow::Result;
 use funicular::math::max_min::{Found, MaxMinEnding};
 use funicular::math::rotation;
 use funicular::robot::parameters::Parameters;
-use serde::Serialize;
 
 /// Distance from a bound, relative to the distance of both bounds, up to which a value counts as at it. It is the
 /// distance of the linear problem, whose multipliers belong to values at bounds.
@@ -22,48 +22,43 @@ const AT_BOUND: f64 = 1e-9;
 /// Number of bounds that the sentences on limits name.
 const MAX_BOUNDS: usize = 5;
 
-/// Results at one pose.
-#[derive(Serialize)]
-pub struct DesignPose {
-    /// Position of the platform [m].
-    pub position_m: [f64; 3],
-    /// Roll, pitch, yaw [degrees].
-    pub roll_pitch_yaw_deg: [f64; 3],
-    /// Value of the goal with the values of the file.
-    pub before: f64,
-    /// Value of the goal with the chosen values.
-    pub after: f64,
-    /// Gain of the goal if this pose alone gains one. The shares of all poses sum to 1, except for a weighted mean.
-    pub share: f64,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub frequency_before_hz: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub frequency_after_hz: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub stiffness_before_n_per_m: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub stiffness_after_n_per_m: Option<f64>,
-    /// Natural frequency that is deepest in the band to avoid or nearest to it.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub beside_band_before_hz: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub beside_band_after_hz: Option<f64>,
+rows! {
+    /// Results at one pose.
+    pub struct DesignPose {
+        /// Position of the platform [m].
+        pub position_m: [f64; 3];
+        /// Roll, pitch, yaw [degrees].
+        pub roll_pitch_yaw_deg: [f64; 3];
+        /// Value of the goal with the values of the file.
+        pub before: f64;
+        /// Value of the goal with the chosen values.
+        pub after: f64;
+        /// Gain of the goal if this pose alone gains one. The shares of all poses sum to 1, except for a weighted mean.
+        pub share: f64;
+        pub frequency_before_hz: Option<f64>;
+        pub frequency_after_hz: Option<f64>;
+        pub stiffness_before_n_per_m: Option<f64>;
+        pub stiffness_after_n_per_m: Option<f64>;
+        /// Natural frequency that is deepest in the band to avoid or nearest to it.
+        pub beside_band_before_hz: Option<f64>;
+        pub beside_band_after_hz: Option<f64>;
+    }
 }
 
-/// Chosen value of the robot file.
-#[derive(Serialize)]
-pub struct ChosenValue {
-    pub path: String,
-    pub unit: &'static str,
-    pub start: f64,
-    pub value: f64,
-    pub minimum: f64,
-    pub maximum: f64,
-    /// `minimum` or `maximum` if the value is at this bound.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub at_bound: Option<&'static str>,
-    /// Improvement of the goal per unit of the value by which its bound is moved outwards; zero between the bounds.
-    pub gain_per_unit: f64,
+rows! {
+    /// Chosen value of the robot file.
+    pub struct ChosenValue {
+        pub path: String;
+        pub unit: &'static str;
+        pub start: f64;
+        pub value: f64;
+        pub minimum: f64;
+        pub maximum: f64;
+        /// `minimum` or `maximum` if the value is at this bound.
+        pub at_bound: Option<&'static str>;
+        /// Improvement of the goal per unit of the value by which its bound is moved outwards; zero between the bounds.
+        pub gain_per_unit: f64;
+    }
 }
 
 impl ChosenValue {
@@ -95,18 +90,19 @@ impl ChosenValue {
     }
 }
 
-/// Demand at the pose where it is met least.
-#[derive(Serialize)]
-pub struct DemandRow {
-    pub name: String,
-    pub unit: &'static str,
-    pub limit: f64,
-    pub before: f64,
-    pub after: f64,
-    /// Number of the pose, from 1.
-    pub pose: usize,
-    /// Improvement of the goal per unit by which the demand is lowered, summed over the poses.
-    pub gain_per_unit: f64,
+rows! {
+    /// Demand at the pose where it is met least.
+    pub struct DemandRow {
+        pub name: String;
+        pub unit: &'static str;
+        pub limit: f64;
+        pub before: f64;
+        pub after: f64;
+        /// Number of the pose, from 1.
+        pub pose: usize;
+        /// Improvement of the goal per unit by which the demand is lowered, summed over the poses.
+        pub gain_per_unit: f64;
+    }
 }
 
 impl DemandRow {

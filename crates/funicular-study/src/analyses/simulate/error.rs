@@ -3,34 +3,33 @@
 use super::Simulated;
 use super::rows::SimulatedRow;
 use crate::columns::{Columns, column};
+use crate::rows::rows;
 use crate::text::significant;
 use funicular::math::Vec3;
 use funicular::simulation::ElementMesh;
-use serde::Serialize;
 
-/// Bound of the error of one column: its difference from a finer run times a factor of the mesh (97k2).
-#[derive(Serialize)]
-pub struct ColumnError {
-    /// `position_m`, `velocity_m_s`, `clearance_margin_m`, or `tension_platform_NAME_n` and `tension_anchor_NAME_n`.
-    pub column: String,
-    pub largest: f64,
-    pub root_mean_square: f64,
-    /// Root mean square over that of the column; absent for positions and distances.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub relative: Option<f64>,
+rows! {
+    /// Bound of the error of one column: its difference from a finer run times a factor of the mesh (97k2).
+    pub struct ColumnError {
+        /// `position_m`, `velocity_m_s`, `clearance_margin_m`, or `tension_platform_NAME_n` and `tension_anchor_NAME_n`.
+        pub column: String;
+        pub largest: f64;
+        pub root_mean_square: f64;
+        /// Root mean square over that of the column; absent for positions and distances.
+        pub relative: Option<f64>;
+    }
 }
 
-/// Largest tension of a cable at either end, and root mean square of that at the platform.
-#[derive(Serialize)]
-pub struct Peak {
-    pub cable: String,
-    pub peak_n: f64,
-    pub root_mean_square_n: f64,
-    /// Value of the finer run.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub finer_peak_n: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub finer_root_mean_square_n: Option<f64>,
+rows! {
+    /// Largest tension of a cable at either end, and root mean square of that at the platform.
+    pub struct Peak {
+        pub cable: String;
+        pub peak_n: f64;
+        pub root_mean_square_n: f64;
+        /// Value of the finer run.
+        pub finer_peak_n: Option<f64>;
+        pub finer_root_mean_square_n: Option<f64>;
+    }
 }
 
 /// Tensions of all cables at one of their ends in a row.
