@@ -9,6 +9,7 @@ use funicular_formats::{import, new_robot};
 use funicular_pages::pages;
 use funicular_study::names::SchemaSubject;
 use funicular_study::request::{ExportRequest, Request, SchemaRequest};
+use funicular_study::schema::MoreCommands;
 use funicular_study::wording::{Words, worded};
 use funicular_study::{Watch, schema};
 use serde_json::Value;
@@ -116,7 +117,9 @@ pub struct Document {
 
 /// Text of a schema. That of requests has the files that each command writes.
 fn schema_of(of: &SchemaRequest) -> Result<String> {
-    let text = schema::of_request(of, vec![funicular_validation::tables()]);
+    let more =
+        MoreCommands { tables: vec![funicular_validation::tables()], results: vec![funicular_validation::schema()] };
+    let text = schema::of_request(of, more);
     if of.of != SchemaSubject::Request {
         return Ok(text);
     }

@@ -11,7 +11,7 @@ use anyhow::{Result, bail};
 use funicular::math::Vec3;
 use funicular::response::Quantity;
 use funicular_study::NoSolution;
-use funicular_study::analyses::frf::{Frf, PairRow, PlaceRow};
+use funicular_study::analyses::frf::{Frf, PairRow};
 use funicular_study::analyses::modes::Modes;
 use funicular_study::signals::{Input, Output, Place};
 use std::fmt::Write as _;
@@ -30,8 +30,8 @@ pub fn frf_file(found: &Frf) -> Result<Vec<u8>> {
     }
     // Each point is a node, in the order of first appearance; node 0 belongs to none.
     let mut points: Vec<[f64; 3]> = Vec::new();
-    let mut node_of = |place: &PlaceRow| {
-        let point = place.point_m.unwrap_or_default();
+    let mut node_of = |point_m: Option<[f64; 3]>| {
+        let point = point_m.unwrap_or_default();
         let known = points.iter().position(|known| known.map(f64::to_bits) == point.map(f64::to_bits));
         1 + known.unwrap_or_else(|| {
             points.push(point);
@@ -43,8 +43,8 @@ pub fn frf_file(found: &Frf) -> Result<Vec<u8>> {
     for pair in &found.responses {
         let (input, output) = (Input::parse(&pair.input)?, Output::parse(&pair.output)?);
         let ends = [
-            (node_of(&pair.output_place), direction(&output.place, &output.name)?),
-            (node_of(&pair.input_place), direction(&input.place, &input.name)?),
+            (node_of(pair.output_place.point_m), direction(&output.place, &output.name)?),
+            (node_of(pair.input_place.point_m), direction(&input.place, &input.name)?),
         ];
         function(&mut functions, &found.robot, &found.frequency_hz, pair, output.quantity, ends);
     }

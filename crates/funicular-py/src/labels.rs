@@ -2,6 +2,7 @@
 //! its place may be another one than that of an array.
 
 use crate::elements::{Unusable, has_method, read, short};
+use funicular_study::units;
 use numpy::ndarray::ArrayD;
 use pyo3::prelude::*;
 use pyo3::types::{PyInt, PyString};
@@ -10,15 +11,12 @@ use pyo3::types::{PyInt, PyString};
 #[derive(Debug, Clone)]
 pub(crate) struct Names(Vec<Vec<String>>);
 
-/// Units at the end of the names of arguments, longer ones before their own ends.
-const UNITS: [&str; 6] = ["n_per_m", "kg_m2", "n_m", "m_s", "n", "m"];
-
 impl Names {
     /// Components of an argument that is a vector, such as `force_n`: `x_n`, `x`, `force_x_n`, `fx`.
     pub(crate) fn of_components(argument: &str, components: &[&str]) -> Self {
         let argument = last_key(argument);
-        let unit = UNITS.into_iter().find(|unit| argument.ends_with(&format!("_{unit}"))).unwrap_or_default();
-        let stem = argument.trim_end_matches(unit).trim_end_matches('_');
+        let unit = units::of_name(argument).map_or("", |unit| unit.ending);
+        let stem = units::without_unit(argument);
         let short = match stem {
             "force" | "moment" => &stem[..1],
             "inertia" => "i",

@@ -54,7 +54,7 @@ mod _funicular {
     #[pymodule_export]
     use crate::pose::PyPose;
     #[pymodule_export]
-    use crate::reading::{argument, declarations, interval, number, numbers, suggested};
+    use crate::reading::{argument, declarations, interval, number, numbers, suggested, unit_of_name};
     #[pymodule_export]
     use crate::robot::{PyRobot, robot_of_source};
     #[pymodule_export]

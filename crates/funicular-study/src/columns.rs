@@ -3,6 +3,7 @@
 
 use crate::table::{Column, ColumnKind, Values};
 use crate::text::{self, NONE};
+use crate::units;
 use serde::Serialize;
 use std::borrow::{Borrow, Cow};
 use std::fmt::Display;
@@ -179,6 +180,10 @@ enum ReadingForm<R> {
     Short(usize),
     /// Components of a vector with this many decimals, which a terminal shows below each other.
     Components(usize),
+    /// Lowest of the numbers with this many significant digits.
+    Lowest(usize),
+    /// Largest of the numbers, whatever its sign, with this many significant digits.
+    Largest(usize),
     /// Text made of the row.
     Own(Box<Text<R>>),
 }
@@ -249,7 +254,74 @@ pub(crate) fn only_read<R>() -> Field<R> {
     Field { columns: Vec::new(), values: Box::new(|_, _| ()), reading: None, is_there: true }
 }
 
+impl<R> IntoIterator for Field<R> {
+    type Item = Self;
+    type IntoIter = std::iter::Once<Self>;
+
+    fn into_iter(self) -> Self::IntoIter {
+        std::iter::once(self)
+    }
+}
+
 impl<R> Field<R> {
+    /// Field with these columns, of a function that adds their cells; cells that it does not add are missing.
+    pub(crate) fn of_columns(columns: Vec<Column>, values: impl Fn(&R, &mut Vec<Cell>) + 'static) -> Self {
+        let count = columns.len();
+        let values = move |row: &R, cells: &mut Vec<Cell>| {
+            let all = cells.len() + count;
+            values(row, cells);
+            cells.resize(all, Cell::Missing(None));
+        };
+        Self { columns, values: Box::new(values), reading: None, is_there: true }
+    }
+
+    /// Number of columns that the table has of this field.
+    pub(crate) fn count(&self) -> usize {
+        if self.is_there { self.columns.len() } else { 0 }
+    }
+
+    /// Gives the columns another meaning in words than the key has.
+    #[must_use]
+    pub(crate) fn about(mut self, about: &str) -> Self {
+        self.columns.iter_mut().for_each(|column| about.clone_into(&mut column.about));
+        self
+    }
+
+    /// Gives the columns a unit that their name does not tell.
+    #[must_use]
+    pub(crate) fn unit(mut self, unit: &'static str) -> Self {
+        self.columns.iter_mut().for_each(|column| column.unit = unit.into());
+        self
+    }
+
+    /// Field of rows that have a row of this kind as a part; without the part its values are missing.
+    fn within<O: 'static>(self, part: impl Fn(&O) -> Option<&R> + Copy + 'static) -> Field<O>
+    where
+        R: 'static,
+    {
+        let Self { columns, values, reading, is_there } = self;
+        let reading = reading.map(|Reading { heading, unit, is_text, style, form }| {
+            let form = match form {
+                ReadingForm::Own(text) => ReadingForm::Own(Box::new(move |row: &O, style: Style| {
+                    part(row).map_or_else(|| NONE.to_owned(), |row| text(row, style))
+                }) as Box<Text<O>>),
+                ReadingForm::Decimals(count) => ReadingForm::Decimals(count),
+                ReadingForm::Significant(digits) => ReadingForm::Significant(digits),
+                ReadingForm::Short(digits) => ReadingForm::Short(digits),
+                ReadingForm::Components(count) => ReadingForm::Components(count),
+                ReadingForm::Lowest(digits) => ReadingForm::Lowest(digits),
+                ReadingForm::Largest(digits) => ReadingForm::Largest(digits),
+            };
+            Reading { heading, unit, is_text, style, form }
+        });
+        let of_part = move |row: &O, cells: &mut Vec<Cell>| {
+            if let Some(row) = part(row) {
+                values(row, cells);
+            }
+        };
+        Field { reading, is_there, ..Field::of_columns(columns, of_part) }
+    }
+
     /// The table has this field if the condition holds.
     #[must_use]
     pub(crate) fn only_if(mut self, is_there: bool) -> Self {
@@ -257,40 +329,61 @@ impl<R> Field<R> {
         self
     }
 
-    fn reading(mut self, heading: Cow<'static, str>, unit: &'static str, form: ReadingForm<R>) -> Self {
+    fn reading(mut self, heading: impl Into<Cow<'static, str>>, unit: &'static str, form: ReadingForm<R>) -> Self {
         let is_text = self.columns.first().is_none_or(|column| column.kind == ColumnKind::Text);
-        self.reading = Some(Reading { heading, unit: unit.into(), is_text, style: None, form });
+        self.reading = Some(Reading { heading: heading.into(), unit: unit.into(), is_text, style: None, form });
         self
+    }
+
+    /// Form of reading with the unit of the columns.
+    fn read(self, heading: impl Into<Cow<'static, str>>, form: ReadingForm<R>) -> Self {
+        let unit = match self.columns.first().map(|column| &column.unit) {
+            Some(Cow::Borrowed(unit)) => units::shown(unit),
+            _ => "",
+        };
+        self.reading(heading, unit, form)
     }
 
     /// Shows the values as they are under a heading.
     #[must_use]
     pub fn plain(self, heading: impl Into<Cow<'static, str>>) -> Self {
-        self.reading(heading.into(), "", ReadingForm::Short(MAX_DIGITS))
+        self.reading(heading, "", ReadingForm::Short(MAX_DIGITS))
     }
 
     /// Shows the numbers with `count` decimals.
     #[must_use]
-    pub fn decimals(self, heading: impl Into<Cow<'static, str>>, unit: &'static str, count: usize) -> Self {
-        self.reading(heading.into(), unit, ReadingForm::Decimals(count))
+    pub fn decimals(self, heading: impl Into<Cow<'static, str>>, count: usize) -> Self {
+        self.read(heading, ReadingForm::Decimals(count))
     }
 
     /// Shows the numbers with `digits` significant digits.
     #[must_use]
-    pub fn significant(self, heading: impl Into<Cow<'static, str>>, unit: &'static str, digits: usize) -> Self {
-        self.reading(heading.into(), unit, ReadingForm::Significant(digits))
+    pub fn significant(self, heading: impl Into<Cow<'static, str>>, digits: usize) -> Self {
+        self.read(heading, ReadingForm::Significant(digits))
     }
 
     /// Shows the numbers with at most `digits` significant digits, without zeros at the end.
     #[must_use]
-    pub fn short(self, heading: impl Into<Cow<'static, str>>, unit: &'static str, digits: usize) -> Self {
-        self.reading(heading.into(), unit, ReadingForm::Short(digits))
+    pub fn short(self, heading: impl Into<Cow<'static, str>>, digits: usize) -> Self {
+        self.read(heading, ReadingForm::Short(digits))
     }
 
     /// Shows the components of a vector with `count` decimals, below each other on a terminal.
     #[must_use]
-    pub fn components(self, heading: impl Into<Cow<'static, str>>, unit: &'static str, count: usize) -> Self {
-        self.reading(heading.into(), unit, ReadingForm::Components(count)).aligned(false)
+    pub fn components(self, heading: impl Into<Cow<'static, str>>, count: usize) -> Self {
+        self.read(heading, ReadingForm::Components(count)).aligned(false)
+    }
+
+    /// Shows the lowest of the numbers with `digits` significant digits.
+    #[must_use]
+    pub fn lowest(self, heading: impl Into<Cow<'static, str>>, digits: usize) -> Self {
+        self.read(heading, ReadingForm::Lowest(digits))
+    }
+
+    /// Shows the largest magnitude of the numbers with `digits` significant digits.
+    #[must_use]
+    pub fn largest(self, heading: impl Into<Cow<'static, str>>, digits: usize) -> Self {
+        self.read(heading, ReadingForm::Largest(digits))
     }
 
     /// Shows a text that is made of the row.
@@ -301,7 +394,7 @@ impl<R> Field<R> {
         unit: &'static str,
         text: impl Fn(&R, Style) -> String + 'static,
     ) -> Self {
-        self.reading(heading.into(), unit, ReadingForm::Own(Box::new(text)))
+        self.reading(heading, unit, ReadingForm::Own(Box::new(text)))
     }
 
     /// Tables for reading have this field if the condition holds; files have it anyway.
@@ -320,9 +413,9 @@ impl<R> Field<R> {
         self
     }
 
-    /// Shows the field with a unit that depends on the results.
+    /// Shows the field with another unit than that of its columns, for example one that depends on the results.
     #[must_use]
-    pub fn with_unit(mut self, unit: String) -> Self {
+    pub fn with_unit(mut self, unit: impl Into<Cow<'static, str>>) -> Self {
         if let Some(reading) = &mut self.reading {
             reading.unit = unit.into();
         }
@@ -348,6 +441,17 @@ impl<R> Field<R> {
         }
         let mut cells = Vec::new();
         (self.values)(row, &mut cells);
+        let numbers =
+            cells.iter().filter_map(|cell| if let Cell::Number(number) = cell { Some(*number) } else { None });
+        match form {
+            ReadingForm::Lowest(digits) => {
+                return Some(style.significant(numbers.fold(f64::INFINITY, f64::min), *digits));
+            }
+            ReadingForm::Largest(digits) => {
+                return Some(style.significant(numbers.map(f64::abs).fold(0.0, f64::max), *digits));
+            }
+            _ => {}
+        }
         let texts = cells.into_iter().map(|cell| match (cell, form) {
             (Cell::Number(value), ReadingForm::Decimals(count) | ReadingForm::Components(count)) => {
                 style.decimals(value, *count)
@@ -391,6 +495,14 @@ impl<R> Columns<R> {
     /// Columns of the fields that the table has.
     pub fn new(fields: impl IntoIterator<Item = Field<R>>) -> Self {
         Self(fields.into_iter().filter(|field| field.is_there).collect())
+    }
+
+    /// Fields of rows that have a row of this kind as a part.
+    pub(crate) fn within<O: 'static>(self, part: impl Fn(&O) -> Option<&R> + Copy + 'static) -> Vec<Field<O>>
+    where
+        R: 'static,
+    {
+        self.0.into_iter().map(|field| field.within(part)).collect()
     }
 
     /// Descriptions of the columns in files.
@@ -481,10 +593,8 @@ mod tests {
     fn of_rows(has_margin: bool) -> Columns<PulledCable> {
         Columns::new([
             column("name", "", "name", |row: &PulledCable| row.name).plain("cable"),
-            parts("force_{}_n", ["x", "y"], "N", "force, {}", |row: &PulledCable| row.force).decimals("force", "N", 1),
-            column("margin_n", "N", "margin", |row: &PulledCable| row.margin)
-                .only_if(has_margin)
-                .short("margin", "N", 3),
+            parts("force_{}_n", ["x", "y"], "N", "force, {}", |row: &PulledCable| row.force).decimals("force", 1),
+            column("margin_n", "N", "margin", |row: &PulledCable| row.margin).only_if(has_margin).short("margin", 3),
         ])
     }
 

@@ -7,6 +7,9 @@ use serde::Serialize;
 use serde_json::ser::{CharEscape, Formatter};
 use std::io::{self, Write};
 
+/// Version of the form of results.
+pub(crate) const SCHEMA: &str = "funicular/1";
+
 /// Results of a command, with the keys that all results have.
 #[derive(Serialize)]
 struct Envelope<'a, R> {
@@ -43,7 +46,7 @@ pub fn write<R: Serialize>(
     results: &R,
     warnings: &[String],
 ) -> Result<(), NoSolution> {
-    let envelope = Envelope { schema: "funicular/1", command, robot, results, warnings };
+    let envelope = Envelope { schema: SCHEMA, command, robot, results, warnings };
     let mut serializer = serde_json::Serializer::with_formatter(&mut *out, LineFormatter { depth: 0 });
     envelope.serialize(&mut serializer).map_err(not_finite)?;
     out.push(b'\n');

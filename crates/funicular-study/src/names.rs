@@ -546,6 +546,7 @@ named! {
         RobotFile "robot-file", "Robot files (TOML), for editors";
         Request "request", "Requests (JSON) of all commands, for programs that write them";
         Columns "columns", "Columns (CSV) of results with units and meanings, for programs that read them";
+        Results "results", "Results (JSON) of all commands, for programs that read them";
     }
 }
 

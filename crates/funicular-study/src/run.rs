@@ -32,11 +32,13 @@ use crate::columns::{CommandTables, ResultTable, Tabled};
 use crate::error::Error;
 use crate::json;
 use crate::request::{Request, RobotText};
+use crate::rows::Described;
 use crate::watch::Watch;
 use crate::wording::Words;
 use anyhow::{Result, anyhow};
 use funicular::robot::Robot;
 use serde::Serialize;
+use serde_json::Value;
 
 /// Declares the commands that need nothing but their request: type of the results, and the analysis of a request `of`
 /// for its robot, with a watch. A command that starts from an equilibrium can say after `at` how it goes on from one.
@@ -57,6 +59,11 @@ macro_rules! answers {
             /// Name of every command, with the columns of its tables in files as [`Tabled::tables`] gives them.
             pub fn tables() -> Vec<CommandTables> {
                 vec![$((<$Found as Found>::COMMAND, <$Found as Tabled>::tables()),)*]
+            }
+
+            /// Name of every command, with the JSON Schema of its results without the keys that all results have.
+            pub(crate) fn schemas() -> Vec<(&'static str, Value)> {
+                vec![$((<$Found as Found>::COMMAND, <$Found as Described>::schema()),)*]
             }
 
             /// Sentences that the user should know before trusting the numbers.
@@ -174,23 +181,11 @@ pub fn run(request: &Request, watch: &mut dyn Watch) -> Result<Results, Error> {
 #[cfg(test)]
 mod tests {
     use super::Results;
+    use crate::units;
     use std::collections::BTreeSet;
 
     #[test]
     fn every_column_has_a_meaning_and_a_name_of_its_own_that_ends_with_its_unit() {
-        const ENDINGS: [(&str, &str); 11] = [
-            ("_n", "N"),
-            ("_n_m", "N m"),
-            ("_m", "m"),
-            ("_hz", "Hz"),
-            ("_kg", "kg"),
-            ("_deg", "deg"),
-            ("_n_per_m", "N/m"),
-            ("_kg_per_m", "kg/m"),
-            ("_per_m", "1/m"),
-            ("_per_kg", "1/kg"),
-            ("_j", "J"),
-        ];
         let tables = Results::tables();
         assert_eq!(tables.len(), tables.iter().map(|(command, _)| command).collect::<BTreeSet<_>>().len());
         for (command, columns) in tables.iter().flat_map(|(command, all)| all.iter().map(move |(_, of)| (command, of)))
@@ -199,12 +194,8 @@ mod tests {
             assert_eq!(names.len(), columns.len(), "{command}");
             for column in columns {
                 assert!(!column.about.is_empty() && !column.about.contains("{}"), "{command} {}", column.name);
-                let longest = ENDINGS
-                    .iter()
-                    .filter(|(ending, _)| column.name.ends_with(ending))
-                    .max_by_key(|(ending, _)| ending.len());
-                if let Some((_, unit)) = longest {
-                    assert_eq!(column.unit, *unit, "{command} {}", column.name);
+                if let Some(unit) = units::of_name(&column.name) {
+                    assert_eq!(column.unit, unit.text, "{command} {}", column.name);
                 }
             }
         }

@@ -2,20 +2,30 @@
 
 use crate::Results;
 use crate::columns::CommandTables;
+use crate::json;
 use crate::names::SchemaSubject;
 use crate::request::{self, SchemaRequest};
 use crate::robot_file::schema;
 use crate::sweep;
 use crate::table::Column;
-use serde_json::{Value, json};
+use serde_json::{Map, Value, json};
 
-/// Text of the schema of a request: that of the robot file, that of requests, or the columns of results. `more` are the
-/// tables of commands that only the front end has.
-pub fn of_request(request: &SchemaRequest, more: Vec<CommandTables>) -> String {
+/// Tables and results of commands that only a front end has.
+#[derive(Default)]
+pub struct MoreCommands {
+    /// Tables in files.
+    pub tables: Vec<CommandTables>,
+    /// JSON Schemas of the results without the keys that all results have, by the name of the command.
+    pub results: Vec<(&'static str, Value)>,
+}
+
+/// Text of the schema of a request: that of the robot file, that of requests or results, or the columns of results.
+pub fn of_request(request: &SchemaRequest, more: MoreCommands) -> String {
     match request.of {
         SchemaSubject::RobotFile => schema::text(),
         SchemaSubject::Request => format!("{:#}\n", request::schema()),
-        SchemaSubject::Columns => format!("{:#}\n", columns(more)),
+        SchemaSubject::Columns => format!("{:#}\n", columns(more.tables)),
+        SchemaSubject::Results => format!("{:#}\n", results(more.results)),
     }
 }
 
@@ -31,4 +41,47 @@ fn columns(more: Vec<CommandTables>) -> Value {
         |(name, tables): (&str, Vec<_>)| (name.to_owned(), tables.into_iter().map(of_table).collect::<Value>());
     let all = Results::tables().into_iter().chain(sweep::tables()).chain(more);
     Value::Object(all.map(of_command).collect())
+}
+
+/// JSON Schema of the results of every command. The key `unit` of a number is no keyword of JSON Schema: it says the
+/// unit to readers.
+fn results(more: Vec<(&'static str, Value)>) -> Value {
+    let all = Results::schemas().into_iter().chain(more);
+    let definitions: Map<String, Value> =
+        all.map(|(command, schema)| (command.to_owned(), with_envelope(command, schema))).collect();
+    let forms: Vec<Value> = definitions.keys().map(|name| json!({ "$ref": format!("#/$defs/{name}") })).collect();
+    json!({
+        "$schema": "https://json-schema.org/draft/2020-12/schema",
+        "title": "Results of funicular",
+        "description": "JSON of the results of a command; `command` says which one.",
+        "oneOf": forms,
+        "$defs": definitions,
+    })
+}
+
+/// Schema of the results of a command with the keys that all results have.
+fn with_envelope(command: &str, mut schema: Value) -> Value {
+    if let Some(forms) = schema["oneOf"].as_array_mut() {
+        forms.iter_mut().for_each(|form| *form = with_envelope(command, form.take()));
+        return schema;
+    }
+    let keys = [
+        ("schema", json!({ "const": json::SCHEMA, "description": "Version of the form of results" })),
+        ("command", json!({ "const": command, "description": "Command of the results" })),
+        (
+            "warnings",
+            json!({
+                "type": "array", "items": { "type": "string" },
+                "description": "Sentences that the user should know before trusting the numbers",
+            }),
+        ),
+        ("robot", json!({ "type": "string", "description": "Name of the robot; absent if there are several" })),
+    ];
+    for (name, of_key) in keys {
+        schema["properties"][name] = of_key;
+        if let Some(required) = schema["required"].as_array_mut().filter(|_| name != "robot") {
+            required.push(name.into());
+        }
+    }
+    schema
 }

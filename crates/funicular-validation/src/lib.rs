@@ -33,7 +33,7 @@ mod verdict;
 mod workspaces;
 
 pub use markdown::markdown;
-pub use verdict::{Validated, run, tables};
+pub use verdict::{Validated, run, schema, tables};
 
 use anyhow::Result;
 use serde::Serialize;

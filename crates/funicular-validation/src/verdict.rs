@@ -8,6 +8,7 @@ use funicular_study::columns::{Columns, CommandTables, ResultTable, Tabled, colu
 use funicular_study::table::Column;
 use funicular_study::text::counted;
 use serde::Serialize;
+use serde_json::{Value, json};
 
 /// Results of `validate`: comparisons with numbers that others published or computed.
 #[derive(Serialize)]
@@ -86,6 +87,32 @@ impl Tabled for Validated {
 /// Tables of `validate` in files.
 pub fn tables() -> CommandTables {
     (Validated::COMMAND, Validated::tables())
+}
+
+/// Name of `validate`, with the JSON Schema of its results without the keys that all results have.
+pub fn schema() -> (&'static str, Value) {
+    let object = |title: &str, properties: Value| {
+        let required: Vec<&String> = properties.as_object().into_iter().flat_map(|keys| keys.keys()).collect();
+        let required = json!(required);
+        json!({ "title": title, "type": "object", "properties": properties, "required": required,
+            "additionalProperties": false })
+    };
+    let text = json!({ "type": "string" });
+    let (number, numbers) = (json!({ "type": "number" }), json!({ "type": "array", "items": { "type": "number" } }));
+    let comparison = object(
+        "Comparison",
+        json!({
+            "case": text, "source": text, "quantity": text, "theirs": numbers, "ours": numbers, "difference": number,
+            "kind": { "enum": ["absolute", "relative"] }, "tolerance": number, "bounded_by": text,
+            "pass": { "type": "boolean" },
+        }),
+    );
+    let rows = json!({ "type": "array", "items": comparison });
+    let section = object("Section", json!({ "title": text, "note": text, "rows": rows }));
+    let count = json!({ "type": "integer" });
+    let sections = json!({ "type": "array", "items": section });
+    let all = object("Validated", json!({ "comparisons": count, "passed": count, "sections": sections }));
+    (Validated::COMMAND, all)
 }
 
 impl Found for Validated {

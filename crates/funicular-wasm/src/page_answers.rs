@@ -20,7 +20,9 @@ pub(crate) fn content(request: &Request) -> Option<Result<Vec<u8>>> {
         Request::Import(of) => import::run(of, Words::Json)
             .map(|found| json!({ "text": found.text, "assumed": found.assumed, "lost": found.lost })),
         Request::New(of) => new_robot::run(of, Words::Json).map(|found| json!({ "text": found.text })),
-        Request::Schema(of) => serde_json::from_str(&schema::of_request(of, Vec::new())).map_err(Into::into),
+        Request::Schema(of) => {
+            serde_json::from_str(&schema::of_request(of, schema::MoreCommands::default())).map_err(Into::into)
+        }
         Request::Map(_) => rows(request),
         Request::Simulate(of) => simulated(of),
         Request::Calibrate(of) => calibrated(of),

@@ -70,7 +70,7 @@ fn peaks(pair: &PairRow, prominence_db: f64) -> String {
 }
 
 /// Text for the place of the input or output of a response; empty for a signal of a drive.
-fn place_text(place: &PlaceRow) -> String {
+fn place_text<const IS_INPUT: bool>(place: &PlaceRow<IS_INPUT>) -> String {
     let world = if place.on_cable { " of the world" } else { "" };
     place.point_m.map_or_else(String::new, |point| format!(" at ({}) m{world}", vector(&point, 3)))
 }

@@ -30,6 +30,7 @@ mod readme;
 mod reduce;
 mod request;
 mod results;
+mod results_schema;
 mod settle;
 mod shell;
 mod simulate;
@@ -102,7 +103,9 @@ fn succeed(arguments: &[&str]) -> String {
 /// JSON of a command that succeeds.
 fn json(arguments: &[&str]) -> Value {
     let text = succeed(&[arguments, &["--format", "json"]].concat());
-    serde_json::from_str(&text).unwrap_or_else(|error| panic!("{arguments:?}: {error}"))
+    let results = serde_json::from_str(&text).unwrap_or_else(|error| panic!("{arguments:?}: {error}"));
+    results_schema::check(&results);
+    results
 }
 
 fn number(value: &Value) -> f64 {
@@ -130,5 +133,7 @@ fn csv(arguments: &[&str]) -> (Vec<String>, Vec<Vec<String>>) {
 fn json_of(arguments: &[&str], file: &str) -> Value {
     let output = run_with(&[arguments, &["--format", "json"]].concat(), file);
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
-    serde_json::from_str(stdout(&output)).unwrap()
+    let results = serde_json::from_str(stdout(&output)).unwrap();
+    results_schema::check(&results);
+    results
 }

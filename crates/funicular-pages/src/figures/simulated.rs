@@ -23,9 +23,9 @@ const IN_MILLIMETRES: f64 = 0.5;
 pub(super) fn chart(found: &Simulated) -> Chart {
     let last = found.rows.last().map_or(1.0, |row| row.t_s);
     let (factor, unit) = displacement_unit(&found.rows);
-    let first = &found.rows[0].pose;
-    let moved = |row: &SimulatedRow, k: usize| factor * (row.pose.position_m[k] - first.position_m[k]);
-    let turned = |row: &SimulatedRow, k: usize| row.pose.roll_pitch_yaw_deg[k] - first.roll_pitch_yaw_deg[k];
+    let first = &found.rows[0].motion.pose;
+    let moved = |row: &SimulatedRow, k: usize| factor * (row.motion.pose.position_m[k] - first.position_m[k]);
+    let turned = |row: &SimulatedRow, k: usize| row.motion.pose.roll_pitch_yaw_deg[k] - first.roll_pitch_yaw_deg[k];
     let turns = found.rows.iter().any(|row| (0..3).any(|k| turned(row, k) != 0.0));
 
     let of_axis: Vec<Stroke> = (0..3).map(axis_stroke).collect();
@@ -62,8 +62,8 @@ pub(super) fn chart(found: &Simulated) -> Chart {
 
 /// Factor to the unit of displacements since the start, and the unit.
 pub(crate) fn displacement_unit(rows: &[SimulatedRow]) -> (f64, &'static str) {
-    let from = rows.first().map_or([0.0; 3], |row| row.pose.position_m);
-    let off = |row: &SimulatedRow| (0..3).map(|k| (row.pose.position_m[k] - from[k]).abs()).fold(0.0, f64::max);
+    let from = rows.first().map_or([0.0; 3], |row| row.motion.pose.position_m);
+    let off = |row: &SimulatedRow| (0..3).map(|k| (row.motion.pose.position_m[k] - from[k]).abs()).fold(0.0, f64::max);
     let largest = rows.iter().map(off).fold(0.0, f64::max);
     if largest < IN_MILLIMETRES { (1e3, "mm") } else { (1.0, "m") }
 }

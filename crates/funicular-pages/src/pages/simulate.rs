@@ -135,7 +135,8 @@ fn pose(found: &Simulated) -> Vec<PageFigure> {
         (0..3).map(one).collect()
     };
     let first = &found.rows[0];
-    let moved = lines(["x", "y", "z"], &|row, k| factor * (row.pose.position_m[k] - first.pose.position_m[k]));
+    let moved =
+        lines(["x", "y", "z"], &|row, k| factor * (row.motion.pose.position_m[k] - first.motion.pose.position_m[k]));
     let title = format!("displacement [{unit}]");
     let mut figures = vec![over_time(
         found,
@@ -146,7 +147,8 @@ fn pose(found: &Simulated) -> Vec<PageFigure> {
         &moved,
         json!({"yaxis": axis(&title, json!({}))}),
     )];
-    let turn = |row: &SimulatedRow, k: usize| row.pose.roll_pitch_yaw_deg[k] - first.pose.roll_pitch_yaw_deg[k];
+    let turn =
+        |row: &SimulatedRow, k: usize| row.motion.pose.roll_pitch_yaw_deg[k] - first.motion.pose.roll_pitch_yaw_deg[k];
     if found.rows.iter().any(|row| (0..3).any(|k| turn(row, k) != 0.0)) {
         let turned = lines(["roll", "pitch", "yaw"], &turn);
         let caption = "Change of roll, pitch and yaw since the start.";

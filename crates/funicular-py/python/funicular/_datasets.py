@@ -9,18 +9,13 @@ import numpy as np
 
 from funicular import _show
 from funicular._errors import InputError, needs
+from funicular._funicular import unit_of_name
 from funicular._results import Modes, Results
 from funicular._sweeps import Sweep
 
 _MOTIONS = ("x", "y", "z", "rx", "ry", "rz")
 # Keys of results whose rows the other keys of the same length belong to.
 _ALONG = ("frequency_hz", "time_s", "t_s")
-# Units by the endings of keys, the longest first.
-_UNITS = {
-    "_n_m_per_rad": "N m/rad", "_n_per_m": "N/m", "_kg_m2": "kg m2", "_m_s2": "m/s2", "_rad_s": "rad/s", "_per_kg": "1/kg",
-    "_percent": "%", "_per_s": "1/s", "_m_s": "m/s", "_n_m": "N m", "_rad": "rad", "_deg": "deg", "_hz": "Hz", "_kg": "kg",
-    "_db": "dB", "_n": "N", "_m": "m", "_s": "s", "_w": "W", "_j": "J",
-}  # fmt: skip
 
 
 def _xarray() -> Any:
@@ -29,11 +24,6 @@ def _xarray() -> Any:
     except ImportError as error:
         raise needs("a dataset", "xarray") from error
     return xarray
-
-
-def _unit(name: str) -> str:
-    """Unit that the ending of a name gives; empty for a number without unit."""
-    return next((unit for ending, unit in _UNITS.items() if name.endswith(ending)), "")
 
 
 def _attributes(unit: str, about: str = "") -> dict[str, str]:
@@ -95,7 +85,7 @@ def _modes(of: Modes) -> Any:
     for name, along in dims.items():
         values = getattr(of, name)
         if values is not None and values.size > 0:
-            unit = of.peak_unit or "" if name == "peak" else _unit(name)
+            unit = of.peak_unit or "" if name == "peak" else unit_of_name(name)
             variables[name] = (along, _texts(values) if values.dtype.kind == "U" else values, _attributes(unit))
     # NetCDF has no complex numbers.
     if of.eigenvalue_per_s is not None:
@@ -197,7 +187,7 @@ class _Dataset:
                 self.coords[dim] = _texts(labels)
                 return dim
         is_of_cables = any(word in key for word in _OF_CABLES)
-        is_vector = count == 3 and (any(word in key for word in _VECTORS) or (_unit(key) != "" and not is_of_cables))
+        is_vector = count == 3 and (any(word in key for word in _VECTORS) or (unit_of_name(key) != "" and not is_of_cables))
         of_cables = self._cables and count == len(self._cables) and is_of_cables
         if of_cables and not (is_vector and not key.startswith(_OF_CABLES)):
             self.coords["cable"] = _texts(self._cables)
@@ -243,7 +233,7 @@ class _Dataset:
         self._put(name, (*dims, dim), inner, key, (*shape, count))
 
     def _add(self, name: str, dims: tuple[str, ...], values: Any, key: str) -> None:
-        unit = _unit(key) or self._unit * (key in ("real", "imag", "magnitude"))
+        unit = unit_of_name(key) or self._unit * (key in ("real", "imag", "magnitude"))
         while name in self.variables or name in dims and len(dims) > 1:
             name += "_values"
         self.variables[name] = (dims, values, _attributes(unit))

@@ -23,7 +23,7 @@ from funicular._uncertainty import Uncertainty
 from funicular._words import StaticModel, TensionRule, CableModel, Assembly, Winches, Hold, Per, Method, Goal, ExportFormat, Result
 from typing import Literal, overload
 
-__all__ = ["__version__", "Analyses", "Answered", "Catenary", "Equilibrium", "Pose", "Robot", "SweepPlan", "SweepTable", "SweepWork", "answer", "argument", "check_files", "complete_request", "complex_numbers", "declarations", "figure_sizes", "imported", "interval", "matlab_file", "measurements_of_file", "merge_parts", "number", "numbers", "outputs_of_commands", "peaks", "plot_page", "real_numbers", "robot_of_source", "shown", "source_file", "suggested", "text_of", "try_file", "write_file", "write_unit"]
+__all__ = ["__version__", "Analyses", "Answered", "Catenary", "Equilibrium", "Pose", "Robot", "SweepPlan", "SweepTable", "SweepWork", "answer", "argument", "check_files", "complete_request", "complex_numbers", "declarations", "figure_sizes", "imported", "interval", "matlab_file", "measurements_of_file", "merge_parts", "number", "numbers", "outputs_of_commands", "peaks", "plot_page", "real_numbers", "robot_of_source", "shown", "source_file", "suggested", "text_of", "try_file", "unit_of_name", "write_file", "write_unit"]
 
 __version__: Final[str]
 
@@ -2198,6 +2198,12 @@ def text_of(request: str, call: str) -> tuple[str, list[str]]:
 def try_file(path: str | PathLike[str]) -> None:
     """
     Tries whether a file can be written, before the work whose result it shall hold.
+    """
+
+def unit_of_name(name: str) -> str:
+    """
+    Unit that the end of a name tells, as the conventions for climate and forecast (CF) write it; empty for a name without
+    one.
     """
 
 def write_file(path: str | PathLike[str], text: str) -> None:

@@ -7,6 +7,7 @@ use crate::columns::{Columns, ResultTable, Tabled, column, parts};
 use crate::error::{Cancelled, NoSolution};
 use crate::names::suggestion;
 use crate::request;
+use crate::rows::rows;
 use crate::table::Column;
 use crate::watch::Watch;
 use anyhow::{Result, bail};
@@ -15,7 +16,6 @@ use funicular::dynamics::DynamicsError;
 use funicular::math::{Complex, Mat3};
 use funicular::robot::{Robot, WinchMode};
 use funicular::warnings;
-use serde::Serialize;
 use std::f64::consts::TAU;
 
 /// Number of frequencies between two looks at the watch: some milliseconds.
@@ -24,54 +24,56 @@ pub(crate) const STEP: usize = 256;
 /// Maximum number of clamped frequencies in one list.
 const MAX_CLAMPED: usize = 10_000;
 
-/// Results of `cable`: stiffness of the platform end of one cable over frequency.
-#[derive(Serialize)]
-pub struct CableResult {
-    #[serde(skip)]
-    pub robot: String,
-    pub name: String,
-    pub static_model: &'static str,
-    pub cable_model: &'static str,
-    pub in_plane_only: bool,
-    #[serde(flatten)]
-    pub origin: Origin,
-    pub chord_m: f64,
-    pub parallel_tension_n: f64,
-    #[serde(flatten)]
-    pub sag: SagNumbers,
-    /// Axes of the cable.
-    pub axes: Axes,
-    /// Undamped natural frequencies with both ends fixed; absent for cable models without them.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub clamped_frequencies_hz: Option<Vec<f64>>,
-    pub frequency_hz: Vec<f64>,
-    pub local: Local,
-    pub world: World,
-    #[serde(skip)]
-    pub warnings: Vec<String>,
+rows! {
+    /// Results of `cable`: stiffness of the platform end of one cable over frequency.
+    pub struct CableResult {
+        pub robot: String = hidden;
+        pub name: String;
+        pub static_model: &'static str;
+        pub cable_model: &'static str;
+        pub in_plane_only: bool;
+        pub origin: Origin = spread;
+        pub chord_m: f64;
+        pub parallel_tension_n: f64;
+        pub sag: SagNumbers = spread;
+        /// Axes of the cable.
+        pub axes: Axes;
+        /// Undamped natural frequencies with both ends fixed; absent for cable models without them.
+        pub clamped_frequencies_hz: Option<Vec<f64>>;
+        pub frequency_hz: Vec<f64>;
+        pub local: Local;
+        pub world: World;
+        pub warnings: Vec<String> = hidden;
+    }
 }
 
-/// Stiffness along the chord, coupling, normal in plane and out of plane [N/m].
-#[derive(Default, Serialize)]
-pub struct Local {
-    pub k_a: ComplexValues,
-    pub k_b: ComplexValues,
-    pub k_c: ComplexValues,
-    pub k_o: ComplexValues,
+rows! {
+    /// Stiffness along the chord, coupling, normal in plane and out of plane [N/m].
+    #[derive(Default)]
+    pub struct Local {
+        pub k_a: ComplexValues;
+        pub k_b: ComplexValues;
+        pub k_c: ComplexValues;
+        pub k_o: ComplexValues;
+    }
 }
 
-/// Complex numbers over frequency.
-#[derive(Default, Serialize)]
-pub struct ComplexValues {
-    pub real: Vec<f64>,
-    pub imag: Vec<f64>,
+rows! {
+    /// Complex numbers over frequency.
+    #[derive(Default)]
+    pub struct ComplexValues {
+        pub real: Vec<f64>;
+        pub imag: Vec<f64>;
+    }
 }
 
-/// 3×3 stiffness in world axes at each frequency [N/m].
-#[derive(Default, Serialize)]
-pub struct World {
-    pub real: Vec<[[f64; 3]; 3]>,
-    pub imag: Vec<[[f64; 3]; 3]>,
+rows! {
+    /// 3×3 stiffness in world axes at each frequency [N/m].
+    #[derive(Default)]
+    pub struct World {
+        pub real: Vec<[[f64; 3]; 3]>;
+        pub imag: Vec<[[f64; 3]; 3]>;
+    }
 }
 
 /// Computes the stiffness of the platform end of one cable over frequency, with the anchor fixed.

@@ -25,6 +25,7 @@ use crate::columns::{ResultTable, Tabled};
 use crate::error::{Cancelled, NoSolution};
 use crate::names::suggestion;
 use crate::request::{self, CalibrateRequest, PriorValue};
+use crate::rows::rows;
 use crate::table::Column;
 use crate::text::significant;
 use anyhow::{Result, anyhow, bail};
@@ -35,7 +36,6 @@ use funicular::robot::Robot;
 use funicular::robot::parameters::Parameters;
 use funicular::statics::StaticModel;
 use report::CalibrationReport;
-use serde::Serialize;
 
 /// Key of the table.
 const KEY: &str = "readings";
@@ -50,73 +50,60 @@ pub const UNKNOWNS: [&str; 8] =
 /// Name of the inner frame.
 const INNER: &str = "inner";
 
-/// Results of `calibrate`.
-#[derive(Serialize)]
-pub struct Calibrated {
-    #[serde(skip)]
-    pub robot: String,
-    /// Sentence on the fit of the readings.
-    pub fit: String,
-    /// Sentence on what the readings determine.
-    pub determined: String,
-    /// True if χ² is a parabola along the weakest combination and no combination is lost.
-    pub is_determined: bool,
-    /// Frame in words.
-    pub frame: String,
-    pub values: Vec<CalibratedValue>,
-    /// Anchors with their covariance.
-    pub anchors: Vec<AnchorRow>,
-    pub distances: Vec<DistanceRow>,
-    pub rows: Vec<ReadingRow>,
-    pub weak_combinations: Vec<WeakRow>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub walk: Option<Walk>,
-    /// Further minima that fit.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub minima: Vec<MinimumRow>,
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub proposals: Vec<ProposalRow>,
-    /// Number of candidates that were left out: no tensions within the limits, too near to a body, or out of reach.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub left_out: Option<LeftOut>,
-    /// Least number of proposed poses that reaches the wanted deviation; absent if none was wanted or no number does.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub poses_needed: Option<usize>,
-    /// Sum of the squares of the residuals, divided by the deviations of the data.
-    pub chi2: f64,
-    /// Number of readings and measured coordinates.
-    pub data: usize,
-    pub degrees_of_freedom: usize,
-    /// Root mean square of the residuals of the readings.
-    pub residual_rms_m: f64,
-    /// Standard deviation of a reading, given or from the residuals.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub length_std_m: Option<f64>,
-    /// Root of the sum of the variances of the values, in the frame and with inner conditions.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub total_m: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub inner_total_m: Option<f64>,
-    /// Largest deviation of a combination of values in the frame.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub weakest_m: Option<f64>,
-    /// True if the platform turns.
-    #[serde(skip)]
-    pub turns: bool,
-    pub starts: usize,
-    /// Number of starts that arrived at the best minimum.
-    pub arrivals: usize,
-    pub iterations: usize,
-    /// Robot file with the calibrated anchors and attachments.
-    pub robot_file: String,
-    /// World axes along which the platform moves.
-    #[serde(skip)]
-    pub axes: Vec<usize>,
-    /// Rows as linear equations, for pages.
-    #[serde(skip)]
-    pub linear: Option<LinearRows>,
-    #[serde(skip)]
-    pub warnings: Vec<String>,
+rows! {
+    /// Results of `calibrate`.
+    pub struct Calibrated {
+        pub robot: String = hidden;
+        /// Sentence on the fit of the readings.
+        pub fit: String;
+        /// Sentence on what the readings determine.
+        pub determined: String;
+        /// True if χ² is a parabola along the weakest combination and no combination is lost.
+        pub is_determined: bool;
+        /// Frame in words.
+        pub frame: String;
+        pub values: Vec<CalibratedValue>;
+        /// Anchors with their covariance.
+        pub anchors: Vec<AnchorRow>;
+        pub distances: Vec<DistanceRow>;
+        pub rows: Vec<ReadingRow>;
+        pub weak_combinations: Vec<WeakRow>;
+        pub walk: Option<Walk>;
+        /// Further minima that fit.
+        pub minima: Vec<MinimumRow> = sparse;
+        pub proposals: Vec<ProposalRow> = sparse;
+        /// Number of candidates that were left out: no tensions within the limits, too near to a body, or out of reach.
+        pub left_out: Option<LeftOut>;
+        /// Least number of proposed poses that reaches the wanted deviation; absent if none was wanted or no number does.
+        pub poses_needed: Option<usize>;
+        /// Sum of the squares of the residuals, divided by the deviations of the data.
+        pub chi2: f64;
+        /// Number of readings and measured coordinates.
+        pub data: usize;
+        pub degrees_of_freedom: usize;
+        /// Root mean square of the residuals of the readings.
+        pub residual_rms_m: f64;
+        /// Standard deviation of a reading, given or from the residuals.
+        pub length_std_m: Option<f64>;
+        /// Root of the sum of the variances of the values, in the frame and with inner conditions.
+        pub total_m: Option<f64>;
+        pub inner_total_m: Option<f64>;
+        /// Largest deviation of a combination of values in the frame.
+        pub weakest_m: Option<f64>;
+        /// True if the platform turns.
+        pub turns: bool = hidden;
+        pub starts: usize;
+        /// Number of starts that arrived at the best minimum.
+        pub arrivals: usize;
+        pub iterations: usize;
+        /// Robot file with the calibrated anchors and attachments.
+        pub robot_file: String;
+        /// World axes along which the platform moves.
+        pub axes: Vec<usize> = hidden;
+        /// Rows as linear equations, for pages.
+        pub linear: Option<LinearRows> = hidden;
+        pub warnings: Vec<String> = hidden;
+    }
 }
 
 impl Tabled for Calibrated {

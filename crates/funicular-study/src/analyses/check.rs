@@ -4,6 +4,7 @@ use super::fields::{self, AXES};
 use super::found;
 use super::shared::{LoadRow, WindRow};
 use crate::columns::{Columns, Field, ResultTable, Tabled, column, only_read, parts};
+use crate::rows::rows;
 use crate::table::Column;
 use crate::text::NONE;
 use crate::text::short;
@@ -14,88 +15,73 @@ use funicular::robot::{
 };
 use funicular::statics::{self, CableState, StaticModel};
 use funicular::warnings::{self, Warning, plausibility};
-use serde::Serialize;
 use std::f64::consts::TAU;
 
-/// Results of `check`: the robot as it was read.
-#[derive(Serialize)]
-pub struct Checked {
-    #[serde(skip)]
-    pub robot: String,
-    pub source: String,
-    pub gravity_m_s2: [f64; 3],
-    pub degrees_of_freedom: usize,
-    pub platform: CheckedPlatform,
-    /// Load on the platform; absent if there is none.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub load: Option<LoadRow>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub wind: Option<WindRow>,
-    pub materials: Vec<CheckedRope>,
-    pub cables: Vec<CheckedCable>,
-    /// Flexible supports; absent on a rigid frame.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub supports: Vec<CheckedSupport>,
-    /// `lengths`, `pose` or `none`.
-    pub state: &'static str,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub pose: Option<CheckedPose>,
-    /// Remarks on unusual values, which may be intended or a slip; absent if there are none.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub notes: Vec<String>,
-    #[serde(skip)]
-    pub warnings: Vec<String>,
+rows! {
+    /// Results of `check`: the robot as it was read.
+    pub struct Checked {
+        pub robot: String = hidden;
+        pub source: String;
+        pub gravity_m_s2: [f64; 3];
+        pub degrees_of_freedom: usize;
+        pub platform: CheckedPlatform;
+        /// Load on the platform; absent if there is none.
+        pub load: Option<LoadRow>;
+        pub wind: Option<WindRow>;
+        pub materials: Vec<CheckedRope>;
+        pub cables: Vec<CheckedCable>;
+        /// Flexible supports; absent on a rigid frame.
+        pub supports: Vec<CheckedSupport> = sparse;
+        /// `lengths`, `pose` or `none`.
+        pub state: &'static str;
+        pub pose: Option<CheckedPose>;
+        /// Remarks on unusual values, which may be intended or a slip; absent if there are none.
+        pub notes: Vec<String> = sparse;
+        pub warnings: Vec<String> = hidden;
+    }
 }
 
-/// Platform of a robot file.
-#[derive(Serialize)]
-pub struct CheckedPlatform {
-    pub motion: &'static str,
-    /// Plane of a planar platform; absent for other platforms.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub plane_normal: Option<[f64; 3]>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub plane_offset_m: Option<f64>,
-    pub mass_kg: f64,
-    pub inertia_kg_m2: [[f64; 3]; 3],
-    pub center_of_mass_m: [f64; 3],
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub drag_area_m2: Option<f64>,
+rows! {
+    /// Platform of a robot file.
+    pub struct CheckedPlatform {
+        pub motion: &'static str;
+        /// Plane of a planar platform; absent for other platforms.
+        pub plane_normal: Option<[f64; 3]>;
+        pub plane_offset_m: Option<f64>;
+        pub mass_kg: f64;
+        pub inertia_kg_m2: [[f64; 3]; 3];
+        pub center_of_mass_m: [f64; 3];
+        pub drag_area_m2: Option<f64>;
+    }
 }
 
-/// Rope of a robot file.
-#[derive(Serialize, PartialEq)]
-pub struct CheckedRope {
-    pub name: String,
-    pub axial_stiffness_n: f64,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub dynamic_axial_stiffness_n: Option<f64>,
-    pub mass_kg_per_m: f64,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub damping_ratio: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub viscous_damping_n_s_m2: Option<f64>,
-    /// Loss factor and damping time of the stretch; absent if zero.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub axial_loss_factor: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub axial_damping_time_s: Option<f64>,
-    #[serde(flatten)]
-    pub limits: CheckedLimits,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub breaking_load_n: Option<f64>,
-    /// Drag coefficient times diameter [m].
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub drag_width_m: Option<f64>,
+rows! {
+    /// Rope of a robot file.
+    #[derive(PartialEq)]
+    pub struct CheckedRope {
+        pub name: String;
+        pub axial_stiffness_n: f64;
+        pub dynamic_axial_stiffness_n: Option<f64>;
+        pub mass_kg_per_m: f64;
+        pub damping_ratio: Option<f64>;
+        pub viscous_damping_n_s_m2: Option<f64>;
+        /// Loss factor and damping time of the stretch; absent if zero.
+        pub axial_loss_factor: Option<f64>;
+        pub axial_damping_time_s: Option<f64>;
+        pub limits: CheckedLimits = spread;
+        pub breaking_load_n: Option<f64>;
+        /// Drag coefficient times diameter [m].
+        pub drag_width_m: Option<f64>;
+    }
 }
 
-/// Tension limits; a limit that is not given is absent.
-#[derive(Serialize, PartialEq)]
-pub struct CheckedLimits {
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub minimum_tension_n: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub maximum_tension_n: Option<f64>,
+rows! {
+    /// Tension limits; a limit that is not given is absent.
+    #[derive(PartialEq)]
+    pub struct CheckedLimits {
+        pub minimum_tension_n: Option<f64>;
+        pub maximum_tension_n: Option<f64>;
+    }
 }
 
 impl CheckedLimits {
@@ -104,43 +90,38 @@ impl CheckedLimits {
     }
 }
 
-/// Cable of a robot file.
-#[derive(Serialize)]
-pub struct CheckedCable {
-    pub name: String,
-    pub material: String,
-    pub anchor_m: [f64; 3],
-    pub attachment_m: [f64; 3],
-    /// Pulley at the anchor; absent if there is none.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub pulley: Option<CheckedPulley>,
-    /// Winch behind the anchor; absent if there is none.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub winch: Option<CheckedWinch>,
-    /// Name of the flexible support of its anchor; absent for a rigid anchor.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub support: Option<String>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub unstrained_length_m: Option<f64>,
-    /// Parts of the unstrained length of a cable over a pulley or to a winch; absent for other cables, and if the
-    /// lengths are unknown or have no equilibrium.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub length_parts: Option<LengthParts>,
-    /// Tension limits of the cable, or else of its rope.
-    #[serde(flatten)]
-    pub limits: CheckedLimits,
-    /// Load per length besides weight and wind; absent if there is none.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub load_n_per_m: Option<[f64; 3]>,
+rows! {
+    /// Cable of a robot file.
+    pub struct CheckedCable {
+        pub name: String;
+        pub material: String;
+        pub anchor_m: [f64; 3];
+        pub attachment_m: [f64; 3];
+        /// Pulley at the anchor; absent if there is none.
+        pub pulley: Option<CheckedPulley>;
+        /// Winch behind the anchor; absent if there is none.
+        pub winch: Option<CheckedWinch>;
+        /// Name of the flexible support of its anchor; absent for a rigid anchor.
+        pub support: Option<String>;
+        pub unstrained_length_m: Option<f64>;
+        /// Parts of the unstrained length of a cable over a pulley or to a winch; absent for other cables, and if the
+        /// lengths are unknown or have no equilibrium.
+        pub length_parts: Option<LengthParts>;
+        /// Tension limits of the cable, or else of its rope.
+        pub limits: CheckedLimits = spread;
+        /// Load per length besides weight and wind; absent if there is none.
+        pub load_n_per_m: Option<[f64; 3]>;
+    }
 }
 
-/// Unstrained length of a cable at rest, as it is counted with a pulley or a winch and without them.
-#[derive(Serialize)]
-pub struct LengthParts {
-    /// Unstrained length from the attachment to the anchor point, if the cable ended there with the same tension.
-    pub to_anchor_m: f64,
-    /// Length that pulley and drum side add: the unstrained length of the file less `to_anchor_m`.
-    pub beyond_anchor_m: f64,
+rows! {
+    /// Unstrained length of a cable at rest, as it is counted with a pulley or a winch and without them.
+    pub struct LengthParts {
+        /// Unstrained length from the attachment to the anchor point, if the cable ended there with the same tension.
+        pub to_anchor_m: f64;
+        /// Length that pulley and drum side add: the unstrained length of the file less `to_anchor_m`.
+        pub beyond_anchor_m: f64;
+    }
 }
 
 impl LengthParts {
@@ -153,29 +134,27 @@ impl LengthParts {
     }
 }
 
-/// Pulley of a cable.
-#[derive(Serialize)]
-pub struct CheckedPulley {
-    pub name: String,
-    pub radius_m: f64,
-    /// Direction of travel at the anchor towards the platform, unit vector.
-    pub entry_direction: [f64; 3],
-    /// Friction; empty without friction.
-    #[serde(flatten)]
-    pub friction: CheckedFriction,
+rows! {
+    /// Pulley of a cable.
+    pub struct CheckedPulley {
+        pub name: String;
+        pub radius_m: f64;
+        /// Direction of travel at the anchor towards the platform, unit vector.
+        pub entry_direction: [f64; 3];
+        /// Friction; empty without friction.
+        pub friction: CheckedFriction = spread;
+    }
 }
 
-/// Friction of a pulley, of one kind at most.
-#[derive(Serialize, Default)]
-pub struct CheckedFriction {
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub friction_coefficient: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub efficiency: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub bearing_friction_coefficient: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub bearing_radius_m: Option<f64>,
+rows! {
+    /// Friction of a pulley, of one kind at most.
+    #[derive(Default)]
+    pub struct CheckedFriction {
+        pub friction_coefficient: Option<f64>;
+        pub efficiency: Option<f64>;
+        pub bearing_friction_coefficient: Option<f64>;
+        pub bearing_radius_m: Option<f64>;
+    }
 }
 
 impl CheckedFriction {
@@ -204,56 +183,42 @@ impl CheckedFriction {
     }
 }
 
-/// Winch of a cable.
-#[derive(Serialize)]
-pub struct CheckedWinch {
-    pub name: String,
-    pub drum_side_length_m: f64,
-    /// Stiffness at the cable; absent for a rigid winch.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub stiffness_n_per_m: Option<f64>,
-    /// Masses that drum and motor add at the cable; absent without inertia.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub drum_mass_kg: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub motor_mass_kg: Option<f64>,
-    /// Guide wheels, the nearest to the anchor first; absent without any.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub guide_wheels: Vec<CheckedGuideWheel>,
-    /// Control of the motor; absent if it holds its angle.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub control: Option<&'static str>,
-    /// Gains of a position control at the cable.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub position_gain_n_per_m: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub speed_gain_n_s_per_m: Option<f64>,
-    /// Efficiency of the gear; absent if it is 1.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub gear_efficiency: Option<f64>,
-    #[serde(flatten)]
-    pub limits: CheckedWinchLimits,
+rows! {
+    /// Winch of a cable.
+    pub struct CheckedWinch {
+        pub name: String;
+        pub drum_side_length_m: f64;
+        /// Stiffness at the cable; absent for a rigid winch.
+        pub stiffness_n_per_m: Option<f64>;
+        /// Masses that drum and motor add at the cable; absent without inertia.
+        pub drum_mass_kg: Option<f64>;
+        pub motor_mass_kg: Option<f64>;
+        /// Guide wheels, the nearest to the anchor first; absent without any.
+        pub guide_wheels: Vec<CheckedGuideWheel> = sparse;
+        /// Control of the motor; absent if it holds its angle.
+        pub control: Option<&'static str>;
+        /// Gains of a position control at the cable.
+        pub position_gain_n_per_m: Option<f64>;
+        pub speed_gain_n_s_per_m: Option<f64>;
+        /// Efficiency of the gear; absent if it is 1.
+        pub gear_efficiency: Option<f64>;
+        pub limits: CheckedWinchLimits = spread;
+    }
 }
 
-/// Limits of a winch and its motor; a limit that is not given is absent.
-#[derive(Serialize)]
-pub struct CheckedWinchLimits {
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub max_speed_m_s: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub max_acceleration_m_s2: Option<f64>,
-    /// Torque of the motor at its own shaft.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub max_torque_n_m: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub max_power_w: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub max_brake_power_w: Option<f64>,
-    /// Corners of the torque–speed curve: speeds and torques.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub torque_speed_rad_s: Vec<f64>,
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub torque_speed_n_m: Vec<f64>,
+rows! {
+    /// Limits of a winch and its motor; a limit that is not given is absent.
+    pub struct CheckedWinchLimits {
+        pub max_speed_m_s: Option<f64>;
+        pub max_acceleration_m_s2: Option<f64>;
+        /// Torque of the motor at its own shaft.
+        pub max_torque_n_m: Option<f64>;
+        pub max_power_w: Option<f64>;
+        pub max_brake_power_w: Option<f64>;
+        /// Corners of the torque–speed curve: speeds and torques.
+        pub torque_speed_rad_s: Vec<f64> = sparse;
+        pub torque_speed_n_m: Vec<f64> = sparse;
+    }
 }
 
 impl CheckedWinchLimits {
@@ -289,18 +254,18 @@ impl CheckedWinchLimits {
     }
 }
 
-/// Flexible support of anchors.
-#[derive(Serialize)]
-pub struct CheckedSupport {
-    pub name: String,
-    pub stiffness_n_per_m: [[f64; 3]; 3],
-    pub mass_kg: f64,
-    pub damping_ratio: f64,
-    /// `on-support` or `on-ground`.
-    pub drums: &'static str,
-    /// Lowest frequency of the support alone; absent without mass.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub first_frequency_hz: Option<f64>,
+rows! {
+    /// Flexible support of anchors.
+    pub struct CheckedSupport {
+        pub name: String;
+        pub stiffness_n_per_m: [[f64; 3]; 3];
+        pub mass_kg: f64;
+        pub damping_ratio: f64;
+        /// `on-support` or `on-ground`.
+        pub drums: &'static str;
+        /// Lowest frequency of the support alone; absent without mass.
+        pub first_frequency_hz: Option<f64>;
+    }
 }
 
 impl CheckedSupport {
@@ -318,14 +283,15 @@ impl CheckedSupport {
     }
 }
 
-/// Guide wheel of a winch.
-#[derive(Serialize)]
-pub struct CheckedGuideWheel {
-    pub name: String,
-    /// Length of the cable from its anchor to the wheel.
-    pub distance_m: f64,
-    /// Mass that the wheel adds at the cable.
-    pub mass_kg: f64,
+rows! {
+    /// Guide wheel of a winch.
+    pub struct CheckedGuideWheel {
+        pub name: String;
+        /// Length of the cable from its anchor to the wheel.
+        pub distance_m: f64;
+        /// Mass that the wheel adds at the cable.
+        pub mass_kg: f64;
+    }
 }
 
 impl CheckedPulley {
@@ -386,11 +352,12 @@ impl CheckedWinch {
     }
 }
 
-/// Pose of a robot file.
-#[derive(Serialize)]
-pub struct CheckedPose {
-    pub position_m: [f64; 3],
-    pub roll_pitch_yaw_deg: [f64; 3],
+rows! {
+    /// Pose of a robot file.
+    pub struct CheckedPose {
+        pub position_m: [f64; 3];
+        pub roll_pitch_yaw_deg: [f64; 3];
+    }
 }
 
 /// Describes the robot as it was read, with warnings about unusual values.
@@ -569,10 +536,10 @@ impl CheckedLimits {
     fn fields<R>(of: impl Fn(&R) -> &Self + Copy + 'static, are_given: bool) -> [Field<R>; 2] {
         [
             column("minimum_tension_n", "N", "minimum tension that is allowed", move |row| of(row).minimum_tension_n)
-                .short("min T", "N", 4)
+                .short("min T", 4)
                 .read_if(are_given),
             column("maximum_tension_n", "N", "maximum tension that is allowed", move |row| of(row).maximum_tension_n)
-                .short("max T", "N", 4)
+                .short("max T", 4)
                 .read_if(are_given),
         ]
     }
@@ -590,40 +557,34 @@ impl CheckedRope {
         let stiffer = ropes.iter().any(|rope| rope.dynamic_axial_stiffness_n.is_some());
         let own = [
             column("name", "", "name of the rope", |rope: &Self| rope.name.clone()).plain("rope"),
-            column("axial_stiffness_n", "N", "axial stiffness EA", |rope: &Self| rope.axial_stiffness_n)
-                .short("EA", "N", 6),
+            column("axial_stiffness_n", "N", "axial stiffness EA", |rope: &Self| rope.axial_stiffness_n).short("EA", 6),
             column("dynamic_axial_stiffness_n", "N", "axial stiffness in vibration", |rope: &Self| {
                 rope.dynamic_axial_stiffness_n
             })
-            .short("EA in vibration", "N", 6)
+            .short("EA in vibration", 6)
             .read_if(stiffer),
-            column("mass_kg_per_m", "kg/m", "mass per length", |rope: &Self| rope.mass_kg_per_m)
-                .short("mass", "kg/m", 5),
-            column("damping_ratio", "1", "damping ratio", |rope: &Self| rope.damping_ratio).short(
-                "damping ratio",
-                "",
-                4,
-            ),
+            column("mass_kg_per_m", "kg/m", "mass per length", |rope: &Self| rope.mass_kg_per_m).short("mass", 5),
+            column("damping_ratio", "1", "damping ratio", |rope: &Self| rope.damping_ratio).short("damping ratio", 4),
             column("viscous_damping_n_s_m2", "N s/m²", "viscous damping per length", |rope: &Self| {
                 rope.viscous_damping_n_s_m2
             })
-            .short("viscous damping", "N s/m²", 4),
+            .short("viscous damping", 4),
         ];
         let lossy = ropes.iter().any(|rope| rope.axial_loss_factor.is_some() || rope.axial_damping_time_s.is_some());
         let loss = [
             column("axial_loss_factor", "1", "loss factor of the stretch", |rope: &Self| rope.axial_loss_factor)
-                .short("loss factor", "", 4)
+                .short("loss factor", 4)
                 .read_if(lossy),
             column("axial_damping_time_s", "s", "damping time of the stretch", |rope: &Self| rope.axial_damping_time_s)
-                .short("damping time", "s", 4)
+                .short("damping time", 4)
                 .read_if(lossy),
         ];
         let further = [
             column("breaking_load_n", "N", "breaking load", |rope: &Self| rope.breaking_load_n)
-                .short("breaks at", "N", 4)
+                .short("breaks at", 4)
                 .read_if(limited),
             column("drag_width_m", "m", "drag coefficient times diameter", |rope: &Self| rope.drag_width_m)
-                .short("drag width", "m", 4)
+                .short("drag width", 4)
                 .read_if(dragged),
         ];
         Columns::new(
@@ -644,13 +605,13 @@ impl CheckedCable {
             fields::cable_name(|cable: &Self| cable.name.clone()),
             column("material", "", "name of its rope", |cable: &Self| cable.material.clone()).plain("rope"),
             parts("anchor_{}_m", AXES, "m", "anchor, world axes, {}", |cable: &Self| cable.anchor_m)
-                .components("anchor", "m", 4),
+                .components("anchor", 4),
             parts("attachment_{}_m", AXES, "m", "attachment, platform axes, {}", |cable: &Self| cable.attachment_m)
-                .components("attachment", "m", 4),
+                .components("attachment", 4),
             column("unstrained_length_m", "m", "unstrained length of the file", |cable: &Self| {
                 cable.unstrained_length_m
             })
-            .decimals("unstrained", "m", 4),
+            .decimals("unstrained", 4),
         ];
         let load = [
             parts("load_{}_n_per_m", AXES, "N/m", "load per length besides weight and wind, {}", |cable: &Self| {

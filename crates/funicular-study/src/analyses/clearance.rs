@@ -13,6 +13,7 @@ use crate::at_rest::{self, AtRest};
 use crate::columns::{Columns, ResultTable, Tabled, column, parts};
 use crate::error::{Cancelled, NoSolution};
 use crate::request::{self, ClearanceRequest};
+use crate::rows::rows;
 use crate::table::Column;
 use crate::text::significant;
 use anyhow::{Result, bail};
@@ -20,56 +21,50 @@ use funicular::clearance::{Clearance, ClearancePair, HULL, OnTheWay, Surrounding
 use funicular::path::StraightMove;
 use funicular::robot::{Pose, Robot, State};
 use funicular::statics::{self, Equilibrium, StaticsError};
-use serde::Serialize;
 use swaying::Excursions;
 
-/// Results of `clearance`.
-#[derive(Serialize)]
-pub struct Clearances {
-    #[serde(skip)]
-    pub robot: String,
-    pub static_model: &'static str,
-    pub pose: PoseRow,
-    /// End of the move; absent without one.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub move_to: Option<PoseRow>,
-    /// True if no pair touches, and every one keeps its required distance.
-    pub free: bool,
-    /// Way to the end of the move on which every pair keeps its distance, if it was searched.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub way: Option<WayAround>,
-    /// All pairs, that with the least margin first.
-    pub pairs: Vec<ClearanceRow>,
-    #[serde(skip)]
-    pub warnings: Vec<String>,
+rows! {
+    /// Results of `clearance`.
+    pub struct Clearances {
+        pub robot: String = hidden;
+        pub static_model: &'static str;
+        pub pose: PoseRow;
+        /// End of the move; absent without one.
+        pub move_to: Option<PoseRow>;
+        /// True if no pair touches, and every one keeps its required distance.
+        pub free: bool;
+        /// Way to the end of the move on which every pair keeps its distance, if it was searched.
+        pub way: Option<WayAround>;
+        /// All pairs, that with the least margin first.
+        pub pairs: Vec<ClearanceRow>;
+        pub warnings: Vec<String> = hidden;
+    }
 }
 
-/// Pair of things with its distance, on a move the least one.
-#[derive(Serialize)]
-pub struct ClearanceRow {
-    /// Kind of the pair: `cables`, `platform` or `obstacles`.
-    pub kind: &'static str,
-    /// Name of the first cable, or of a body of the platform.
-    pub first: String,
-    /// Name of the other cable, body or obstacle.
-    pub second: String,
-    /// Distance between the surfaces, negative by the depth of an overlap.
-    pub distance_m: f64,
-    /// Required distance, vibration included.
-    pub required_m: f64,
-    /// Part of the required distance for the motions of both in gusts; absent without them.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub vibration_m: Option<f64>,
-    /// Distance beyond the required one; negative where the pair touches.
-    pub margin_m: f64,
-    /// Nearest points, on the centre lines of cables.
-    pub points_m: [[f64; 3]; 2],
-    /// Fraction of the move where the margin is least.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub fraction: Option<f64>,
-    /// Fractions of the move at which the two cables cross each other.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub crossing_fractions: Vec<f64>,
+rows! {
+    /// Pair of things with its distance, on a move the least one.
+    pub struct ClearanceRow {
+        /// Kind of the pair: `cables`, `platform` or `obstacles`.
+        pub kind: &'static str;
+        /// Name of the first cable, or of a body of the platform.
+        pub first: String;
+        /// Name of the other cable, body or obstacle.
+        pub second: String;
+        /// Distance between the surfaces, negative by the depth of an overlap.
+        pub distance_m: f64;
+        /// Required distance, vibration included.
+        pub required_m: f64;
+        /// Part of the required distance for the motions of both in gusts; absent without them.
+        pub vibration_m: Option<f64>;
+        /// Distance beyond the required one; negative where the pair touches.
+        pub margin_m: f64;
+        /// Nearest points, on the centre lines of cables.
+        pub points_m: [[f64; 3]; 2];
+        /// Fraction of the move where the margin is least.
+        pub fraction: Option<f64>;
+        /// Fractions of the move at which the two cables cross each other.
+        pub crossing_fractions: Vec<f64> = sparse;
+    }
 }
 
 /// Computes the distances of all pairs at the equilibrium, or the least ones on a move from there.
@@ -214,9 +209,9 @@ impl ClearanceRow {
             column("distance_m", "m", "distance between the surfaces, negative in an overlap", |row: &Self| {
                 row.distance_m
             })
-            .decimals("distance", "m", 4),
+            .decimals("distance", 4),
             column("fraction", "1", "fraction of the move where the margin is least", |row: &Self| row.fraction)
-                .decimals("at part of way", "", 4)
+                .decimals("at part of way", 4)
                 .read_if(moves),
             column(
                 "crosses_at",
@@ -224,13 +219,13 @@ impl ClearanceRow {
                 "first fraction of the move at which the cables cross each other",
                 |row: &Self| row.crossing_fractions.first().copied(),
             )
-            .decimals("crosses at", "", 6)
+            .decimals("crosses at", 6)
             .read_if(moves),
-            column("required_m", "m", "required distance", |row: &Self| row.required_m).decimals("required", "m", 4),
+            column("required_m", "m", "required distance", |row: &Self| row.required_m).decimals("required", 4),
             column("vibration_m", "m", "part of the required distance for the motions in gusts", |row: &Self| {
                 row.vibration_m
             })
-            .decimals("for gusts", "m", 4)
+            .decimals("for gusts", 4)
             .read_if(sways),
             column("margin_m", "m", "distance beyond the required one", |row: &Self| row.margin_m).read_if(false),
             parts(
@@ -240,7 +235,7 @@ impl ClearanceRow {
                 "nearest point of the first, on the centre line of a cable, {}",
                 |row: &Self| row.points_m[0].map(Some),
             )
-            .decimals("at", "m", 3),
+            .decimals("at", 3),
             parts("second_{}_m", AXES, "m", "nearest point of the second, {}", |row: &Self| row.points_m[1].map(Some))
                 .read_if(false),
         ])

@@ -5,6 +5,7 @@ use super::shared::{ModeRow, Origin};
 use crate::at_rest::{self, AtRest};
 use crate::columns::{Columns, ResultTable, Tabled, column};
 use crate::request;
+use crate::rows::rows;
 use crate::table::Column;
 use anyhow::Result;
 use funicular::cable::CableModel;
@@ -12,83 +13,79 @@ use funicular::compare::{self, Comparison, Criterion, FrozenSag, ModelResult};
 use funicular::dynamics::Linearisation;
 use funicular::modes;
 use funicular::robot::Robot;
-use serde::Serialize;
 
-/// Results of `compare`: every cable model compared with the reference.
-#[derive(Serialize)]
-pub struct Compared {
-    #[serde(skip)]
-    pub robot: String,
-    pub below_hz: f64,
-    pub static_model: &'static str,
-    pub assembly: &'static str,
-    pub in_plane_only: bool,
-    #[serde(flatten)]
-    pub origin: Origin,
-    pub reference: &'static str,
-    pub tolerance: f64,
-    /// Minimum fraction of the kinetic energy in the platform for a compared mode; absent if all modes are compared.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub platform_share: Option<f64>,
-    /// Indices of the compared modes in the list of the reference, from 0.
-    pub compared: Vec<usize>,
-    pub models: Vec<ModelRow>,
-    pub advice: AdviceRow,
-    /// Reason why a model with static sag is worse than a spring; absent if it is not.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub frozen_sag: Option<FrozenSagRow>,
-    #[serde(skip)]
-    pub warnings: Vec<String>,
+rows! {
+    /// Results of `compare`: every cable model compared with the reference.
+    pub struct Compared {
+        pub robot: String = hidden;
+        pub below_hz: f64;
+        pub static_model: &'static str;
+        pub assembly: &'static str;
+        pub in_plane_only: bool;
+        pub origin: Origin = spread;
+        pub reference: &'static str;
+        pub tolerance: f64;
+        /// Minimum fraction of the kinetic energy in the platform for a compared mode; absent if all modes are compared.
+        pub platform_share: Option<f64>;
+        /// Indices of the compared modes in the list of the reference, from 0.
+        pub compared: Vec<usize>;
+        pub models: Vec<ModelRow>;
+        pub advice: AdviceRow;
+        /// Reason why a model with static sag is worse than a spring; absent if it is not.
+        pub frozen_sag: Option<FrozenSagRow>;
+        pub warnings: Vec<String> = hidden;
+    }
 }
 
-/// Modes of one cable model, and their matches in the reference.
-#[derive(Serialize)]
-pub struct ModelRow {
-    pub cable_model: &'static str,
-    /// Reason why the model has no modes here.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub error: Option<String>,
-    pub modes: Vec<ModeRow>,
-    pub count_below: usize,
-    pub certified: bool,
-    pub matches: Vec<MatchRow>,
-    pub missed: usize,
-    /// Number of compared modes within the tolerance.
-    pub within: usize,
-    /// Largest relative difference of the compared modes that have a counterpart.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub largest_difference: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub first_wrong_hz: Option<f64>,
+rows! {
+    /// Modes of one cable model, and their matches in the reference.
+    pub struct ModelRow {
+        pub cable_model: &'static str;
+        /// Reason why the model has no modes here.
+        pub error: Option<String>;
+        pub modes: Vec<ModeRow>;
+        pub count_below: usize;
+        pub certified: bool;
+        pub matches: Vec<MatchRow>;
+        pub missed: usize;
+        /// Number of compared modes within the tolerance.
+        pub within: usize;
+        /// Largest relative difference of the compared modes that have a counterpart.
+        pub largest_difference: Option<f64>;
+        pub first_wrong_hz: Option<f64>;
+    }
 }
 
-/// Mode and the mode of the reference that it matches.
-#[derive(Serialize)]
-pub struct MatchRow {
-    pub frequency_hz: f64,
-    pub reference_hz: f64,
-    pub reference_index: usize,
-    pub relative_difference: f64,
-    pub correlation: f64,
+rows! {
+    /// Mode and the mode of the reference that it matches.
+    pub struct MatchRow {
+        pub frequency_hz: f64;
+        pub reference_hz: f64;
+        pub reference_index: usize;
+        pub relative_difference: f64;
+        pub correlation: f64;
+    }
 }
 
-/// Recommendation: the simplest model that is good enough.
-#[derive(Serialize)]
-pub struct AdviceRow {
-    pub cable_model: &'static str,
-    pub text: String,
+rows! {
+    /// Recommendation: the simplest model that is good enough.
+    pub struct AdviceRow {
+        pub cable_model: &'static str;
+        pub text: String;
+    }
 }
 
-/// Modes for which a static sag model is worse than a spring.
-#[derive(Serialize)]
-pub struct FrozenSagRow {
-    pub cable_model: &'static str,
-    pub modes: usize,
-    pub frequency_hz: f64,
-    pub relative_difference: f64,
-    pub spring_relative_difference: f64,
-    pub first_cable_resonance_hz: f64,
-    pub text: String,
+rows! {
+    /// Modes for which a static sag model is worse than a spring.
+    pub struct FrozenSagRow {
+        pub cable_model: &'static str;
+        pub modes: usize;
+        pub frequency_hz: f64;
+        pub relative_difference: f64;
+        pub spring_relative_difference: f64;
+        pub first_cable_resonance_hz: f64;
+        pub text: String;
+    }
 }
 
 impl From<FrozenSag> for FrozenSagRow {

@@ -16,6 +16,7 @@ use crate::columns::{ResultTable, Tabled};
 use crate::error::{Cancelled, NoSolution};
 use crate::names::{DesignGoal, Named};
 use crate::request::{self, DesignRequest};
+use crate::rows::rows;
 use crate::table::Column;
 use crate::text::counted;
 use anyhow::{Result, anyhow, bail};
@@ -27,7 +28,6 @@ use funicular::robot::{Robot, State};
 use report::DesignReport;
 use rows::{Evaluated, linearisation_of_goal};
 use search::{DesignSearch, SearchResult, TOLERANCE, try_other_sides};
-use serde::Serialize;
 use serde_json::Value;
 use variables::{Variable, rounded, variables};
 
@@ -37,49 +37,45 @@ const MAX_POSES: usize = 1000;
 /// Maximum number of iterations that a request may give.
 const MAX_ITERATIONS: usize = 10_000;
 
-/// Results of `design`.
-#[derive(Serialize)]
-pub struct Designed {
-    #[serde(skip)]
-    pub robot: String,
-    #[serde(flatten)]
-    pub models: Models,
-    /// Name of the goal.
-    pub goal: &'static str,
-    /// Identity of the number that improves, as `gradient` writes it.
-    pub measure: Value,
-    /// Goal in words.
-    pub goal_means: String,
-    pub unit: &'static str,
-    /// Value of the goal with the values of the file.
-    pub before: f64,
-    /// Value of the goal with the chosen values.
-    pub after: f64,
-    /// Results at the poses.
-    pub poses: Vec<DesignPose>,
-    /// Chosen values.
-    pub values: Vec<ChosenValue>,
-    /// Demands, each at the pose where it is met least.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub demands: Vec<DemandRow>,
-    /// Choices of the sides to which frequencies leave the band, if there were several.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub band_sides: Vec<SidesTried>,
-    /// True if no step gains more than the tolerance.
-    pub converged: bool,
-    /// Reason for the end of the search, as a sentence.
-    pub ending: String,
-    pub iterations: usize,
-    /// Number of evaluated robots, those of all choices of sides included.
-    pub evaluations: usize,
-    /// Value of the goal after each iteration.
-    pub history: Vec<f64>,
-    /// Sentences on what limits the result.
-    pub limits: Vec<String>,
-    /// Robot file with the values.
-    pub robot_file: String,
-    #[serde(skip)]
-    pub warnings: Vec<String>,
+rows! {
+    /// Results of `design`.
+    pub struct Designed {
+        pub robot: String = hidden;
+        pub models: Models = spread;
+        /// Name of the goal.
+        pub goal: &'static str;
+        /// Identity of the number that improves, as `gradient` writes it.
+        pub measure: Value;
+        /// Goal in words.
+        pub goal_means: String;
+        pub unit: &'static str;
+        /// Value of the goal with the values of the file.
+        pub before: f64;
+        /// Value of the goal with the chosen values.
+        pub after: f64;
+        /// Results at the poses.
+        pub poses: Vec<DesignPose>;
+        /// Chosen values.
+        pub values: Vec<ChosenValue>;
+        /// Demands, each at the pose where it is met least.
+        pub demands: Vec<DemandRow> = sparse;
+        /// Choices of the sides to which frequencies leave the band, if there were several.
+        pub band_sides: Vec<SidesTried> = sparse;
+        /// True if no step gains more than the tolerance.
+        pub converged: bool;
+        /// Reason for the end of the search, as a sentence.
+        pub ending: String;
+        pub iterations: usize;
+        /// Number of evaluated robots, those of all choices of sides included.
+        pub evaluations: usize;
+        /// Value of the goal after each iteration.
+        pub history: Vec<f64>;
+        /// Sentences on what limits the result.
+        pub limits: Vec<String>;
+        /// Robot file with the values.
+        pub robot_file: String;
+        pub warnings: Vec<String> = hidden;
+    }
 }
 
 impl Tabled for Designed {

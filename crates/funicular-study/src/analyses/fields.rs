@@ -6,6 +6,9 @@ use crate::columns::{Field, column, parts};
 /// Names of the components of a vector.
 pub(crate) const AXES: [&str; 3] = ["x", "y", "z"];
 
+/// Names of the angles of a pose.
+pub(crate) const ANGLES: [&str; 3] = ["roll", "pitch", "yaw"];
+
 /// Name of the cable of a row.
 pub(crate) fn cable_name<R>(name: impl Fn(&R) -> String + 'static) -> Field<R> {
     column("name", "", "name of the cable", name).plain("cable")
@@ -14,12 +17,8 @@ pub(crate) fn cable_name<R>(name: impl Fn(&R) -> String + 'static) -> Field<R> {
 /// Tensions at the platform and at the anchor [N].
 pub(crate) fn tensions<R>(of: impl Fn(&R) -> [f64; 2] + Copy + 'static) -> [Field<R>; 2] {
     [
-        column("tension_platform_n", "N", "tension at the platform", move |row| of(row)[0]).decimals(
-            "T platform",
-            "N",
-            3,
-        ),
-        column("tension_anchor_n", "N", "tension at the anchor", move |row| of(row)[1]).decimals("T anchor", "N", 3),
+        column("tension_platform_n", "N", "tension at the platform", move |row| of(row)[0]).decimals("T platform", 3),
+        column("tension_anchor_n", "N", "tension at the anchor", move |row| of(row)[1]).decimals("T anchor", 3),
     ]
 }
 
@@ -48,9 +47,7 @@ pub(crate) fn pose<R>(
     let parts_of = |three: Option<[f64; 3]>| three.map_or([None; 3], |three| three.map(Some));
     [
         parts("{}_m", AXES, "m", "position of the platform origin, {}", move |row| parts_of(position_m(row))),
-        parts("{}_deg", ["roll", "pitch", "yaw"], "deg", "{} of the platform", move |row| {
-            parts_of(roll_pitch_yaw_deg(row))
-        }),
+        parts("{}_deg", ANGLES, "deg", "{} of the platform", move |row| parts_of(roll_pitch_yaw_deg(row))),
     ]
 }
 

@@ -6,6 +6,7 @@ use crate::at_rest::{self, AtRest};
 use crate::columns::{Columns, ResultTable, Tabled, column};
 use crate::error::Cancelled;
 use crate::request::{self, FrequencyRange, ResponseRange};
+use crate::rows::{Described, Row, RowKey, key, put, rows, schema_of};
 use crate::signals::{Input, Output, SignalLists, response_unit};
 use crate::table::Column;
 use crate::text::{counted, significant};
@@ -20,6 +21,7 @@ use funicular::response::{self, Measured, Peak, Port, Quantity, Signal};
 use funicular::robot::Robot;
 use serde::ser::SerializeMap;
 use serde::{Serialize, Serializer};
+use serde_json::{Value, json};
 
 /// Number of frequencies between two progress reports: some 10 ms of work. It is a multiple of every number of SIMD
 /// lanes, so that the results do not depend on it.
@@ -44,30 +46,37 @@ pub struct Frf {
     pub warnings: Vec<String>,
 }
 
-/// Response of one output to one input.
-#[derive(Serialize)]
-pub struct PairRow {
-    pub input: String,
-    #[serde(flatten, serialize_with = "input_place")]
-    pub input_place: PlaceRow,
-    pub output: String,
-    #[serde(flatten, serialize_with = "output_place")]
-    pub output_place: PlaceRow,
-    pub unit: String,
-    pub peaks: Vec<PeakRow>,
-    /// Undamped resonances of an adaptive response, whose peaks have no finite height.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub undamped_hz: Vec<f64>,
-    pub real: Vec<f64>,
-    pub imag: Vec<f64>,
+rows! {
+    /// Response of one output to one input.
+    pub struct PairRow {
+        /// Input signal.
+        pub input: String;
+        /// Place of the input.
+        pub input_place: PlaceRow<true> = spread;
+        /// Output signal.
+        pub output: String;
+        /// Place of the output.
+        pub output_place: PlaceRow<false> = spread;
+        /// Unit of the response.
+        pub unit: String;
+        /// Peaks in the range.
+        pub peaks: Vec<PeakRow>;
+        /// Undamped resonances of an adaptive response, whose peaks have no finite height.
+        pub undamped_hz: Vec<f64> = sparse;
+        /// Real part of the response at every frequency.
+        pub real: Vec<f64>;
+        /// Imaginary part of the response at every frequency.
+        pub imag: Vec<f64>;
+    }
 }
 
-/// Peak of a response.
-#[derive(Serialize)]
-pub struct PeakRow {
-    pub frequency_hz: f64,
-    pub prominence_db: f64,
-    pub magnitude: f64,
+rows! {
+    /// Peak of a response.
+    pub struct PeakRow {
+        pub frequency_hz: f64;
+        pub prominence_db: f64;
+        pub magnitude: f64;
+    }
 }
 
 impl From<Peak> for PeakRow {
@@ -79,58 +88,42 @@ impl From<Peak> for PeakRow {
 
 impl Serialize for Frf {
     fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
-        let Self { robot: _, models, responses, adaptive: _, prominence_db, frequency_hz, warnings: _ } = self;
-        match &responses[..] {
-            [one] => OneResponse {
-                models,
-                input: &one.input,
-                input_place: one.input_place,
-                output: &one.output,
-                output_place: one.output_place,
-                unit: &one.unit,
-                prominence_db: *prominence_db,
-                peaks: &one.peaks,
-                undamped_hz: &one.undamped_hz,
-                frequency_hz,
-                real: &one.real,
-                imag: &one.imag,
-            }
-            .serialize(to),
-            several => SeveralResponses { models, prominence_db: *prominence_db, frequency_hz, responses: several }
-                .serialize(to),
+        let mut object = to.serialize_map(None)?;
+        let map = &mut object;
+        put!(map, &self.models, models spread);
+        if let [one] = &self.responses[..] {
+            put!(map, &one.input, input);
+            put!(map, &one.input_place, input_place spread);
+            put!(map, &one.output, output);
+            put!(map, &one.output_place, output_place spread);
+            put!(map, &one.unit, unit);
+            put!(map, &self.prominence_db, prominence_db);
+            put!(map, &one.peaks, peaks);
+            put!(map, &one.undamped_hz, undamped_hz sparse);
+            put!(map, &self.frequency_hz, frequency_hz);
+            put!(map, &one.real, real);
+            put!(map, &one.imag, imag);
+        } else {
+            put!(map, &self.prominence_db, prominence_db);
+            put!(map, &self.frequency_hz, frequency_hz);
+            put!(map, &self.responses, responses);
         }
+        object.end()
     }
 }
 
-/// JSON of one response.
-#[derive(Serialize)]
-struct OneResponse<'a> {
-    #[serde(flatten)]
-    models: &'a Models,
-    input: &'a str,
-    #[serde(flatten, serialize_with = "input_place")]
-    input_place: PlaceRow,
-    output: &'a str,
-    #[serde(flatten, serialize_with = "output_place")]
-    output_place: PlaceRow,
-    unit: &'a str,
-    prominence_db: f64,
-    peaks: &'a [PeakRow],
-    #[serde(skip_serializing_if = "<[f64]>::is_empty")]
-    undamped_hz: &'a [f64],
-    frequency_hz: &'a [f64],
-    real: &'a [f64],
-    imag: &'a [f64],
-}
-
-/// JSON of several responses.
-#[derive(Serialize)]
-struct SeveralResponses<'a> {
-    #[serde(flatten)]
-    models: &'a Models,
-    prominence_db: f64,
-    frequency_hz: &'a [f64],
-    responses: &'a [PairRow],
+impl Described for Frf {
+    fn schema() -> Value {
+        let of = |about: &str, own: Vec<RowKey>| {
+            let mut keys = Models::keys();
+            keys.extend(key::<f64>("prominence_db", &["Smallest height of a peak over the valleys beside it."], false));
+            keys.extend(key::<Vec<f64>>("frequency_hz", &["Frequencies."], false));
+            keys.extend(own);
+            schema_of("Frf", &[about], keys)
+        };
+        let several = key::<Vec<PairRow>>("responses", &["Response of every output to every input."], false);
+        json!({ "oneOf": [of("One frequency response.", PairRow::keys()), of("Several frequency responses.", several)] })
+    }
 }
 
 /// Computes frequency responses and their peaks.
@@ -464,16 +457,20 @@ impl Response {
     }
 }
 
-/// Place of the input or output of a response.
+/// Place of the input of a response, or of its output.
 #[derive(Clone, Copy)]
-pub struct PlaceRow {
+pub struct PlaceRow<const IS_INPUT: bool> {
     /// True if the point is on a cable. It is then in world axes, at equilibrium, and not in the platform frame.
     pub on_cable: bool,
     /// `None` for a signal of a drive or a motion of the frame, which have no point.
     pub point_m: Option<[f64; 3]>,
 }
 
-impl PlaceRow {
+impl<const IS_INPUT: bool> PlaceRow<IS_INPUT> {
+    /// Key of a point of the platform, and that of a point on a cable.
+    const KEYS: [&'static str; 2] =
+        if IS_INPUT { ["input_point_m", "input_point_w_m"] } else { ["output_point_m", "output_point_w_m"] };
+
     fn of(port: &Port, point: Option<[f64; 3]>) -> Self {
         match (port, port.cable_point_w()) {
             (Port::Drive { .. } | Port::Frame(_), _) => Self { on_cable: true, point_m: None },
@@ -481,22 +478,20 @@ impl PlaceRow {
             (_, Some(point_w)) => Self { on_cable: true, point_m: Some(point_w.into()) },
         }
     }
+}
 
-    fn serialize<S: Serializer>(&self, keys: [&'static str; 2], to: S) -> Result<S::Ok, S::Error> {
-        let mut map = to.serialize_map(None)?;
-        if let Some(point) = &self.point_m {
-            map.serialize_entry(keys[usize::from(self.on_cable)], point)?;
-        }
-        map.end()
+impl<const IS_INPUT: bool> Row for PlaceRow<IS_INPUT> {
+    fn keys() -> Vec<RowKey> {
+        let abouts = ["Point of the platform, its frame.", "Point on the cable at equilibrium, world frame."];
+        Self::KEYS.iter().zip(abouts).flat_map(|(name, about)| key::<Option<[f64; 3]>>(name, &[about], false)).collect()
     }
-}
 
-fn input_place<S: Serializer>(place: &PlaceRow, to: S) -> Result<S::Ok, S::Error> {
-    place.serialize(["input_point_m", "input_point_w_m"], to)
-}
-
-fn output_place<S: Serializer>(place: &PlaceRow, to: S) -> Result<S::Ok, S::Error> {
-    place.serialize(["output_point_m", "output_point_w_m"], to)
+    fn put<M: SerializeMap>(&self, map: &mut M) -> Result<(), M::Error> {
+        match &self.point_m {
+            Some(point) => map.serialize_entry(Self::KEYS[usize::from(self.on_cable)], point),
+            None => Ok(()),
+        }
+    }
 }
 
 /// Value of a response at a frequency.

@@ -15,6 +15,7 @@ use crate::error::NoSolution;
 use crate::measure::MeasureGroup;
 use crate::names::{Named, Per};
 use crate::request::{self, GradientRequest, RobotText};
+use crate::rows::rows;
 use crate::table::Column;
 use anyhow::{Result, bail};
 use funicular::gradient::{GradientError, Gradients, Hold};
@@ -22,71 +23,69 @@ use funicular::robot::Robot;
 use funicular::statics::TensionRule;
 use funicular::statics::derivatives::StaticDerivativeError;
 use rows::GradientRows;
-use serde::Serialize;
 use serde_json::Value;
 
-/// Results of `gradient`: derivatives of results by numbers of the robot file.
-#[derive(Serialize)]
-pub struct GradientTable {
-    #[serde(skip)]
-    pub robot: String,
-    #[serde(flatten)]
-    pub models: Models,
-    /// Quantity that is held while a number changes: `lengths` or `pose`.
-    pub held: &'static str,
-    /// Sentence that says what is held, and by which rule the rest follows.
-    pub held_means: &'static str,
-    /// Unit of the derivatives: `unit`, `percent` or `tolerance`.
-    pub per: &'static str,
-    /// Numbers of the robot file; one column of `derivatives` each.
-    pub parameters: Vec<GradientParameter>,
-    /// Results; one row of `derivatives` each.
-    pub results: Vec<GradientResult>,
-    /// Results without a gradient, each with the reason.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub refused: Vec<RefusedResult>,
-    /// Paths of numbers without derivatives, such as limits.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub without_derivative: Vec<String>,
-    #[serde(skip)]
-    pub warnings: Vec<String>,
+rows! {
+    /// Results of `gradient`: derivatives of results by numbers of the robot file.
+    pub struct GradientTable {
+        pub robot: String = hidden;
+        pub models: Models = spread;
+        /// Quantity that is held while a number changes: `lengths` or `pose`.
+        pub held: &'static str;
+        /// Sentence that says what is held, and by which rule the rest follows.
+        pub held_means: &'static str;
+        /// Unit of the derivatives: `unit`, `percent` or `tolerance`.
+        pub per: &'static str;
+        /// Numbers of the robot file; one column of `derivatives` each.
+        pub parameters: Vec<GradientParameter>;
+        /// Results; one row of `derivatives` each.
+        pub results: Vec<GradientResult>;
+        /// Results without a gradient, each with the reason.
+        pub refused: Vec<RefusedResult> = sparse;
+        /// Paths of numbers without derivatives, such as limits.
+        pub without_derivative: Vec<String> = sparse;
+        pub warnings: Vec<String> = hidden;
+    }
 }
 
-/// Number of the robot file.
-#[derive(Debug, Clone, Serialize)]
-pub struct GradientParameter {
-    pub path: String,
-    /// Value with which the results are computed.
-    pub value: f64,
-    pub unit: &'static str,
-    /// Step `tolerance`, in the unit of the number.
-    pub tolerance: f64,
+rows! {
+    /// Number of the robot file.
+    #[derive(Debug, Clone)]
+    pub struct GradientParameter {
+        pub path: String;
+        /// Value with which the results are computed.
+        pub value: f64;
+        pub unit: &'static str;
+        /// Step `tolerance`, in the unit of the number.
+        pub tolerance: f64;
+    }
 }
 
-/// Result with its derivatives.
-#[derive(Serialize)]
-pub struct GradientResult {
-    /// Name, such as `frequency 3` or `tension of cable "2" at the anchor`.
-    pub name: String,
-    /// Identity as data: `kind`, and the cable, mode or frequency to which the result belongs.
-    pub measure: Value,
-    pub unit: String,
-    pub value: f64,
-    /// Entry of the block of modes that share a frequency: numbers of the two modes in the list, from 1. Along a
-    /// change, the derivatives of the frequencies are the eigenvalues of the block.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub block_entry: Option<[usize; 2]>,
-    /// Derivatives, one per number of the robot file.
-    pub derivatives: Vec<f64>,
+rows! {
+    /// Result with its derivatives.
+    pub struct GradientResult {
+        /// Name, such as `frequency 3` or `tension of cable "2" at the anchor`.
+        pub name: String;
+        /// Identity as data: `kind`, and the cable, mode or frequency to which the result belongs.
+        pub measure: Value;
+        pub unit: String;
+        pub value: f64;
+        /// Entry of the block of modes that share a frequency: numbers of the two modes in the list, from 1. Along a
+        /// change, the derivatives of the frequencies are the eigenvalues of the block.
+        pub block_entry: Option<[usize; 2]>;
+        /// Derivatives, one per number of the robot file.
+        pub derivatives: Vec<f64>;
+    }
 }
 
-/// Result without a gradient.
-#[derive(Serialize)]
-pub struct RefusedResult {
-    pub name: String,
-    /// Identity as data, as in [`GradientResult`].
-    pub measure: Value,
-    pub reason: String,
+rows! {
+    /// Result without a gradient.
+    pub struct RefusedResult {
+        pub name: String;
+        /// Identity as data, as in [`GradientResult`].
+        pub measure: Value;
+        pub reason: String;
+    }
 }
 
 /// Derivative of a result by a number.

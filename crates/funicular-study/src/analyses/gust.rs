@@ -11,6 +11,7 @@ use crate::at_rest::{self, AtRest, ModesBelow};
 use crate::columns::{Columns, ResultTable, Tabled, column};
 use crate::error::NoSolution;
 use crate::request::{self, GustRequest, TurbulenceOptions, check_vector};
+use crate::rows::rows;
 use crate::signals::Output;
 use crate::table::Column;
 use anyhow::{Context, Result, bail};
@@ -19,79 +20,73 @@ use funicular::math::Vec3;
 use funicular::modes;
 use funicular::response::{Quantity, Signal};
 use funicular::robot::{PlatformMotion, Robot, Turbulence};
-use serde::Serialize;
 
-/// Results of `gust`.
-#[derive(Serialize)]
-pub struct Gusty {
-    #[serde(skip)]
-    pub robot: String,
-    pub below_hz: f64,
-    #[serde(flatten)]
-    pub models: Models,
-    pub mean_wind_m_s: [f64; 3],
-    pub turbulence: TurbulenceRow,
-    pub duration_s: f64,
-    /// Modes below the limit, with their damping in still air and by the mean wind.
-    pub modes: Vec<AirDamping>,
-    pub frequency_hz: Vec<f64>,
-    pub outputs: Vec<GustRow>,
-    #[serde(skip)]
-    pub warnings: Vec<String>,
+rows! {
+    /// Results of `gust`.
+    pub struct Gusty {
+        pub robot: String = hidden;
+        pub below_hz: f64;
+        pub models: Models = spread;
+        pub mean_wind_m_s: [f64; 3];
+        pub turbulence: TurbulenceRow;
+        pub duration_s: f64;
+        /// Modes below the limit, with their damping in still air and by the mean wind.
+        pub modes: Vec<AirDamping>;
+        pub frequency_hz: Vec<f64>;
+        pub outputs: Vec<GustRow>;
+        pub warnings: Vec<String> = hidden;
+    }
 }
 
-/// Turbulence of the results.
-#[derive(Serialize)]
-pub struct TurbulenceRow {
-    pub spectrum: &'static str,
-    pub intensity: [f64; 3],
-    /// Absent for measured spectra.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub length_scale_m: Option<[f64; 3]>,
-    pub coherence_decay: [f64; 3],
-    pub frozen: bool,
+rows! {
+    /// Turbulence of the results.
+    pub struct TurbulenceRow {
+        pub spectrum: &'static str;
+        pub intensity: [f64; 3];
+        /// Absent for measured spectra.
+        pub length_scale_m: Option<[f64; 3]>;
+        pub coherence_decay: [f64; 3];
+        pub frozen: bool;
+    }
 }
 
-/// Damping of a mode, of first order.
-#[derive(Serialize)]
-pub struct AirDamping {
-    pub frequency_hz: f64,
-    pub damping_ratio: f64,
-    /// Damping ratio by the mean wind, which adds to the other.
-    pub aerodynamic_damping_ratio: f64,
+rows! {
+    /// Damping of a mode, of first order.
+    pub struct AirDamping {
+        pub frequency_hz: f64;
+        pub damping_ratio: f64;
+        /// Damping ratio by the mean wind, which adds to the other.
+        pub aerodynamic_damping_ratio: f64;
+    }
 }
 
-/// One output in gusts.
-#[derive(Serialize)]
-pub struct GustRow {
-    pub output: String,
-    pub unit: String,
-    /// Mean tension; zero for a motion, which is about the equilibrium in the mean wind.
-    pub mean: f64,
-    pub rms: f64,
-    /// R.m.s. value without the dynamics of the robot; absent without stiffness.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub quasi_static_rms: Option<f64>,
-    /// Rate at which the mean is crossed upwards.
-    pub rate_hz: f64,
-    /// Expected largest excursion to one side within the duration; absent for fewer than ten expected crossings.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub peak: Option<f64>,
-    /// Standard deviation of that excursion.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub peak_deviation: Option<f64>,
-    /// Probability that the tension falls to zero within the duration, 0 below 1e-12; tensions alone.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub slack_probability: Option<f64>,
-    /// Part of the variance nearest to each mode of `modes`, in their order.
-    pub share_by_mode: Vec<f64>,
-    /// Spectral density, unit squared per Hz.
-    pub density: Vec<f64>,
-    /// Spectral density without the dynamics of the robot; empty without stiffness.
-    pub slow_density: Vec<f64>,
-    /// Frequency and share of the mode with the largest share.
-    #[serde(skip)]
-    pub main_mode: Option<(f64, f64)>,
+rows! {
+    /// One output in gusts.
+    pub struct GustRow {
+        pub output: String;
+        pub unit: String;
+        /// Mean tension; zero for a motion, which is about the equilibrium in the mean wind.
+        pub mean: f64;
+        pub rms: f64;
+        /// R.m.s. value without the dynamics of the robot; absent without stiffness.
+        pub quasi_static_rms: Option<f64>;
+        /// Rate at which the mean is crossed upwards.
+        pub rate_hz: f64;
+        /// Expected largest excursion to one side within the duration; absent for fewer than ten expected crossings.
+        pub peak: Option<f64>;
+        /// Standard deviation of that excursion.
+        pub peak_deviation: Option<f64>;
+        /// Probability that the tension falls to zero within the duration, 0 below 1e-12; tensions alone.
+        pub slack_probability: Option<f64>;
+        /// Part of the variance nearest to each mode of `modes`, in their order.
+        pub share_by_mode: Vec<f64>;
+        /// Spectral density, unit squared per Hz.
+        pub density: Vec<f64>;
+        /// Spectral density without the dynamics of the robot; empty without stiffness.
+        pub slow_density: Vec<f64>;
+        /// Frequency and share of the mode with the largest share.
+        pub main_mode: Option<(f64, f64)> = hidden;
+    }
 }
 
 impl GustRow {
@@ -362,7 +357,7 @@ impl AirDamping {
             move |mode: &Self, style: crate::columns::Style| style.significant(100.0 * ratio(mode), 3)
         };
         Columns::new([
-            column("frequency_hz", "Hz", "natural frequency", |mode: &Self| mode.frequency_hz).decimals("f", "Hz", 4),
+            column("frequency_hz", "Hz", "natural frequency", |mode: &Self| mode.frequency_hz).decimals("f", 4),
             column("damping_ratio", "1", "damping ratio in still air", |mode: &Self| mode.damping_ratio).shown(
                 "damping",
                 "%",
@@ -382,21 +377,23 @@ impl GustRow {
         Columns::new([
             column("output", "", "output", |row: &Self| row.output.clone()).plain("output"),
             column("unit", "", "unit", |row: &Self| row.unit.clone()).plain("unit"),
-            column("mean", "", "mean", |row: &Self| row.mean).significant("mean", "", 4),
-            column("rms", "", "r.m.s. value about the mean", |row: &Self| row.rms).significant("r.m.s.", "", 4),
+            column("mean", "", "mean", |row: &Self| row.mean).significant("mean", 4),
+            column("rms", "", "r.m.s. value about the mean", |row: &Self| row.rms).significant("r.m.s.", 4),
             column("quasi_static_rms", "", "r.m.s. value without dynamics", |row: &Self| row.quasi_static_rms)
-                .significant("slow gusts", "", 4),
+                .significant("slow gusts", 4),
             column("main_mode_hz", "Hz", "mode nearest to which most of the variance is", |row: &Self| {
                 row.main_mode.map(|(hz, _)| hz)
             })
-            .significant("mostly near", "Hz", 3),
+            .significant("mostly near", 3),
             column("main_share", "1", "part of the variance there", |row: &Self| row.main_mode.map(|(_, part)| part))
-                .significant("part", "1", 2),
-            column("rate_hz", "Hz", "rate of crossings", |row: &Self| row.rate_hz).significant("rate", "Hz", 3),
-            column("smallest", "", "expected smallest value", Self::smallest).significant("smallest", "", 4),
-            column("largest", "", "expected largest value", Self::largest).significant("largest", "", 4),
+                .significant("part", 2)
+                .with_unit("1"),
+            column("rate_hz", "Hz", "rate of crossings", |row: &Self| row.rate_hz).significant("rate", 3),
+            column("smallest", "", "expected smallest value", Self::smallest).significant("smallest", 4),
+            column("largest", "", "expected largest value", Self::largest).significant("largest", 4),
             column("slack_probability", "1", "probability of a slack cable", |row: &Self| row.slack_probability)
-                .significant("slack", "1", 2),
+                .significant("slack", 2)
+                .with_unit("1"),
         ])
     }
 }

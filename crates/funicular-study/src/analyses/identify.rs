@@ -34,6 +34,7 @@ use crate::chosen_numbers::at_bound;
 use crate::columns::{Columns, ResultTable, Style, Tabled, column, only_read, parts};
 use crate::parameter_pattern::ParameterPattern;
 use crate::request::{self, Experiment, IdentifyRequest};
+use crate::rows::rows;
 use crate::table::Column;
 use crate::text::{counted, digits_for, significant};
 use anyhow::{Result, bail};
@@ -46,7 +47,6 @@ use precision::{Judged, judge};
 use resolution::unresolved_peaks;
 use ridge::{Profiled, profiles};
 use search::{Searched, search};
-use serde::Serialize;
 use starts::StartRow;
 use std::cell::RefCell;
 use tables::Tables;
@@ -55,91 +55,82 @@ use unknowns::{Unknown, unknowns};
 /// Maximum number of starts.
 const MAX_STARTS: usize = 1000;
 
-/// Results of `identify`.
-#[derive(Serialize)]
-pub struct Identified {
-    #[serde(skip)]
-    pub robot: String,
-    pub values: Vec<ValueRow>,
-    /// Sum of the squares of all residuals, those of priors included.
-    pub chi2: f64,
-    pub residuals: usize,
-    pub degrees_of_freedom: usize,
-    pub chi2_per_degree: f64,
-    /// Factor by which the deviations of the values were multiplied.
-    pub deviation_factor: f64,
-    pub verdict: String,
-    pub correlations: Vec<Vec<f64>>,
-    pub singular_values: Vec<f64>,
-    /// Combinations of values that the measurements do not determine.
-    pub weak_combinations: Vec<String>,
-    pub strong_correlations: Vec<String>,
-    /// True if the last search has ended at a minimum, and the starts have not ended apart.
-    pub converged: bool,
-    pub starts: Vec<StartRow>,
-    pub evaluations: usize,
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub frequencies: Vec<FrequencyRow>,
-    /// Root mean square of the relative differences of all natural frequencies.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub frequency_rms: Option<f64>,
-    /// Root mean square before the fit, with the same modes as partners.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub frequency_rms_before: Option<f64>,
-    /// Assignment of frequencies without a number, unless responses were measured as well.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub assignment: Option<ModeAssignment>,
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub responses: Vec<FittedResponse>,
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub statics: Vec<StaticRow>,
-    /// Measurements to make next.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub proposals: Vec<ProposedMeasurement>,
-    /// Least number of proposed measurements that reaches the wanted deviation; absent if none was wanted or no number
-    /// does.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub measurements_needed: Option<usize>,
-    /// Robot file with the values.
-    pub robot_file: String,
-    #[serde(skip)]
-    pub warnings: Vec<String>,
+rows! {
+    /// Results of `identify`.
+    pub struct Identified {
+        pub robot: String = hidden;
+        pub values: Vec<ValueRow>;
+        /// Sum of the squares of all residuals, those of priors included.
+        pub chi2: f64;
+        pub residuals: usize;
+        pub degrees_of_freedom: usize;
+        pub chi2_per_degree: f64;
+        /// Factor by which the deviations of the values were multiplied.
+        pub deviation_factor: f64;
+        pub verdict: String;
+        pub correlations: Vec<Vec<f64>>;
+        pub singular_values: Vec<f64>;
+        /// Combinations of values that the measurements do not determine.
+        pub weak_combinations: Vec<String>;
+        pub strong_correlations: Vec<String>;
+        /// True if the last search has ended at a minimum, and the starts have not ended apart.
+        pub converged: bool;
+        pub starts: Vec<StartRow>;
+        pub evaluations: usize;
+        pub frequencies: Vec<FrequencyRow> = sparse;
+        /// Root mean square of the relative differences of all natural frequencies.
+        pub frequency_rms: Option<f64>;
+        /// Root mean square before the fit, with the same modes as partners.
+        pub frequency_rms_before: Option<f64>;
+        /// Assignment of frequencies without a number, unless responses were measured as well.
+        pub assignment: Option<ModeAssignment>;
+        pub responses: Vec<FittedResponse> = sparse;
+        pub statics: Vec<StaticRow> = sparse;
+        /// Measurements to make next.
+        pub proposals: Vec<ProposedMeasurement> = sparse;
+        /// Least number of proposed measurements that reaches the wanted deviation; absent if none was wanted or no number
+        /// does.
+        pub measurements_needed: Option<usize>;
+        /// Robot file with the values.
+        pub robot_file: String;
+        pub warnings: Vec<String> = hidden;
+    }
 }
 
-/// Assignment of measured frequencies without a number to modes; the numbers are in `frequencies`.
-#[derive(Serialize)]
-pub struct ModeAssignment {
-    /// False if other assignments are possible; deviations and intervals are then absent.
-    pub determined: bool,
-    /// Reasons why it is not determined.
-    pub doubts: Vec<String>,
-    /// Number of frequencies without a number.
-    pub frequencies: usize,
-    /// Number of these with several modes within two deviations.
-    pub crowded: usize,
-    /// Number of lists of random frequencies that were fitted in their place.
-    pub random_lists: usize,
-    /// Number of these lists that fit at least as well.
-    pub random_as_good: usize,
-    /// Median of χ² per degree of freedom of these lists.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub random_chi2_per_degree: Option<f64>,
-    /// Best fit with other modes.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub second_best: Option<SecondBest>,
+rows! {
+    /// Assignment of measured frequencies without a number to modes; the numbers are in `frequencies`.
+    pub struct ModeAssignment {
+        /// False if other assignments are possible; deviations and intervals are then absent.
+        pub determined: bool;
+        /// Reasons why it is not determined.
+        pub doubts: Vec<String>;
+        /// Number of frequencies without a number.
+        pub frequencies: usize;
+        /// Number of these with several modes within two deviations.
+        pub crowded: usize;
+        /// Number of lists of random frequencies that were fitted in their place.
+        pub random_lists: usize;
+        /// Number of these lists that fit at least as well.
+        pub random_as_good: usize;
+        /// Median of χ² per degree of freedom of these lists.
+        pub random_chi2_per_degree: Option<f64>;
+        /// Best fit with other modes.
+        pub second_best: Option<SecondBest>;
+    }
 }
 
-/// Best fit with other modes and other values.
-#[derive(Serialize)]
-pub struct SecondBest {
-    /// Values in the order of the identified ones.
-    pub values: Vec<f64>,
-    pub chi2: f64,
-    pub chi2_per_degree: f64,
-    /// Numbers of the modes in the ascending list, in the order of `frequencies` of the results.
-    pub numbers: Vec<usize>,
-    /// Natural frequencies of these modes [Hz].
-    pub frequency_hz: Vec<f64>,
+rows! {
+    /// Best fit with other modes and other values.
+    pub struct SecondBest {
+        /// Values in the order of the identified ones.
+        pub values: Vec<f64>;
+        pub chi2: f64;
+        pub chi2_per_degree: f64;
+        /// Numbers of the modes in the ascending list, in the order of `frequencies` of the results.
+        pub numbers: Vec<usize>;
+        /// Natural frequencies of these modes [Hz].
+        pub frequency_hz: Vec<f64>;
+    }
 }
 
 impl ModeAssignment {
@@ -189,35 +180,28 @@ impl SecondBest {
     }
 }
 
-/// Identified value.
-#[derive(Serialize)]
-pub struct ValueRow {
-    pub path: String,
-    pub unit: &'static str,
-    pub start: f64,
-    pub value: f64,
-    /// Standard deviation; absent for a value that the measurements do not determine, or that moves with such a value.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub deviation: Option<f64>,
-    /// Interval that holds the value with 95 %: that of the deviation, or that of the profile where χ² is no parabola.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub interval_95: Option<[f64; 2]>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub prior: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub prior_deviation: Option<f64>,
-    /// `minimum` or `maximum` if the value is at this bound.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub at_bound: Option<&'static str>,
-    /// Values that the measurements determine poorly, with which this one moves farther than its deviation.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub moves_with: Vec<String>,
-    /// Interval of the deviation; absent if χ² is no parabola.
-    #[serde(skip)]
-    pub parabola_95: Option<[f64; 2]>,
-    /// Profile of χ², if it was asked for or if χ² is no parabola.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub profile: Option<Profile>,
+rows! {
+    /// Identified value.
+    pub struct ValueRow {
+        pub path: String;
+        pub unit: &'static str;
+        pub start: f64;
+        pub value: f64;
+        /// Standard deviation; absent for a value that the measurements do not determine, or that moves with such a value.
+        pub deviation: Option<f64>;
+        /// Interval that holds the value with 95 %: that of the deviation, or that of the profile where χ² is no parabola.
+        pub interval_95: Option<[f64; 2]>;
+        pub prior: Option<f64>;
+        pub prior_deviation: Option<f64>;
+        /// `minimum` or `maximum` if the value is at this bound.
+        pub at_bound: Option<&'static str>;
+        /// Values that the measurements determine poorly, with which this one moves farther than its deviation.
+        pub moves_with: Vec<String> = sparse;
+        /// Interval of the deviation; absent if χ² is no parabola.
+        pub parabola_95: Option<[f64; 2]> = hidden;
+        /// Profile of χ², if it was asked for or if χ² is no parabola.
+        pub profile: Option<Profile>;
+    }
 }
 
 impl ValueRow {
@@ -553,7 +537,7 @@ impl<'a> FittedValue<'a> {
         let values = [
             column("path", "", "path of the number", |of: &Self| of.row.path.clone()).plain("value"),
             column("unit", "", "unit of the number", |of: &Self| of.row.unit).plain("unit"),
-            column("start", "", "value of the file", |of: &Self| of.row.start).significant("start", "", 6),
+            column("start", "", "value of the file", |of: &Self| of.row.start).significant("start", 6),
             column("value", "", "identified value", |of: &Self| of.row.value)
                 .shown("identified", "", |of, style| style.significant(of.row.value, of.row.digits())),
             column(
@@ -562,7 +546,7 @@ impl<'a> FittedValue<'a> {
                 "standard deviation; empty if the measurements do not determine the value",
                 |of: &Self| of.row.deviation,
             )
-            .significant("deviation", "", 2),
+            .significant("deviation", 2),
             from,
             to,
             column("prior", "", "value that was known beforehand", |of: &Self| of.row.prior)

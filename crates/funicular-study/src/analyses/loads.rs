@@ -7,76 +7,66 @@ use crate::at_rest;
 use crate::columns::{Columns, ResultTable, Tabled, column};
 use crate::error::with_warnings;
 use crate::request::LoadsRequest;
+use crate::rows::rows;
 use crate::table::Column;
 use anyhow::{Result, bail};
 use funicular::gradient::LoadFactorGradient;
 use funicular::robot::{Pose, Robot, State};
 use funicular::statics::{self, LoadCapacity, WrenchClosure};
 use funicular::warnings;
-use serde::Serialize;
 
-/// Results of `loads`.
-#[derive(Serialize)]
-pub struct Loads {
-    #[serde(skip)]
-    pub robot: String,
-    pub static_model: &'static str,
-    pub pose: PoseRow,
-    /// Number of independent wrenches of the cables, and the degrees of freedom.
-    pub rank: usize,
-    pub dof: usize,
-    /// True if straight cables could balance every load with tensions that are high enough.
-    pub closure: bool,
-    pub tension_factor: f64,
-    /// True if the dead load with the lightest payload is held within the limits.
-    pub dead_load_held: bool,
-    /// Reason why the dead load is not held.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub dead_load_reason: Option<String>,
-    /// Radius of the largest ball of loads that can be added to every required load, moments over the length of the
-    /// platform.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub capacity_margin_n: Option<f64>,
-    /// Length by which moments are divided in the margin, and angular accelerations multiplied.
-    pub platform_length_m: f64,
-    /// Largest acceleration in every direction from rest.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub acceleration_max_m_s2: Option<f64>,
-    /// Required loads and how much of them is held; absent if nothing is required or the dead load is not held.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub required: Option<RequiredHeld>,
-    #[serde(skip)]
-    pub warnings: Vec<String>,
+rows! {
+    /// Results of `loads`.
+    pub struct Loads {
+        pub robot: String = hidden;
+        pub static_model: &'static str;
+        pub pose: PoseRow;
+        /// Number of independent wrenches of the cables, and the degrees of freedom.
+        pub rank: usize;
+        pub dof: usize;
+        /// True if straight cables could balance every load with tensions that are high enough.
+        pub closure: bool;
+        pub tension_factor: f64;
+        /// True if the dead load with the lightest payload is held within the limits.
+        pub dead_load_held: bool;
+        /// Reason why the dead load is not held.
+        pub dead_load_reason: Option<String>;
+        /// Radius of the largest ball of loads that can be added to every required load, moments over the length of the
+        /// platform.
+        pub capacity_margin_n: Option<f64>;
+        /// Length by which moments are divided in the margin, and angular accelerations multiplied.
+        pub platform_length_m: f64;
+        /// Largest acceleration in every direction from rest.
+        pub acceleration_max_m_s2: Option<f64>;
+        /// Required loads and how much of them is held; absent if nothing is required or the dead load is not held.
+        pub required: Option<RequiredHeld>;
+        pub warnings: Vec<String> = hidden;
+    }
 }
 
-/// Load factor with what binds.
-#[derive(Serialize)]
-pub struct RequiredHeld {
-    /// True if all required loads are held.
-    pub held: bool,
-    /// Largest multiple of the required loads; absent if no maximum tension limits it.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub load_factor: Option<f64>,
-    /// Multiple that is proved to be too much.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub load_factor_upper_bound: Option<f64>,
-    /// Multiple up to which all loads inside the set are held, not only its vertices.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub load_factor_lower_bound: Option<f64>,
-    /// Derivatives of the load factor by a motion of the platform along the axes of the world, and by a turn about
-    /// them; absent where it has none.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub load_factor_by_position_per_m: Option<[f64; 3]>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub load_factor_by_rotation_per_rad: Option<[f64; 3]>,
-    /// Required wind that binds, at the multiple 1; absent if it does not act on the ropes.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub wind_m_s: Option<[f64; 3]>,
-    /// Required load that binds, in addition to the dead load.
-    pub force_n: [f64; 3],
-    pub moment_n_m: [f64; 3],
-    /// Cables with the dead load and the largest multiple of this load; empty without a largest multiple.
-    pub cables: Vec<LoadedRow>,
+rows! {
+    /// Load factor with what binds.
+    pub struct RequiredHeld {
+        /// True if all required loads are held.
+        pub held: bool;
+        /// Largest multiple of the required loads; absent if no maximum tension limits it.
+        pub load_factor: Option<f64>;
+        /// Multiple that is proved to be too much.
+        pub load_factor_upper_bound: Option<f64>;
+        /// Multiple up to which all loads inside the set are held, not only its vertices.
+        pub load_factor_lower_bound: Option<f64>;
+        /// Derivatives of the load factor by a motion of the platform along the axes of the world, and by a turn about
+        /// them; absent where it has none.
+        pub load_factor_by_position_per_m: Option<[f64; 3]>;
+        pub load_factor_by_rotation_per_rad: Option<[f64; 3]>;
+        /// Required wind that binds, at the multiple 1; absent if it does not act on the ropes.
+        pub wind_m_s: Option<[f64; 3]>;
+        /// Required load that binds, in addition to the dead load.
+        pub force_n: [f64; 3];
+        pub moment_n_m: [f64; 3];
+        /// Cables with the dead load and the largest multiple of this load; empty without a largest multiple.
+        pub cables: Vec<LoadedRow>;
+    }
 }
 
 /// Compares the loads that the cables hold with the required ones.

@@ -6,6 +6,7 @@ use super::found;
 use super::shared::{Axes, ModeRow, Models};
 use crate::at_rest::{self, AtRest, ModesBelow};
 use crate::request::{self, Model, Terms};
+use crate::rows::rows;
 use crate::signals::{Input, Output, response_unit};
 use anyhow::{Result, anyhow, bail};
 use funicular::cable_motion::CableStations;
@@ -14,65 +15,54 @@ use funicular::math::Rotation;
 use funicular::modes::{self, damped};
 use funicular::response::Signal;
 use funicular::robot::{Robot, WinchMode};
-use serde::Serialize;
 use std::f64::consts::TAU;
 
-/// Results of `modes`: every natural frequency below a limit.
-#[derive(Serialize)]
-pub struct Modes {
-    #[serde(skip)]
-    pub robot: String,
-    pub below_hz: f64,
-    /// True if the request gives no limit, and the lowest natural frequencies are shown.
-    #[serde(skip)]
-    pub is_default_limit: bool,
-    #[serde(flatten)]
-    pub models: Models,
-    pub count_below: usize,
-    pub certified: bool,
-    /// Directions without a frequency, in which the equilibrium is unstable or indifferent.
-    pub unstable_directions: usize,
-    /// True if the equilibrium is indifferent in these directions: nothing holds the platform, nor drives it away.
-    #[serde(skip)]
-    pub is_indifferent: bool,
-    /// True if a count proves that every mode has its damped mode; absent if damping ratios are of first order.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub damped_certified: Option<bool>,
-    /// Percentage of the amplitude to which modes decay in `decay_time_s`; absent for rigid cables.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub decay_percent: Option<f64>,
-    /// Minimum fraction of the kinetic energy in the platform for `first_platform_mode`.
-    pub platform_share: f64,
-    /// First mode of the platform; absent if none lies below the limit.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub first_platform_mode: Option<FirstPlatformMode>,
-    /// Modes below it that move the platform considerably, with at least a fifth of their kinetic energy: a motion of
-    /// the platform that is split beside a resonance of a cable.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub share_platform: Vec<FirstPlatformMode>,
-    pub cable_names: Vec<String>,
-    /// Names of the flexible supports; absent on a rigid frame.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub support_names: Vec<String>,
-    #[serde(flatten)]
-    pub participation: Option<Participation>,
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub stations: Vec<StationsRow>,
-    pub modes: Vec<ModeRow>,
-    /// Points of the platform, for files of mode shapes.
-    #[serde(skip)]
-    pub outline: Outline,
-    #[serde(skip)]
-    pub warnings: Vec<String>,
+rows! {
+    /// Results of `modes`: every natural frequency below a limit.
+    pub struct Modes {
+        pub robot: String = hidden;
+        pub below_hz: f64;
+        /// True if the request gives no limit, and the lowest natural frequencies are shown.
+        pub is_default_limit: bool = hidden;
+        pub models: Models = spread;
+        pub count_below: usize;
+        pub certified: bool;
+        /// Directions without a frequency, in which the equilibrium is unstable or indifferent.
+        pub unstable_directions: usize;
+        /// True if the equilibrium is indifferent in these directions: nothing holds the platform, nor drives it away.
+        pub is_indifferent: bool = hidden;
+        /// True if a count proves that every mode has its damped mode; absent if damping ratios are of first order.
+        pub damped_certified: Option<bool>;
+        /// Percentage of the amplitude to which modes decay in `decay_time_s`; absent for rigid cables.
+        pub decay_percent: Option<f64>;
+        /// Minimum fraction of the kinetic energy in the platform for `first_platform_mode`.
+        pub platform_share: f64;
+        /// First mode of the platform; absent if none lies below the limit.
+        pub first_platform_mode: Option<FirstPlatformMode>;
+        /// Modes below it that move the platform considerably, with at least a fifth of their kinetic energy: a motion of
+        /// the platform that is split beside a resonance of a cable.
+        pub share_platform: Vec<FirstPlatformMode> = sparse;
+        pub cable_names: Vec<String>;
+        /// Names of the flexible supports; absent on a rigid frame.
+        pub support_names: Vec<String> = sparse;
+        pub participation: Option<Participation> = spread;
+        pub stations: Vec<StationsRow> = sparse;
+        pub modes: Vec<ModeRow>;
+        /// Points of the platform, for files of mode shapes.
+        pub outline: Outline = hidden;
+        pub warnings: Vec<String> = hidden;
+    }
 }
 
-/// Mode that moves the platform, with its share: the first one with enough of it, or one below.
-#[derive(Debug, Clone, Copy, Serialize)]
-pub struct FirstPlatformMode {
-    /// Index in the list of modes, from 0.
-    pub index: usize,
-    pub frequency_hz: f64,
-    pub platform_energy_fraction: f64,
+rows! {
+    /// Mode that moves the platform, with its share: the first one with enough of it, or one below.
+    #[derive(Debug, Clone, Copy)]
+    pub struct FirstPlatformMode {
+        /// Index in the list of modes, from 0.
+        pub index: usize;
+        pub frequency_hz: f64;
+        pub platform_energy_fraction: f64;
+    }
 }
 
 impl FirstPlatformMode {
@@ -107,22 +97,24 @@ impl Outline {
     }
 }
 
-/// Input and output of the response to which the modes contribute.
-#[derive(Serialize)]
-pub struct Participation {
-    pub input: String,
-    pub output: String,
-    /// Unit of `peak`.
-    pub peak_unit: String,
+rows! {
+    /// Input and output of the response to which the modes contribute.
+    pub struct Participation {
+        pub input: String;
+        pub output: String;
+        /// Unit of `peak`.
+        pub peak_unit: String;
+    }
 }
 
-/// Stations of a cable, where the displacements of `cable_shapes` are given.
-#[derive(Serialize)]
-pub struct StationsRow {
-    pub cable: String,
-    pub arc_length_m: Vec<f64>,
-    pub position_m: Vec<[f64; 3]>,
-    pub axes: Axes,
+rows! {
+    /// Stations of a cable, where the displacements of `cable_shapes` are given.
+    pub struct StationsRow {
+        pub cable: String;
+        pub arc_length_m: Vec<f64>;
+        pub position_m: Vec<[f64; 3]>;
+        pub axes: Axes;
+    }
 }
 
 /// Computes every natural frequency below a limit.

@@ -3,44 +3,44 @@
 use super::found;
 use crate::columns::{Columns, ResultTable, Tabled, column};
 use crate::request::RobotText;
+use crate::rows::rows;
 use crate::table::Column;
 use anyhow::{Result, anyhow};
 use funicular::robot::parameters::{Parameter, Parameters};
-use serde::Serialize;
 
 /// Magnitude from which a value is shown with an exponent.
 const LONG: f64 = 1e7;
 
-/// Results of `parameters`: the numbers of a robot.
-#[derive(Serialize)]
-pub struct ParameterList {
-    #[serde(skip)]
-    pub robot: String,
-    /// Numbers in the order of the file's documentation: robot, platform, ropes, cables, load, wind, pose.
-    pub parameters: Vec<ParameterRow>,
-    #[serde(skip)]
-    pub warnings: Vec<String>,
+rows! {
+    /// Results of `parameters`: the numbers of a robot.
+    pub struct ParameterList {
+        pub robot: String = hidden;
+        /// Numbers in the order of the file's documentation: robot, platform, ropes, cables, load, wind, pose.
+        pub parameters: Vec<ParameterRow>;
+        pub warnings: Vec<String> = hidden;
+    }
 }
 
-/// Number of a robot.
-#[derive(Serialize)]
-pub struct ParameterRow {
-    /// Path for `set` and `vary`.
-    pub path: String,
-    pub value: f64,
-    /// Unit; `1` for a ratio.
-    pub unit: &'static str,
-    /// Permitted range in words.
-    pub range: String,
-    /// Minimum of the range.
-    pub minimum: f64,
-    /// Maximum of the range, or the limit below which values are permitted.
-    pub maximum: f64,
-    pub meaning: &'static str,
-    /// Name in words with the unit.
-    pub label: String,
-    /// True if the file gives the number; otherwise the value is the default.
-    pub given: bool,
+rows! {
+    /// Number of a robot.
+    pub struct ParameterRow {
+        /// Path for `set` and `vary`.
+        pub path: String;
+        pub value: f64;
+        /// Unit; `1` for a ratio.
+        pub unit: &'static str;
+        /// Permitted range in words.
+        pub range: String;
+        /// Minimum of the range.
+        pub minimum: f64;
+        /// Maximum of the range, or the limit below which values are permitted.
+        pub maximum: f64;
+        pub meaning: &'static str;
+        /// Name in words with the unit.
+        pub label: String;
+        /// True if the file gives the number; otherwise the value is the default.
+        pub given: bool;
+    }
 }
 
 impl ParameterRow {

@@ -6,6 +6,7 @@ use crate::at_rest::{self, AtRest};
 use crate::columns::{Columns, Field, ResultTable, Tabled, column};
 use crate::error::NoSolution;
 use crate::request;
+use crate::rows::rows;
 use crate::table::Column;
 use crate::text::NONE;
 use crate::text::significant;
@@ -16,49 +17,45 @@ use funicular::statics::{
     self, CableState, Equilibrium, LimitAtCable, PayloadBound, PayloadSide, RequestedPayload, StaticModel,
     StaticsError, TensionRange,
 };
-use serde::Serialize;
 
-/// Results of `payload`: the payloads that the cables hold at a pose.
-#[derive(Serialize)]
-pub struct Payload {
-    #[serde(skip)]
-    pub robot: String,
-    pub static_model: &'static str,
-    /// Mass of the platform, without payload.
-    pub mass_kg: f64,
-    pub pose: PoseRow,
-    pub payload_center_m: [f64; 3],
-    /// Minimum payload; zero if the tensions without payload are within their limits.
-    pub minimum: BoundRow,
-    /// Maximum payload; absent if no maximum tension limits it.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub maximum: Option<BoundRow>,
-    #[serde(skip)]
-    pub warnings: Vec<String>,
+rows! {
+    /// Results of `payload`: the payloads that the cables hold at a pose.
+    pub struct Payload {
+        pub robot: String = hidden;
+        pub static_model: &'static str;
+        /// Mass of the platform, without payload.
+        pub mass_kg: f64;
+        pub pose: PoseRow;
+        pub payload_center_m: [f64; 3];
+        /// Minimum payload; zero if the tensions without payload are within their limits.
+        pub minimum: BoundRow;
+        /// Maximum payload; absent if no maximum tension limits it.
+        pub maximum: Option<BoundRow>;
+        pub warnings: Vec<String> = hidden;
+    }
 }
 
-/// Minimum or maximum payload.
-#[derive(Serialize)]
-pub struct BoundRow {
-    pub payload_kg: f64,
-    /// Proved limit: no payload of at least this mass is possible; absent without a proof.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub excluded_from_kg: Option<f64>,
-    /// Tensions with this payload; empty without a payload.
-    pub cables: Vec<LoadedRow>,
+rows! {
+    /// Minimum or maximum payload.
+    pub struct BoundRow {
+        pub payload_kg: f64;
+        /// Proved limit: no payload of at least this mass is possible; absent without a proof.
+        pub excluded_from_kg: Option<f64>;
+        /// Tensions with this payload; empty without a payload.
+        pub cables: Vec<LoadedRow>;
+    }
 }
 
-/// Cable with the payload.
-#[derive(Serialize)]
-pub struct LoadedRow {
-    pub name: String,
-    pub tension_platform_n: f64,
-    pub tension_anchor_n: f64,
-    #[serde(flatten)]
-    pub limits: LimitNumbers,
-    /// Place where the limit is reached: `platform`, `anchor`, `lowest point` or `anywhere`.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub limit_place: Option<&'static str>,
+rows! {
+    /// Cable with the payload.
+    pub struct LoadedRow {
+        pub name: String;
+        pub tension_platform_n: f64;
+        pub tension_anchor_n: f64;
+        pub limits: LimitNumbers = spread;
+        /// Place where the limit is reached: `platform`, `anchor`, `lowest point` or `anywhere`.
+        pub limit_place: Option<&'static str>;
+    }
 }
 
 /// Finds the minimum and the maximum payload.

@@ -8,6 +8,7 @@ use crate::at_rest;
 use crate::columns::{Columns, ResultTable, Tabled, column, parts};
 use crate::error::{Cancelled, NoSolution, with_warnings};
 use crate::request::{self, PoseErrorRequest};
+use crate::rows::rows;
 use crate::table::Column;
 use crate::text::counted;
 use crate::values::positive;
@@ -15,56 +16,50 @@ use anyhow::{Result, anyhow, bail};
 use funicular::pose_error::{self, PoseErrorPoint, Threshold};
 use funicular::robot::{Robot, State};
 use funicular::statics::{self, Solution, StaticModel, StaticsError, TensionRule};
-use serde::Serialize;
 
 pub use super::shared::PoseDifferenceRow;
 
-/// Results of `pose-error`: distances between the poses of static models over platform mass.
-#[derive(Serialize)]
-pub struct PoseErrors {
-    #[serde(skip)]
-    pub robot: String,
-    /// Unstrained lengths, the same at every mass.
-    pub unstrained_length_m: Vec<f64>,
-    /// Origin of the unstrained lengths; absent if they are given.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub held: Option<HeldPoseRow>,
-    pub points: Vec<PoseErrorRow>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub threshold: Option<ThresholdRow>,
-    #[serde(skip)]
-    pub warnings: Vec<String>,
+rows! {
+    /// Results of `pose-error`: distances between the poses of static models over platform mass.
+    pub struct PoseErrors {
+        pub robot: String = hidden;
+        /// Unstrained lengths, the same at every mass.
+        pub unstrained_length_m: Vec<f64>;
+        /// Origin of the unstrained lengths; absent if they are given.
+        pub held: Option<HeldPoseRow>;
+        pub points: Vec<PoseErrorRow>;
+        pub threshold: Option<ThresholdRow>;
+        pub warnings: Vec<String> = hidden;
+    }
 }
 
-/// Pose whose unstrained lengths are held, with the mass and the rule for which they hold it.
-#[derive(Serialize)]
-pub struct HeldPoseRow {
-    pub pose: PoseRow,
-    pub mass_kg: f64,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub tension_rule: Option<&'static str>,
+rows! {
+    /// Pose whose unstrained lengths are held, with the mass and the rule for which they hold it.
+    pub struct HeldPoseRow {
+        pub pose: PoseRow;
+        pub mass_kg: f64;
+        pub tension_rule: Option<&'static str>;
+    }
 }
 
-/// Pose differences at one mass. A difference is absent if one of the two models has no equilibrium.
-#[derive(Serialize)]
-pub struct PoseErrorRow {
-    pub mass_kg: f64,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub spring_from_ideal: Option<PoseDifferenceRow>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub catenary_from_ideal: Option<PoseDifferenceRow>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub spring_from_catenary: Option<PoseDifferenceRow>,
+rows! {
+    /// Pose differences at one mass. A difference is absent if one of the two models has no equilibrium.
+    pub struct PoseErrorRow {
+        pub mass_kg: f64;
+        pub spring_from_ideal: Option<PoseDifferenceRow>;
+        pub catenary_from_ideal: Option<PoseDifferenceRow>;
+        pub spring_from_catenary: Option<PoseDifferenceRow>;
+    }
 }
 
-/// Minimum mass at which springs are good enough.
-#[derive(Serialize)]
-pub struct ThresholdRow {
-    pub tolerance_mm: f64,
-    /// `everywhere`, `from` or `nowhere`.
-    pub within: &'static str,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub from_mass_kg: Option<f64>,
+rows! {
+    /// Minimum mass at which springs are good enough.
+    pub struct ThresholdRow {
+        pub tolerance_mm: f64;
+        /// `everywhere`, `from` or `nowhere`.
+        pub within: &'static str;
+        pub from_mass_kg: Option<f64>;
+    }
 }
 
 /// Computes the distances between the poses of ideal, spring and catenary cables over platform mass.

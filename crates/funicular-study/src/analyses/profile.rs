@@ -1,7 +1,9 @@
 //! Profile of χ²: how it rises if one value is held beside its best one and all others are fitted again, and where it
 //! reaches the limit of an interval. `identify` and `calibrate` make the fits.
 
+use crate::rows::{Described, rows};
 use anyhow::Result;
+use serde_json::{Value, json};
 
 /// Root of the rise of χ² at the ends of an interval of 95 %: the quantile of the normal distribution, whose square
 /// 3.84 is the quantile of χ² with one degree of freedom.
@@ -30,13 +32,15 @@ const FRACTIONS: [f64; 4] = [0.25, 0.5, 0.75, 1.25];
 /// shows that the search missed it.
 const FALL: f64 = 1e-2;
 
-/// Point of a profile.
-#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
-pub struct ProfilePoint {
-    /// Value that is held.
-    pub value: f64,
-    /// Rise of χ² over its minimum, divided by the square of the factor of the deviations.
-    pub chi2_rise: f64,
+rows! {
+    /// Point of a profile.
+    #[derive(Debug, Clone, Copy, PartialEq)]
+    pub struct ProfilePoint {
+        /// Value that is held.
+        pub value: f64;
+        /// Rise of χ² over its minimum, divided by the square of the factor of the deviations.
+        pub chi2_rise: f64;
+    }
 }
 
 /// Reason why a profile has no end on a side.
@@ -51,27 +55,31 @@ pub enum OpenEnd {
     NoEquilibrium,
 }
 
-/// Profile of one value.
-#[derive(Debug, Clone, PartialEq, serde::Serialize)]
-pub struct Profile {
-    /// Lower end of the interval that holds the value with 95 %; absent if χ² does not reach its limit.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub from: Option<f64>,
-    /// Upper end.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub to: Option<f64>,
-    /// Reason why there is no lower end.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub open_below: Option<OpenEnd>,
-    /// Reason why there is no upper end.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub open_above: Option<OpenEnd>,
-    /// Points, ascending, with the minimum.
-    pub points: Vec<ProfilePoint>,
-    /// Fits that were made.
-    pub fits: usize,
-    /// True if a fit has a smaller χ² than the minimum: the search has missed it.
-    pub falls: bool,
+impl Described for OpenEnd {
+    fn schema() -> Value {
+        json!({ "type": "string", "enum": ["bound", "flat", "no-equilibrium"] })
+    }
+}
+
+rows! {
+    /// Profile of one value.
+    #[derive(Debug, Clone, PartialEq)]
+    pub struct Profile {
+        /// Lower end of the interval that holds the value with 95 %; absent if χ² does not reach its limit.
+        pub from: Option<f64>;
+        /// Upper end.
+        pub to: Option<f64>;
+        /// Reason why there is no lower end.
+        pub open_below: Option<OpenEnd>;
+        /// Reason why there is no upper end.
+        pub open_above: Option<OpenEnd>;
+        /// Points, ascending, with the minimum.
+        pub points: Vec<ProfilePoint>;
+        /// Fits that were made.
+        pub fits: usize;
+        /// True if a fit has a smaller χ² than the minimum: the search has missed it.
+        pub falls: bool;
+    }
 }
 
 impl Profile {

@@ -10,6 +10,7 @@ use crate::columns::{Columns, ResultTable, Tabled, column};
 use crate::error::Cancelled;
 use crate::names::{ModelForm, Named};
 use crate::request;
+use crate::rows::{Described, rows};
 use crate::signals::{Input, Output, SignalLists};
 use crate::table::Column;
 use crate::text::significant;
@@ -22,6 +23,7 @@ use funicular::reduced_model::{Coordinate, DampingAt, ReductionError, RequestedM
 use funicular::response::{Quantity, Signal};
 use funicular::robot::Robot;
 use serde::Serialize;
+use serde_json::{Value, json};
 
 /// Maximum number of natural frequencies of one model. It has about twice as many coordinates.
 const MAX_MODES: usize = 400;
@@ -40,6 +42,12 @@ const MAX_ORDER: usize = 400;
 pub enum ReducedForm {
     StateSpace(Box<ControlStateSpace>),
     SecondOrder(Box<Reduced>),
+}
+
+impl Described for ReducedForm {
+    fn schema() -> Value {
+        json!({ "oneOf": [ControlStateSpace::schema(), Reduced::schema()] })
+    }
 }
 
 impl Found for ReducedForm {
@@ -70,49 +78,44 @@ impl ReducedForm {
     }
 }
 
-/// Results of `reduce` in second-order form: a model and its errors.
-#[derive(Serialize)]
-pub struct Reduced {
-    #[serde(skip)]
-    pub robot: String,
-    pub form: &'static str,
-    pub below_hz: f64,
-    #[serde(flatten)]
-    pub models: Models,
-    pub order: usize,
-    pub frequency_error: f64,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub truncation_error: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub damping_error: Option<f64>,
-    pub damping: String,
-    pub inputs: Vec<ChannelRow>,
-    pub outputs: Vec<ChannelRow>,
-    pub coordinates: Vec<CoordinateRow>,
-    /// File or folder to which a front end has written the matrices.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub matrices_file: Option<String>,
-    /// Model with its matrices.
-    #[serde(skip)]
-    pub model: SecondOrder,
-    #[serde(skip)]
-    pub warnings: Vec<String>,
+rows! {
+    /// Results of `reduce` in second-order form: a model and its errors.
+    pub struct Reduced {
+        pub robot: String = hidden;
+        pub form: &'static str;
+        pub below_hz: f64;
+        pub models: Models = spread;
+        pub order: usize;
+        pub frequency_error: f64;
+        pub truncation_error: Option<f64>;
+        pub damping_error: Option<f64>;
+        pub damping: String;
+        pub inputs: Vec<ChannelRow>;
+        pub outputs: Vec<ChannelRow>;
+        pub coordinates: Vec<CoordinateRow>;
+        /// File or folder to which a front end has written the matrices.
+        pub matrices_file: Option<String>;
+        /// Model with its matrices.
+        pub model: SecondOrder = hidden;
+        pub warnings: Vec<String> = hidden;
+    }
 }
 
-/// Input or output of the model.
-#[derive(Serialize)]
-pub struct ChannelRow {
-    pub name: String,
-    pub unit: &'static str,
+rows! {
+    /// Input or output of the model.
+    pub struct ChannelRow {
+        pub name: String;
+        pub unit: &'static str;
+    }
 }
 
-/// Coordinate of the model.
-#[derive(Serialize)]
-pub struct CoordinateRow {
-    pub name: String,
-    pub unit: &'static str,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub clamped_frequency_hz: Option<f64>,
+rows! {
+    /// Coordinate of the model.
+    pub struct CoordinateRow {
+        pub name: String;
+        pub unit: &'static str;
+        pub clamped_frequency_hz: Option<f64>;
+    }
 }
 
 /// Makes a model of the robot for control design, in the requested form.

@@ -24,6 +24,7 @@ use crate::columns::{Columns, ResultTable, Tabled, column, parts};
 use crate::error::NoSolution;
 use crate::frequency_range::rounded_up;
 use crate::request::{self, SettleRequest, check_vector};
+use crate::rows::rows;
 use crate::table::Column;
 use crate::text::{decimals, significant};
 use anyhow::{Result, bail};
@@ -38,142 +39,130 @@ use funicular::statics::{Equilibrium, Stability, StaticModel};
 use history::SwingHistory;
 use motion::MotionKind;
 use release::UnderWrench;
-use serde::Serialize;
 use std::f64::consts::TAU;
 
-/// Results of `settle`.
-#[derive(Serialize)]
-pub struct Settled {
-    #[serde(skip)]
-    pub robot: String,
-    pub below_hz: f64,
-    #[serde(flatten)]
-    pub models: Models,
-    pub tolerance_m: f64,
-    /// Command before the decay; absent for a release.
-    #[serde(flatten)]
-    pub commanded: Option<Commanded>,
-    /// The wrench and its displacement; absent for a command.
-    #[serde(flatten)]
-    pub held: Option<Held>,
-    /// Maximum distance of the point from its rest in the history.
-    pub peak_m: f64,
-    /// Last time at which the point is at the tolerance, since the release or the end of the command; absent if it
-    /// never settles.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub settled_s: Option<f64>,
-    /// Time from which on the sum of all amplitudes is within the tolerance; absent if it never is.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub surely_settled_s: Option<f64>,
-    /// Motion that never ends, because nothing damps it; absent if the point settles.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub never_settles: Option<NeverSettles>,
-    /// True if a count proves that every mode has its damped mode.
-    pub damped_certified: bool,
-    /// Modes that take part, the largest amplitude first.
-    pub modes: Vec<SettlingMode>,
-    /// Motion from the release or the end of the command on.
-    pub history: Vec<HistoryRow>,
-    /// Frequency up to which modes are in the history; absent if all are.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub history_up_to_hz: Option<f64>,
-    /// Rows while the command runs, if there is one, and after it.
-    #[serde(skip)]
-    whole: Vec<HistoryRow>,
-    #[serde(skip)]
-    pub warnings: Vec<String>,
+rows! {
+    /// Results of `settle`.
+    pub struct Settled {
+        pub robot: String = hidden;
+        pub below_hz: f64;
+        pub models: Models = spread;
+        pub tolerance_m: f64;
+        /// Command before the decay; absent for a release.
+        pub commanded: Option<Commanded> = spread;
+        /// The wrench and its displacement; absent for a command.
+        pub held: Option<Held> = spread;
+        /// Maximum distance of the point from its rest in the history.
+        pub peak_m: f64;
+        /// Last time at which the point is at the tolerance, since the release or the end of the command; absent if it
+        /// never settles.
+        pub settled_s: Option<f64>;
+        /// Time from which on the sum of all amplitudes is within the tolerance; absent if it never is.
+        pub surely_settled_s: Option<f64>;
+        /// Motion that never ends, because nothing damps it; absent if the point settles.
+        pub never_settles: Option<NeverSettles>;
+        /// True if a count proves that every mode has its damped mode.
+        pub damped_certified: bool;
+        /// Modes that take part, the largest amplitude first.
+        pub modes: Vec<SettlingMode>;
+        /// Motion from the release or the end of the command on.
+        pub history: Vec<HistoryRow>;
+        /// Frequency up to which modes are in the history; absent if all are.
+        pub history_up_to_hz: Option<f64>;
+        /// Rows while the command runs, if there is one, and after it.
+        whole: Vec<HistoryRow> = hidden;
+        pub warnings: Vec<String> = hidden;
+    }
 }
 
-/// Undamped motion that is larger than the tolerance.
-#[derive(Debug, Clone, Copy, Serialize)]
-pub struct NeverSettles {
-    /// Sum of the amplitudes of all undamped modes: the point keeps swinging by up to this distance.
-    pub amplitude_m: f64,
-    /// Frequency of the undamped mode with the largest amplitude.
-    pub frequency_hz: f64,
+rows! {
+    /// Undamped motion that is larger than the tolerance.
+    #[derive(Debug, Clone, Copy)]
+    pub struct NeverSettles {
+        /// Sum of the amplitudes of all undamped modes: the point keeps swinging by up to this distance.
+        pub amplitude_m: f64;
+        /// Frequency of the undamped mode with the largest amplitude.
+        pub frequency_hz: f64;
+    }
 }
 
-/// Displacement before a release.
-#[derive(Serialize)]
-pub struct Held {
-    /// Displacement of the point under the wrench, linear, world axes.
-    pub held_m: [f64; 3],
-    /// Displacement between the equilibria with the wrench and without it; absent if there is none with it, and with
-    /// ideal cables.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub held_exact_m: Option<[f64; 3]>,
-    /// Bound of what the modes above the limit add to the displacement at the release.
-    pub omitted_m: f64,
-    pub lowest_tension: LowestTension,
+rows! {
+    /// Displacement before a release.
+    pub struct Held {
+        /// Displacement of the point under the wrench, linear, world axes.
+        pub held_m: [f64; 3];
+        /// Displacement between the equilibria with the wrench and without it; absent if there is none with it, and with
+        /// ideal cables.
+        pub held_exact_m: Option<[f64; 3]>;
+        /// Bound of what the modes above the limit add to the displacement at the release.
+        pub omitted_m: f64;
+        pub lowest_tension: LowestTension;
+    }
 }
 
-/// Command of the lengths.
-#[derive(Serialize)]
-pub struct Commanded {
-    /// `stop`, `move` or `trajectory`.
-    pub command: &'static str,
-    /// Time from its start to its end, with the shaper.
-    pub duration_s: f64,
-    pub lowest_tension: LowestTension,
-    /// Bound of the distance by which the modes above the limit move the point after the command; absent if none is
-    /// known.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub omitted_m: Option<f64>,
-    /// Bound of the change of the tension of a cable, averaged along it, by the modes above the limit; absent if none
-    /// is known.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub omitted_tension_n: Option<f64>,
-    /// Motion while the command runs, at negative times.
-    pub during: Vec<HistoryRow>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub shaping: Option<Shaping>,
-    /// Vibration that the commanded lengths leave with payloads, if they are requested.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub payloads: Vec<WithPayload>,
-    /// Names of the cables, in the order of the lengths; absent without samples.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub cables: Vec<String>,
-    /// Lengths over time, if they are requested.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub lengths: Vec<LengthsRow>,
+rows! {
+    /// Command of the lengths.
+    pub struct Commanded {
+        /// `stop`, `move` or `trajectory`.
+        pub command: &'static str;
+        /// Time from its start to its end, with the shaper.
+        pub duration_s: f64;
+        pub lowest_tension: LowestTension;
+        /// Bound of the distance by which the modes above the limit move the point after the command; absent if none is
+        /// known.
+        pub omitted_m: Option<f64>;
+        /// Bound of the change of the tension of a cable, averaged along it, by the modes above the limit; absent if none
+        /// is known.
+        pub omitted_tension_n: Option<f64>;
+        /// Motion while the command runs, at negative times.
+        pub during: Vec<HistoryRow>;
+        pub shaping: Option<Shaping>;
+        /// Vibration that the commanded lengths leave with payloads, if they are requested.
+        pub payloads: Vec<WithPayload> = sparse;
+        /// Names of the cables, in the order of the lengths; absent without samples.
+        pub cables: Vec<String> = sparse;
+        /// Lengths over time, if they are requested.
+        pub lengths: Vec<LengthsRow> = sparse;
+    }
 }
 
-/// Commanded unstrained lengths at one time.
-#[derive(Serialize)]
-pub struct LengthsRow {
-    /// Time since the start of the command.
-    pub t_s: f64,
-    pub unstrained_lengths_m: Vec<f64>,
+rows! {
+    /// Commanded unstrained lengths at one time.
+    pub struct LengthsRow {
+        /// Time since the start of the command.
+        pub t_s: f64;
+        pub unstrained_lengths_m: Vec<f64>;
+    }
 }
 
-/// Part of a mode in the motion.
-#[derive(Serialize)]
-pub struct SettlingMode {
-    pub frequency_hz: f64,
-    pub damping_ratio: f64,
-    /// Amplitude at the release or the end of the command: half of the long axis of the ellipse on which the point
-    /// moves.
-    pub amplitude_m: f64,
-    /// Amplitude without the shaper; absent without one.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub amplitude_without_m: Option<f64>,
-    /// Time in which this amplitude alone falls to the tolerance; zero if it is smaller, absent if it never does.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub settled_s: Option<f64>,
+rows! {
+    /// Part of a mode in the motion.
+    pub struct SettlingMode {
+        pub frequency_hz: f64;
+        pub damping_ratio: f64;
+        /// Amplitude at the release or the end of the command: half of the long axis of the ellipse on which the point
+        /// moves.
+        pub amplitude_m: f64;
+        /// Amplitude without the shaper; absent without one.
+        pub amplitude_without_m: Option<f64>;
+        /// Time in which this amplitude alone falls to the tolerance; zero if it is smaller, absent if it never does.
+        pub settled_s: Option<f64>;
+    }
 }
 
-/// Displacement of the point at one time from where the lengths of this time hold it at rest, and the bound of its
-/// distance.
-#[derive(Clone, Serialize)]
-pub struct HistoryRow {
-    /// Time since the release or the end of the command.
-    pub t_s: f64,
-    pub x_m: f64,
-    pub y_m: f64,
-    pub z_m: f64,
-    /// Absent while a command runs.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub envelope_m: Option<f64>,
+rows! {
+    /// Displacement of the point at one time from where the lengths of this time hold it at rest, and the bound of its
+    /// distance.
+    #[derive(Clone)]
+    pub struct HistoryRow {
+        /// Time since the release or the end of the command.
+        pub t_s: f64;
+        pub x_m: f64;
+        pub y_m: f64;
+        pub z_m: f64;
+        /// Absent while a command runs.
+        pub envelope_m: Option<f64>;
+    }
 }
 
 /// Points per period of the fastest mode that takes part, and maximum number of points.
@@ -569,7 +558,7 @@ impl SettlingMode {
         let is_shaped = modes.iter().any(|mode| mode.amplitude_without_m.is_some());
         Columns::new([
             column("frequency_hz", "Hz", "frequency of the damped mode", |mode: &Self| mode.frequency_hz)
-                .decimals("f", "Hz", 4),
+                .decimals("f", 4),
             column("damping_ratio", "1", "damping ratio", |mode: &Self| mode.damping_ratio).shown(
                 "damping",
                 "%",
@@ -587,7 +576,7 @@ impl SettlingMode {
             column("settled_s", "s", "time in which this amplitude alone falls to the tolerance", |mode: &Self| {
                 mode.settled_s
             })
-            .significant("to the tolerance", "s", 3),
+            .significant("to the tolerance", 3),
         ])
     }
 }

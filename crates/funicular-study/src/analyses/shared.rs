@@ -1,40 +1,41 @@
 //! Rows that several commands share.
 
+use super::fields::{ANGLES, AXES};
 use crate::at_rest::AtRest;
 use crate::columns::Style;
+use crate::rows::{ReadBack, rows};
 use crate::text::{short, vector};
 use funicular::cable::{LocalAxes, Sag};
 use funicular::dynamics::Linearisation;
-use funicular::math::rotation;
+use funicular::math::{Vec6, rotation};
 use funicular::modes;
 use funicular::pose_error::PoseDifference;
 use funicular::robot::{Load, Pose, WinchMode, Wind};
 use funicular::statics::{Limit, TensionMargin, TensionRange, TensionRule};
-use serde::Serialize;
 
-/// Models used for a result, by the names that JSON has.
-#[derive(Debug, Clone, Copy, Serialize)]
-pub struct Models {
-    pub static_model: &'static str,
-    pub cable_model: &'static str,
-    pub assembly: &'static str,
-    pub in_plane_only: bool,
-    /// Winches in vibration; absent if they are as in the robot file.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub winches: Option<&'static str>,
-    #[serde(flatten)]
-    pub origin: Origin,
+rows! {
+    /// Models used for a result, by the names that JSON has.
+    #[derive(Debug, Clone, Copy)]
+    pub struct Models {
+        pub static_model: &'static str;
+        pub cable_model: &'static str;
+        pub assembly: &'static str;
+        pub in_plane_only: bool;
+        /// Winches in vibration; absent if they are as in the robot file.
+        pub winches: Option<&'static str>;
+        pub origin: Origin = spread;
+    }
 }
 
-/// Origin of the tensions of an equilibrium.
-#[derive(Debug, Clone, Copy, Serialize)]
-pub struct Origin {
-    /// Rule that chose the tensions; absent if there was no choice.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub tension_rule: Option<&'static str>,
-    /// True if the unstrained lengths of a pose are held; absent otherwise.
-    #[serde(skip_serializing_if = "std::ops::Not::not")]
-    pub lengths_held: bool,
+rows! {
+    /// Origin of the tensions of an equilibrium.
+    #[derive(Debug, Clone, Copy)]
+    pub struct Origin {
+        /// Rule that chose the tensions; absent if there was no choice.
+        pub tension_rule: Option<&'static str>;
+        /// True if the unstrained lengths of a pose are held; absent otherwise.
+        pub lengths_held: bool = sparse;
+    }
 }
 
 impl Origin {
@@ -74,16 +75,15 @@ impl Models {
     }
 }
 
-/// Numbers of a cable's sag for JSON. They are absent for a cable without tension. The string frequency is also absent
-/// for a cable without mass.
-#[derive(Debug, Clone, Copy, Serialize)]
-pub struct SagNumbers {
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub sag_ratio: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub lambda2: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub string_frequency_hz: Option<f64>,
+rows! {
+    /// Numbers of a cable's sag for JSON. They are absent for a cable without tension. The string frequency is also absent
+    /// for a cable without mass.
+    #[derive(Debug, Clone, Copy)]
+    pub struct SagNumbers {
+        pub sag_ratio: Option<f64>;
+        pub lambda2: Option<f64>;
+        pub string_frequency_hz: Option<f64>;
+    }
 }
 
 impl SagNumbers {
@@ -97,12 +97,17 @@ impl SagNumbers {
     }
 }
 
-/// Pose of the platform.
-#[derive(Serialize)]
-pub struct PoseRow {
-    pub position_m: [f64; 3],
-    pub quaternion_wxyz: [f64; 4],
-    pub roll_pitch_yaw_deg: [f64; 3],
+rows! {
+    /// Pose of the platform.
+    pub struct PoseRow in tables(decimals: [usize; 2]) {
+        /// Position of the platform origin, {}.
+        pub position_m: [f64; 3] => each(AXES, "{}_m").decimals("position", decimals[0]);
+        /// Orientation as a quaternion w, x, y, z.
+        pub quaternion_wxyz: [f64; 4];
+        /// Roll, pitch, yaw of the platform.
+        pub roll_pitch_yaw_deg: [f64; 3] => each(ANGLES, "{}_deg", "{} of the platform")
+            .decimals("roll, pitch, yaw", decimals[1]);
+    }
 }
 
 impl PoseRow {
@@ -113,14 +118,51 @@ impl PoseRow {
             roll_pitch_yaw_deg: rotation::to_roll_pitch_yaw_deg(&pose.rot_wp),
         }
     }
+
+    /// Takes a pose from the numbers of its columns.
+    pub(crate) fn read(numbers: &mut &[f64], _: [usize; 2]) -> Option<Self> {
+        let (position_m, roll_pitch_yaw_deg) = (<[f64; 3]>::take(3, numbers)?, <[f64; 3]>::take(3, numbers)?);
+        let [roll, pitch, yaw] = roll_pitch_yaw_deg;
+        let rot_wp = rotation::from_roll_pitch_yaw_deg(roll, pitch, yaw);
+        Some(Self { position_m, quaternion_wxyz: rotation::quaternion_wxyz(&rot_wp), roll_pitch_yaw_deg })
+    }
 }
 
-/// Translation and rotation between two poses.
-#[derive(Serialize, Clone, Copy)]
-pub struct PoseDifferenceRow {
-    pub translation_m: [f64; 3],
-    pub distance_m: f64,
-    pub angle_deg: f64,
+rows! {
+    /// Platform in motion.
+    pub struct MotionRow in tables(decimals: [usize; 2]) read back {
+        /// Pose.
+        pub pose: PoseRow = spread => columns(decimals);
+        /// Velocity of the platform origin, {}.
+        pub velocity_m_s: [f64; 3] => each(AXES);
+        /// Angular velocity of the platform, {}.
+        pub angular_velocity_rad_s: [f64; 3] => each(AXES);
+        /// Acceleration of the platform origin, {}.
+        pub acceleration_m_s2: [f64; 3] => each(AXES);
+        /// Angular acceleration of the platform, {}.
+        pub angular_acceleration_rad_s2: [f64; 3] => each(AXES);
+    }
+}
+
+impl MotionRow {
+    /// Row of a pose with a velocity and an acceleration, world axes.
+    pub fn of(pose: &Pose, velocity_w: &Vec6, acceleration_w: &Vec6) -> Self {
+        let halves = |of: &Vec6| [[of[0], of[1], of[2]], [of[3], of[4], of[5]]];
+        let [velocity_m_s, angular_velocity_rad_s] = halves(velocity_w);
+        let [acceleration_m_s2, angular_acceleration_rad_s2] = halves(acceleration_w);
+        let pose = PoseRow::of(pose);
+        Self { pose, velocity_m_s, angular_velocity_rad_s, acceleration_m_s2, angular_acceleration_rad_s2 }
+    }
+}
+
+rows! {
+    /// Translation and rotation between two poses.
+    #[derive(Clone, Copy)]
+    pub struct PoseDifferenceRow {
+        pub translation_m: [f64; 3];
+        pub distance_m: f64;
+        pub angle_deg: f64;
+    }
 }
 
 impl From<PoseDifference> for PoseDifferenceRow {
@@ -133,12 +175,13 @@ impl From<PoseDifference> for PoseDifferenceRow {
     }
 }
 
-/// Load on the platform.
-#[derive(Serialize)]
-pub struct LoadRow {
-    pub force_n: [f64; 3],
-    pub moment_n_m: [f64; 3],
-    pub point_m: [f64; 3],
+rows! {
+    /// Load on the platform.
+    pub struct LoadRow {
+        pub force_n: [f64; 3];
+        pub moment_n_m: [f64; 3];
+        pub point_m: [f64; 3];
+    }
 }
 
 impl LoadRow {
@@ -158,11 +201,12 @@ impl LoadRow {
     }
 }
 
-/// Wind.
-#[derive(Serialize)]
-pub struct WindRow {
-    pub velocity_m_s: [f64; 3],
-    pub air_density_kg_m3: f64,
+rows! {
+    /// Wind.
+    pub struct WindRow {
+        pub velocity_m_s: [f64; 3];
+        pub air_density_kg_m3: f64;
+    }
 }
 
 impl WindRow {
@@ -178,19 +222,17 @@ impl WindRow {
     }
 }
 
-/// Tension limits of a cable, and the distance of its tension from them.
-#[derive(Serialize)]
-pub struct LimitNumbers {
-    pub minimum_tension_n: f64,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub maximum_tension_n: Option<f64>,
-    /// Distance from the nearer limit.
-    pub tension_margin_n: f64,
-    /// Distance from the nearer limit, divided by the distance between the limits.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub tension_margin: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub limit_reached: Option<&'static str>,
+rows! {
+    /// Tension limits of a cable, and the distance of its tension from them.
+    pub struct LimitNumbers {
+        pub minimum_tension_n: f64;
+        pub maximum_tension_n: Option<f64>;
+        /// Distance from the nearer limit.
+        pub tension_margin_n: f64;
+        /// Distance from the nearer limit, divided by the distance between the limits.
+        pub tension_margin: Option<f64>;
+        pub limit_reached: Option<&'static str>;
+    }
 }
 
 impl LimitNumbers {
@@ -220,12 +262,13 @@ impl LimitNumbers {
     }
 }
 
-/// Unit vectors of a cable, world axes: along the chord, normal to it in plane, out of plane.
-#[derive(Serialize)]
-pub struct Axes {
-    pub e: [f64; 3],
-    pub n: [f64; 3],
-    pub b: [f64; 3],
+rows! {
+    /// Unit vectors of a cable, world axes: along the chord, normal to it in plane, out of plane.
+    pub struct Axes {
+        pub e: [f64; 3];
+        pub n: [f64; 3];
+        pub b: [f64; 3];
+    }
 }
 
 impl Axes {
@@ -234,42 +277,35 @@ impl Axes {
     }
 }
 
-/// Mode of vibration.
-#[derive(Serialize)]
-pub struct ModeRow {
-    pub frequency_hz: f64,
-    pub multiplicity: usize,
-    pub damping_ratio: f64,
-    /// Time in which its amplitude falls to the requested percentage; absent for a mode that does not decay.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub decay_time_s: Option<f64>,
-    /// Eigenvalue λ = −ζω + iω√(1 − ζ²): real and imaginary part.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub eigenvalue_per_s: Option<[f64; 2]>,
-    pub kind: &'static str,
-    pub platform_energy_fraction: f64,
-    pub cable_energy_fractions: Vec<f64>,
-    /// Kinetic energy of the drive of each cable; absent if no drive has inertia.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub drive_energy_fractions: Vec<f64>,
-    /// Kinetic energy of each flexible support; absent on a rigid frame.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub support_energy_fractions: Vec<f64>,
-    /// Share of the stretch of each cable in the energy of deformation; absent in the closed form of shallow-dynamic
-    /// cables and for rigid ones.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub stretching_share: Vec<f64>,
-    pub shape: [f64; 6],
-    pub modal_mass_kg: f64,
-    pub residual: f64,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub residue_per_kg: Option<f64>,
-    /// Height of the peak of this mode alone.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub peak: Option<f64>,
-    /// Displacements (e, n, b) of the stations of every cable, in the scale of `shape`.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub cable_shapes: Vec<Vec<[f64; 3]>>,
+rows! {
+    /// Mode of vibration.
+    pub struct ModeRow {
+        pub frequency_hz: f64;
+        pub multiplicity: usize;
+        pub damping_ratio: f64;
+        /// Time in which its amplitude falls to the requested percentage; absent for a mode that does not decay.
+        pub decay_time_s: Option<f64>;
+        /// Eigenvalue λ = −ζω + iω√(1 − ζ²): real and imaginary part.
+        pub eigenvalue_per_s: Option<[f64; 2]>;
+        pub kind: &'static str;
+        pub platform_energy_fraction: f64;
+        pub cable_energy_fractions: Vec<f64>;
+        /// Kinetic energy of the drive of each cable; absent if no drive has inertia.
+        pub drive_energy_fractions: Vec<f64> = sparse;
+        /// Kinetic energy of each flexible support; absent on a rigid frame.
+        pub support_energy_fractions: Vec<f64> = sparse;
+        /// Share of the stretch of each cable in the energy of deformation; absent in the closed form of shallow-dynamic
+        /// cables and for rigid ones.
+        pub stretching_share: Vec<f64> = sparse;
+        pub shape: [f64; 6];
+        pub modal_mass_kg: f64;
+        pub residual: f64;
+        pub residue_per_kg: Option<f64>;
+        /// Height of the peak of this mode alone.
+        pub peak: Option<f64>;
+        /// Displacements (e, n, b) of the stations of every cable, in the scale of `shape`.
+        pub cable_shapes: Vec<Vec<[f64; 3]>> = sparse;
+    }
 }
 
 impl From<modes::Mode> for ModeRow {

@@ -20,6 +20,7 @@ use crate::at_rest::{self, AtRest};
 use crate::columns::{Columns, ResultTable, Tabled, column};
 use crate::error::{Cancelled, NoSolution};
 use crate::request::{PointValue, SimulateRequest};
+use crate::rows::rows;
 use crate::table::Column;
 use crate::text::significant;
 use crate::values::finite;
@@ -32,7 +33,6 @@ use funicular::simulation::{
     ElementMesh, LossOfMode, RestFault, Simulation, SimulationError, SimulationSettings, StepCounts,
 };
 use keeping::STATE_ROWS;
-use serde::Serialize;
 
 /// Number of parts of the duration between its rows, if nothing says how many.
 const PARTS: f64 = 1000.0;
@@ -41,80 +41,76 @@ const MAX_ROWS: f64 = 2e6;
 /// Tolerance of the finer run over that of the first.
 const FINER: f64 = 0.1;
 
-/// Results of `simulate`.
-#[derive(Serialize)]
-pub struct Simulated {
-    #[serde(skip)]
-    pub robot: String,
-    #[serde(flatten)]
-    pub origin: Origin,
-    pub duration_s: f64,
-    /// Time at which the run was stopped from outside; absent if it came to its end.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub stopped_at_s: Option<f64>,
-    pub elements: usize,
-    pub degree: usize,
-    pub tolerance_m: f64,
-    pub steps: StepNumbers,
-    /// Cables that were slack, with the time at which their tension first fell below 0.5 N.
-    pub slack: Vec<SlackRow>,
-    /// Cables that failed.
-    pub cuts: Vec<CutRow>,
-    /// Time at which the parts of the robot are nearest; absent if its file says nothing about distances.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub nearest: Option<NearestRow>,
-    /// Largest error of the energy balance [J].
-    pub energy_defect_j: f64,
-    /// True if slack ropes with mass make the history depend on the mesh, so that its peaks are statistics.
-    pub is_statistical: bool,
-    /// Loss of the stretch in each mode of the platform at the start; absent without a loss factor.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub stretch_losses: Vec<StretchLossRow>,
-    /// Bound of the error of each column, from its difference from a finer run; absent without one.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub errors: Vec<ColumnError>,
-    /// Largest tensions, and root mean squares, of this run and of the finer one.
-    pub peaks: Vec<Peak>,
-    /// Names of the cables, in the order of all lists.
-    pub cables: Vec<String>,
-    /// Names of the chosen points, in the order of all lists.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub points: Vec<String>,
-    pub rows: Vec<SimulatedRow>,
-    /// Robot at some of the times, for pictures.
-    #[serde(skip)]
-    pub picture: SimulatedPicture,
-    #[serde(skip)]
-    pub warnings: Vec<String>,
+rows! {
+    /// Results of `simulate`.
+    pub struct Simulated {
+        pub robot: String = hidden;
+        pub origin: Origin = spread;
+        pub duration_s: f64;
+        /// Time at which the run was stopped from outside; absent if it came to its end.
+        pub stopped_at_s: Option<f64>;
+        pub elements: usize;
+        pub degree: usize;
+        pub tolerance_m: f64;
+        pub steps: StepNumbers;
+        /// Cables that were slack, with the time at which their tension first fell below 0.5 N.
+        pub slack: Vec<SlackRow>;
+        /// Cables that failed.
+        pub cuts: Vec<CutRow>;
+        /// Time at which the parts of the robot are nearest; absent if its file says nothing about distances.
+        pub nearest: Option<NearestRow>;
+        /// Largest error of the energy balance [J].
+        pub energy_defect_j: f64;
+        /// True if slack ropes with mass make the history depend on the mesh, so that its peaks are statistics.
+        pub is_statistical: bool;
+        /// Loss of the stretch in each mode of the platform at the start; absent without a loss factor.
+        pub stretch_losses: Vec<StretchLossRow> = sparse;
+        /// Bound of the error of each column, from its difference from a finer run; absent without one.
+        pub errors: Vec<ColumnError> = sparse;
+        /// Largest tensions, and root mean squares, of this run and of the finer one.
+        pub peaks: Vec<Peak>;
+        /// Names of the cables, in the order of all lists.
+        pub cables: Vec<String>;
+        /// Names of the chosen points, in the order of all lists.
+        pub points: Vec<String> = sparse;
+        pub rows: Vec<SimulatedRow>;
+        /// Robot at some of the times, for pictures.
+        pub picture: SimulatedPicture = hidden;
+        pub warnings: Vec<String> = hidden;
+    }
 }
 
-/// StepNumbers of a run.
-#[derive(Serialize, Clone, Copy)]
-pub struct StepNumbers {
-    pub accepted: usize,
-    pub rejected: usize,
-    pub factored: usize,
-    pub evaluations: usize,
+rows! {
+    /// StepNumbers of a run.
+    #[derive(Clone, Copy)]
+    pub struct StepNumbers {
+        pub accepted: usize;
+        pub rejected: usize;
+        pub factored: usize;
+        pub evaluations: usize;
+    }
 }
 
-/// Slack of one cable.
-#[derive(Serialize)]
-pub struct SlackRow {
-    pub cable: String,
-    pub first_s: f64,
-    /// Time for which it was slack, over that of the simulation.
-    pub share: f64,
+rows! {
+    /// Slack of one cable.
+    pub struct SlackRow {
+        pub cable: String;
+        pub first_s: f64;
+        /// Time for which it was slack, over that of the simulation.
+        pub share: f64;
+    }
 }
 
-/// Least margin of all rows.
-#[derive(Serialize, Clone)]
-pub struct NearestRow {
-    pub t_s: f64,
-    /// Distance beyond the required one.
-    pub margin_m: f64,
-    /// Things that are nearest, in words; absent for a row of a run that was continued.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub pair: Option<String>,
+rows! {
+    /// Least margin of all rows.
+    #[derive(Clone)]
+    pub struct NearestRow {
+        pub t_s: f64;
+        /// Distance beyond the required one.
+        pub margin_m: f64;
+        /// Things that are nearest, in words; absent for a row of a run that was continued.
+        pub pair: Option<String>;
+    }
 }
 
 impl NearestRow {
@@ -127,17 +123,18 @@ impl NearestRow {
     }
 }
 
-/// Loss of the stretch of ropes in one mode of the platform. In time it is a damping time, which has the loss factor
-/// at one frequency only.
-#[derive(Serialize)]
-pub struct StretchLossRow {
-    pub frequency_hz: f64,
-    /// Share of the stretch of the ropes in the energy of deformation.
-    pub stretch_share: f64,
-    /// Damping ratio by the loss factors and damping times of the robot file.
-    pub damping_ratio: f64,
-    /// Damping ratio in this run.
-    pub damping_ratio_in_time: f64,
+rows! {
+    /// Loss of the stretch of ropes in one mode of the platform. In time it is a damping time, which has the loss factor
+    /// at one frequency only.
+    pub struct StretchLossRow {
+        pub frequency_hz: f64;
+        /// Share of the stretch of the ropes in the energy of deformation.
+        pub stretch_share: f64;
+        /// Damping ratio by the loss factors and damping times of the robot file.
+        pub damping_ratio: f64;
+        /// Damping ratio in this run.
+        pub damping_ratio_in_time: f64;
+    }
 }
 
 impl StretchLossRow {
@@ -152,26 +149,27 @@ impl StretchLossRow {
             column("frequency_hz", "Hz", "natural frequency of the platform on massless ropes", |row: &Self| {
                 row.frequency_hz
             })
-            .significant("mode", "Hz", 4),
+            .significant("mode", 4),
             column("stretch_share", "1", "share of the stretch in the energy of deformation", |row: &Self| {
                 row.stretch_share
             })
-            .significant("stretch", "", 2),
+            .significant("stretch", 2),
             column("damping_ratio", "1", "damping ratio by the losses of the robot file", |row: &Self| {
                 row.damping_ratio
             })
-            .significant("ratio", "", 2),
+            .significant("ratio", 2),
             column("damping_ratio_in_time", "1", "damping ratio in this run", |row: &Self| row.damping_ratio_in_time)
-                .significant("in time", "", 2),
+                .significant("in time", 2),
         ])
     }
 }
 
-/// Cable that failed.
-#[derive(Serialize)]
-pub struct CutRow {
-    pub cable: String,
-    pub t_s: f64,
+rows! {
+    /// Cable that failed.
+    pub struct CutRow {
+        pub cable: String;
+        pub t_s: f64;
+    }
 }
 
 /// Simulates a robot.

@@ -7,124 +7,108 @@ use super::shared::{Origin, PoseRow};
 use crate::at_rest::{self, AtRest};
 use crate::columns::{Columns, Field, ResultTable, Tabled, column, parts};
 use crate::request::SpeedsRequest;
+use crate::rows::rows;
 use crate::table::Column;
 use anyhow::{Result, bail};
 use funicular::math::Vec6;
 use funicular::robot::{LimitOfWinch, Robot};
 use funicular::speeds::{LargestMotion, SpeedLimit, WinchAtRest, WinchSpeeds};
-use serde::Serialize;
 
-/// Results of `speeds`.
-#[derive(Serialize)]
-pub struct Speeds {
-    #[serde(skip)]
-    pub robot: String,
-    pub static_model: &'static str,
-    #[serde(flatten)]
-    pub origin: Origin,
-    pub pose: PoseRow,
-    /// Work of the winches for the required velocities; absent if none is required.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub required: Option<RequiredSpeeds>,
-    /// Largest speed of the platform origin in every direction without turning [m/s].
-    pub every_direction: LargestSpeed,
-    /// Largest speeds along the coordinates of the platform: axes of the world, and turns about them.
-    pub directions: Vec<DirectionRow>,
-    pub cables: Vec<CableSpeeds>,
-    #[serde(skip)]
-    pub warnings: Vec<String>,
+rows! {
+    /// Results of `speeds`.
+    pub struct Speeds {
+        pub robot: String = hidden;
+        pub static_model: &'static str;
+        pub origin: Origin = spread;
+        pub pose: PoseRow;
+        /// Work of the winches for the required velocities; absent if none is required.
+        pub required: Option<RequiredSpeeds>;
+        /// Largest speed of the platform origin in every direction without turning [m/s].
+        pub every_direction: LargestSpeed;
+        /// Largest speeds along the coordinates of the platform: axes of the world, and turns about them.
+        pub directions: Vec<DirectionRow>;
+        pub cables: Vec<CableSpeeds>;
+        pub warnings: Vec<String> = hidden;
+    }
 }
 
-/// Required velocities, and the winches meanwhile.
-#[derive(Serialize)]
-pub struct RequiredSpeeds {
-    /// True if every winch stays within its limits.
-    pub reached: bool,
-    pub velocity_m_s: [f64; 3],
-    pub angular_velocity_rad_s: [f64; 3],
-    /// Largest multiple of the required velocities.
-    pub speed_factor: LargestSpeed,
-    /// Largest sums of the powers of all motors that drive and of all that brake.
-    pub driving_power_w: f64,
-    pub braking_power_w: f64,
+rows! {
+    /// Required velocities, and the winches meanwhile.
+    pub struct RequiredSpeeds {
+        /// True if every winch stays within its limits.
+        pub reached: bool;
+        pub velocity_m_s: [f64; 3];
+        pub angular_velocity_rad_s: [f64; 3];
+        /// Largest multiple of the required velocities.
+        pub speed_factor: LargestSpeed;
+        /// Largest sums of the powers of all motors that drive and of all that brake.
+        pub driving_power_w: f64;
+        pub braking_power_w: f64;
+    }
 }
 
-/// Largest speed or multiple of it, with what limits it. All are absent if nothing does.
-#[derive(Serialize)]
-pub struct LargestSpeed {
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub value: Option<f64>,
-    /// Cable whose winch limits it.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub cable: Option<String>,
-    /// Limit of this winch: `speed`, `torque`, `power` or `brake-power`.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub limit: Option<&'static str>,
+rows! {
+    /// Largest speed or multiple of it, with what limits it. All are absent if nothing does.
+    pub struct LargestSpeed {
+        pub value: Option<f64>;
+        /// Cable whose winch limits it.
+        pub cable: Option<String>;
+        /// Limit of this winch: `speed`, `torque`, `power` or `brake-power`.
+        pub limit: Option<&'static str>;
+    }
 }
 
-/// Largest speeds along or about one axis.
-#[derive(Serialize)]
-pub struct DirectionRow {
-    pub coordinate: &'static str,
-    /// `m/s` or `rad/s`.
-    pub unit: &'static str,
-    /// In the positive direction.
-    pub forward: LargestSpeed,
-    /// In the negative direction.
-    pub backward: LargestSpeed,
+rows! {
+    /// Largest speeds along or about one axis.
+    pub struct DirectionRow {
+        pub coordinate: &'static str;
+        /// `m/s` or `rad/s`.
+        pub unit: &'static str;
+        /// In the positive direction.
+        pub forward: LargestSpeed;
+        /// In the negative direction.
+        pub backward: LargestSpeed;
+    }
 }
 
-/// One cable with its winch.
-#[derive(Serialize)]
-pub struct CableSpeeds {
-    pub name: String,
-    /// Speed of the cable at the drum per speed of the platform along the axes of the world, positive while it pays
-    /// out.
-    pub rate_per_velocity: [f64; 3],
-    /// Speed of the cable at the drum per angular velocity about these axes.
-    pub rate_per_angular_velocity_m_per_rad: [f64; 3],
-    pub tension_drum_n: f64,
-    /// Torque of the motor at rest; absent without a radius of the drum.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub motor_torque_at_rest_n_m: Option<f64>,
-    /// Largest speed of the cable at the drum while it winds in; absent without a limit.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub speed_max_in_m_s: Option<f64>,
-    /// Largest value while the winch pays out.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub speed_max_out_m_s: Option<f64>,
-    /// Limit that is reached first.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub limit: Option<&'static str>,
-    /// Largest speed of the platform in every direction without turning, as far as this winch allows.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub platform_speed_max_m_s: Option<f64>,
-    /// Work of the winch for the required velocities; absent if none is required.
-    #[serde(flatten)]
-    pub required: Option<WinchInUse>,
+rows! {
+    /// One cable with its winch.
+    pub struct CableSpeeds {
+        pub name: String;
+        /// Speed of the cable at the drum per speed of the platform along the axes of the world, positive while it pays
+        /// out.
+        pub rate_per_velocity: [f64; 3];
+        /// Speed of the cable at the drum per angular velocity about these axes.
+        pub rate_per_angular_velocity_m_per_rad: [f64; 3];
+        pub tension_drum_n: f64;
+        /// Torque of the motor at rest; absent without a radius of the drum.
+        pub motor_torque_at_rest_n_m: Option<f64>;
+        /// Largest speed of the cable at the drum while it winds in; absent without a limit.
+        pub speed_max_in_m_s: Option<f64>;
+        /// Largest value while the winch pays out.
+        pub speed_max_out_m_s: Option<f64>;
+        /// Limit that is reached first.
+        pub limit: Option<&'static str>;
+        /// Largest speed of the platform in every direction without turning, as far as this winch allows.
+        pub platform_speed_max_m_s: Option<f64>;
+        /// Work of the winch for the required velocities; absent if none is required.
+        pub required: Option<WinchInUse> = spread;
+    }
 }
 
-/// Largest numbers of one winch for the required velocities.
-#[derive(Serialize)]
-pub struct WinchInUse {
-    pub speed_m_s: f64,
-    pub driving_power_w: f64,
-    pub braking_power_w: f64,
-    /// Used parts of the limits: above 1 beyond the limit. Absent without a limit, and a part of the torque also beyond
-    /// the end of the torque–speed curve, where the part has no value.
-    #[serde(skip_serializing_if = "is_no_number")]
-    pub used_speed: Option<f64>,
-    #[serde(skip_serializing_if = "is_no_number")]
-    pub used_torque: Option<f64>,
-    #[serde(skip_serializing_if = "is_no_number")]
-    pub used_power: Option<f64>,
-    #[serde(skip_serializing_if = "is_no_number")]
-    pub used_brake_power: Option<f64>,
-}
-
-#[expect(clippy::ref_option, reason = "serde asks so")]
-fn is_no_number(part: &Option<f64>) -> bool {
-    !part.is_some_and(f64::is_finite)
+rows! {
+    /// Largest numbers of one winch for the required velocities.
+    pub struct WinchInUse {
+        pub speed_m_s: f64;
+        pub driving_power_w: f64;
+        pub braking_power_w: f64;
+        /// Used parts of the limits: above 1 beyond the limit. Absent without a limit, and a part of the torque also beyond
+        /// the end of the torque–speed curve, where the part has no value.
+        pub used_speed: Option<f64> = sparse;
+        pub used_torque: Option<f64> = sparse;
+        pub used_power: Option<f64> = sparse;
+        pub used_brake_power: Option<f64> = sparse;
+    }
 }
 
 /// Computes the speeds that the winches allow at an equilibrium.
@@ -272,20 +256,19 @@ impl CableSpeeds {
                 "speed of the cable at the drum per angular velocity about {}, paying out",
                 |row: &Self| row.rate_per_angular_velocity_m_per_rad,
             ),
-            column("tension_drum_n", "N", "tension at the drum", |row: &Self| row.tension_drum_n)
-                .decimals("T drum", "N", 2),
+            column("tension_drum_n", "N", "tension at the drum", |row: &Self| row.tension_drum_n).decimals("T drum", 2),
             column("motor_torque_at_rest_n_m", "N m", "torque of the motor at rest", |row: &Self| {
                 row.motor_torque_at_rest_n_m
             })
-            .significant("torque at rest", "N m", 4),
+            .significant("torque at rest", 4),
             column("speed_max_in_m_s", "m/s", "largest speed of the cable while it winds in", |row: &Self| {
                 row.speed_max_in_m_s
             })
-            .significant("in up to", "m/s", 4),
+            .significant("in up to", 4),
             column("speed_max_out_m_s", "m/s", "largest speed of the cable while it pays out", |row: &Self| {
                 row.speed_max_out_m_s
             })
-            .significant("out up to", "m/s", 4),
+            .significant("out up to", 4),
             column("limit", "", "limit that is reached first", |row: &Self| row.limit).plain("limit"),
             column(
                 "platform_speed_max_m_s",
@@ -293,15 +276,15 @@ impl CableSpeeds {
                 "largest speed of the platform in every direction, as far as this winch allows",
                 |row: &Self| row.platform_speed_max_m_s,
             )
-            .significant("platform", "m/s", 4),
+            .significant("platform", 4),
             column("speed_m_s", "m/s", "largest speed for the required velocities", required(|of| of.speed_m_s))
-                .significant("speed", "m/s", 4)
+                .significant("speed", 4)
                 .read_if(asks),
             column("driving_power_w", "W", "largest power of the motor that drives", required(|of| of.driving_power_w))
-                .significant("drives", "W", 4)
+                .significant("drives", 4)
                 .read_if(asks),
             column("braking_power_w", "W", "largest power of the motor that brakes", required(|of| of.braking_power_w))
-                .significant("brakes", "W", 4)
+                .significant("brakes", 4)
                 .read_if(asks),
             shown(used("used_speed", |of| of.used_speed), "of speed", |of| of.used_speed),
             shown(used("used_torque", |of| of.used_torque), "of torque", |of| of.used_torque),

@@ -6,6 +6,7 @@ use super::shared::{LimitNumbers, LoadRow, PoseDifferenceRow, PoseRow, SagNumber
 use crate::at_rest::{self, AtRest};
 use crate::columns::{Columns, Field, ResultTable, Style, Tabled, any, column, only_read, parts};
 use crate::request;
+use crate::rows::rows;
 use crate::table::Column;
 use crate::text::short;
 use anyhow::Result;
@@ -16,78 +17,62 @@ use funicular::statics::{
     self, CableFriction, CableState, Candidate, Equilibrium, FreeMotion, FrictionInterval, Held, Interval,
     MotionInterval, TensionRange,
 };
-use serde::Serialize;
 use std::fmt::Display;
 
-/// Results of `statics`: an equilibrium.
-#[derive(Serialize)]
-pub struct Statics {
-    #[serde(skip)]
-    pub robot: String,
-    pub static_model: &'static str,
-    pub mass_kg: f64,
-    /// Load on the platform; absent if there is none.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub load: Option<LoadRow>,
-    /// Wind; absent in still air.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub wind: Option<WindRow>,
-    pub pose: PoseRow,
-    /// Distance from the requested pose; present only with fewer cables than degrees of freedom and a requested pose.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub nearest_pose_distance_m: Option<f64>,
-    /// Motion from the pose whose lengths are held to the equilibrium; absent if no lengths are held.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub held: Option<HeldRow>,
-    /// Tension rule; absent if there was no choice of tensions.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub tension_rule: Option<&'static str>,
-    pub cables: Vec<CableRow>,
-    /// Flexible supports; absent on a rigid frame.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub supports: Vec<SupportRow>,
-    pub residual: f64,
-    /// True if there are neither loads nor tensions; the residual then has no meaning.
-    #[serde(skip)]
-    pub is_unloaded: bool,
-    pub iterations: usize,
-    /// True for a stable equilibrium; absent for ideal cables, which are rigid.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub stable: Option<bool>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub stiffness_min_n_per_m: Option<f64>,
-    /// Motions that no cable opposes by its tension; absent unless the directions of the cables are dependent or the
-    /// equilibrium is indifferent.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub free_motions: Vec<FreeMotionRow>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub another_stable_equilibrium: Option<OtherStable>,
-    /// All equilibria that the search of `all` found, with the lowest energy first.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub equilibria: Option<Vec<EquilibriumRow>>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub search: Option<Search>,
-    /// Interval in which friction of pulleys leaves the robot; absent unless requested.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub friction_interval: Option<FrictionRow>,
-    #[serde(skip)]
-    pub warnings: Vec<String>,
+rows! {
+    /// Results of `statics`: an equilibrium.
+    pub struct Statics {
+        pub robot: String = hidden;
+        pub static_model: &'static str;
+        pub mass_kg: f64;
+        /// Load on the platform; absent if there is none.
+        pub load: Option<LoadRow>;
+        /// Wind; absent in still air.
+        pub wind: Option<WindRow>;
+        pub pose: PoseRow;
+        /// Distance from the requested pose; present only with fewer cables than degrees of freedom and a requested pose.
+        pub nearest_pose_distance_m: Option<f64>;
+        /// Motion from the pose whose lengths are held to the equilibrium; absent if no lengths are held.
+        pub held: Option<HeldRow>;
+        /// Tension rule; absent if there was no choice of tensions.
+        pub tension_rule: Option<&'static str>;
+        pub cables: Vec<CableRow>;
+        /// Flexible supports; absent on a rigid frame.
+        pub supports: Vec<SupportRow> = sparse;
+        pub residual: f64;
+        /// True if there are neither loads nor tensions; the residual then has no meaning.
+        pub is_unloaded: bool = hidden;
+        pub iterations: usize;
+        /// True for a stable equilibrium; absent for ideal cables, which are rigid.
+        pub stable: Option<bool>;
+        pub stiffness_min_n_per_m: Option<f64>;
+        /// Motions that no cable opposes by its tension; absent unless the directions of the cables are dependent or the
+        /// equilibrium is indifferent.
+        pub free_motions: Vec<FreeMotionRow> = sparse;
+        pub another_stable_equilibrium: Option<OtherStable>;
+        /// All equilibria that the search of `all` found, with the lowest energy first.
+        pub equilibria: Option<Vec<EquilibriumRow>>;
+        pub search: Option<Search>;
+        /// Interval in which friction of pulleys leaves the robot; absent unless requested.
+        pub friction_interval: Option<FrictionRow>;
+        pub warnings: Vec<String> = hidden;
+    }
 }
 
-/// Motion of the platform that no cable opposes by its tension: a rotation about an axis, or a translation.
-#[derive(Serialize)]
-pub struct FreeMotionRow {
-    /// Axis of the rotation, unit vector; zero for a translation.
-    pub rotation: [f64; 3],
-    /// Velocity of the platform origin, per radian with a rotation.
-    pub translation_m: [f64; 3],
-    /// Point on the axis.
-    pub point_m: [f64; 3],
-    /// False if nothing holds the platform; absent for ideal cables.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub held: Option<bool>,
-    /// The motion in words.
-    pub text: String,
+rows! {
+    /// Motion of the platform that no cable opposes by its tension: a rotation about an axis, or a translation.
+    pub struct FreeMotionRow {
+        /// Axis of the rotation, unit vector; zero for a translation.
+        pub rotation: [f64; 3];
+        /// Velocity of the platform origin, per radian with a rotation.
+        pub translation_m: [f64; 3];
+        /// Point on the axis.
+        pub point_m: [f64; 3];
+        /// False if nothing holds the platform; absent for ideal cables.
+        pub held: Option<bool>;
+        /// The motion in words.
+        pub text: String;
+    }
 }
 
 impl FreeMotionRow {
@@ -103,21 +88,21 @@ impl FreeMotionRow {
     }
 }
 
-/// Another equilibrium of the same lengths.
-#[derive(Serialize)]
-pub struct EquilibriumRow {
-    pub stable: bool,
-    /// Number of directions in which the energy falls.
-    pub falling_directions: usize,
-    /// Number of directions in which the energy does not change.
-    pub indifferent_directions: usize,
-    /// Energy above the lowest equilibrium; absent if the loads have no potential.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub energy_j: Option<f64>,
-    /// Distance from the first equilibrium.
-    pub distance_m: f64,
-    pub pose: PoseRow,
-    pub tensions_platform_n: Vec<f64>,
+rows! {
+    /// Another equilibrium of the same lengths.
+    pub struct EquilibriumRow {
+        pub stable: bool;
+        /// Number of directions in which the energy falls.
+        pub falling_directions: usize;
+        /// Number of directions in which the energy does not change.
+        pub indifferent_directions: usize;
+        /// Energy above the lowest equilibrium; absent if the loads have no potential.
+        pub energy_j: Option<f64>;
+        /// Distance from the first equilibrium.
+        pub distance_m: f64;
+        pub pose: PoseRow;
+        pub tensions_platform_n: Vec<f64>;
+    }
 }
 
 impl EquilibriumRow {
@@ -158,24 +143,24 @@ impl EquilibriumRow {
     }
 }
 
-/// Statistics of a search for all equilibria.
-#[derive(Serialize)]
-pub struct Search {
-    pub starts: usize,
-    /// Sum of (−1)^falling_directions over the equilibria that were found.
-    pub index_sum: i64,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub expected_index_sum: Option<i64>,
+rows! {
+    /// Statistics of a search for all equilibria.
+    pub struct Search {
+        pub starts: usize;
+        /// Sum of (−1)^falling_directions over the equilibria that were found.
+        pub index_sum: i64;
+        pub expected_index_sum: Option<i64>;
+    }
 }
 
-/// Another stable equilibrium, if a short search found one.
-#[derive(Serialize)]
-pub struct OtherStable {
-    /// Energy above this equilibrium; absent if the loads have no potential.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub energy_above_j: Option<f64>,
-    pub distance_m: f64,
-    pub position_m: [f64; 3],
+rows! {
+    /// Another stable equilibrium, if a short search found one.
+    pub struct OtherStable {
+        /// Energy above this equilibrium; absent if the loads have no potential.
+        pub energy_above_j: Option<f64>;
+        pub distance_m: f64;
+        pub position_m: [f64; 3];
+    }
 }
 
 impl OtherStable {
@@ -185,12 +170,12 @@ impl OtherStable {
     }
 }
 
-/// Pose whose unstrained lengths are held, and the motion from there to the equilibrium.
-#[derive(Serialize)]
-pub struct HeldRow {
-    pub pose: PoseRow,
-    #[serde(flatten)]
-    pub motion: PoseDifferenceRow,
+rows! {
+    /// Pose whose unstrained lengths are held, and the motion from there to the equilibrium.
+    pub struct HeldRow {
+        pub pose: PoseRow;
+        pub motion: PoseDifferenceRow = spread;
+    }
 }
 
 impl HeldRow {
@@ -199,36 +184,38 @@ impl HeldRow {
     }
 }
 
-/// Interval in which friction of pulleys leaves the robot. Every pair is minimum and maximum.
-#[derive(Serialize)]
-pub struct FrictionRow {
-    /// Quantity that is held: `lengths` or `pose`.
-    pub held: &'static str,
-    /// Motion of the platform; absent with the pose held.
-    #[serde(flatten)]
-    pub motion: Option<FrictionMotionRow>,
-    pub cables: Vec<FrictionCableRow>,
+rows! {
+    /// Interval in which friction of pulleys leaves the robot. Every pair is minimum and maximum.
+    pub struct FrictionRow {
+        /// Quantity that is held: `lengths` or `pose`.
+        pub held: &'static str;
+        /// Motion of the platform; absent with the pose held.
+        pub motion: Option<FrictionMotionRow> = spread;
+        pub cables: Vec<FrictionCableRow>;
+    }
 }
 
-/// Motion of the platform due to friction, along and about the world axes.
-#[derive(Serialize)]
-pub struct FrictionMotionRow {
-    pub translation_m: [[f64; 2]; 3],
-    /// Components of the rotation vector.
-    pub rotation_deg: [[f64; 2]; 3],
+rows! {
+    /// Motion of the platform due to friction, along and about the world axes.
+    pub struct FrictionMotionRow {
+        pub translation_m: [[f64; 2]; 3];
+        /// Components of the rotation vector.
+        pub rotation_deg: [[f64; 2]; 3];
+    }
 }
 
-/// Tensions of a cable that friction permits.
-#[derive(Serialize)]
-pub struct FrictionCableRow {
-    pub name: String,
-    /// Friction exponent of the cable's pulley; zero without friction.
-    pub friction_exponent: f64,
-    /// Change of the unstrained length beyond the exit point.
-    pub excess_length_m: [f64; 2],
-    pub tension_platform_n: [f64; 2],
-    pub tension_anchor_n: [f64; 2],
-    pub tension_drum_n: [f64; 2],
+rows! {
+    /// Tensions of a cable that friction permits.
+    pub struct FrictionCableRow {
+        pub name: String;
+        /// Friction exponent of the cable's pulley; zero without friction.
+        pub friction_exponent: f64;
+        /// Change of the unstrained length beyond the exit point.
+        pub excess_length_m: [f64; 2];
+        pub tension_platform_n: [f64; 2];
+        pub tension_anchor_n: [f64; 2];
+        pub tension_drum_n: [f64; 2];
+    }
 }
 
 impl FrictionRow {
@@ -270,7 +257,7 @@ impl FrictionCableRow {
             column("friction_exponent", "1", "friction exponent of the pulley", move |row| {
                 of(row).map(|f| f.friction_exponent)
             })
-            .decimals("exponent", "", 4),
+            .decimals("exponent", 4),
             range("excess_length_{}_m", "{}imum change of the unstrained length beyond the exit point", |f| {
                 f.excess_length_m
             })
@@ -340,48 +327,44 @@ impl<'a> CableWithFriction<'a> {
     }
 }
 
-/// Cable at the equilibrium.
-#[derive(Serialize)]
-pub struct CableRow {
-    pub name: String,
-    /// Name of its rope.
-    #[serde(skip)]
-    pub rope: String,
-    pub unstrained_length_m: f64,
-    pub tension_platform_n: f64,
-    pub tension_anchor_n: f64,
-    pub chord_m: f64,
-    #[serde(flatten)]
-    pub sag: SagNumbers,
-    pub force_on_platform_n: [f64; 3],
-    /// State of pulley and winch; absent for a cable that ends at a fixed point.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub drive: Option<DriveRow>,
-    /// Tension limits; absent if neither the file nor a rule has limits.
-    #[serde(flatten)]
-    pub limits: Option<LimitNumbers>,
+rows! {
+    /// Cable at the equilibrium.
+    pub struct CableRow {
+        pub name: String;
+        /// Name of its rope.
+        pub rope: String = hidden;
+        pub unstrained_length_m: f64;
+        pub tension_platform_n: f64;
+        pub tension_anchor_n: f64;
+        pub chord_m: f64;
+        pub sag: SagNumbers = spread;
+        pub force_on_platform_n: [f64; 3];
+        /// State of pulley and winch; absent for a cable that ends at a fixed point.
+        pub drive: Option<DriveRow>;
+        /// Tension limits; absent if neither the file nor a rule has limits.
+        pub limits: Option<LimitNumbers> = spread;
+    }
 }
 
-/// Pulley and winch of a cable at the equilibrium.
-#[derive(Serialize)]
-pub struct DriveRow {
-    /// Point at which the cable leaves its pulley.
-    pub exit_m: [f64; 3],
-    /// Wrap angle on the pulley; absent without a pulley.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub wrap_deg: Option<f64>,
-    /// Direction from the entry point to the axle, unit vector; absent without a pulley.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub swivel_direction: Option<[f64; 3]>,
-    /// Tension from the entry point to the drum.
-    pub tension_drum_n: f64,
-    /// Unstrained lengths of the free span, on the wheel, and from the entry point to the drum, which add up to that of
-    /// the cable.
-    pub free_length_m: f64,
-    pub arc_length_m: f64,
-    pub drum_side_length_m: f64,
-    /// Length that the winch pays out because it yields.
-    pub winch_yield_m: f64,
+rows! {
+    /// Pulley and winch of a cable at the equilibrium.
+    pub struct DriveRow {
+        /// Point at which the cable leaves its pulley.
+        pub exit_m: [f64; 3];
+        /// Wrap angle on the pulley; absent without a pulley.
+        pub wrap_deg: Option<f64>;
+        /// Direction from the entry point to the axle, unit vector; absent without a pulley.
+        pub swivel_direction: Option<[f64; 3]>;
+        /// Tension from the entry point to the drum.
+        pub tension_drum_n: f64;
+        /// Unstrained lengths of the free span, on the wheel, and from the entry point to the drum, which add up to that of
+        /// the cable.
+        pub free_length_m: f64;
+        pub arc_length_m: f64;
+        pub drum_side_length_m: f64;
+        /// Length that the winch pays out because it yields.
+        pub winch_yield_m: f64;
+    }
 }
 
 impl DriveRow {
@@ -393,21 +376,25 @@ impl DriveRow {
             parts("exit_{}_m", AXES, "m", "point at which the cable leaves its pulley, {}", move |row| {
                 of(row).map_or([None; 3], |drive| drive.exit_m.map(Some))
             })
-            .decimals("exit point", "m", 4),
+            .decimals("exit point", 4),
             column("wrap_deg", "deg", "angle over which the cable touches its wheel", move |row| {
                 of(row).and_then(|d| d.wrap_deg)
             })
-            .decimals("wrap", "°", 2),
+            .decimals("wrap", 2),
             number("tension_drum_n", "N", "tension at the drum", |drive| drive.tension_drum_n)
-                .decimals("T drum", "N", 3),
+                .decimals("T drum", 3)
+                .with_unit("N"),
             number("free_length_m", "m", "unstrained length of the free span", |drive| drive.free_length_m)
-                .decimals("free", "m", 4),
+                .decimals("free", 4)
+                .with_unit("m"),
             number("arc_length_m", "m", "unstrained length on the wheel", |drive| drive.arc_length_m)
-                .decimals("on wheel", "m", 4),
+                .decimals("on wheel", 4)
+                .with_unit("m"),
             number("drum_side_length_m", "m", "unstrained length from the pulley to the drum", |drive| {
                 drive.drum_side_length_m
             })
-            .decimals("to drum", "m", 4),
+            .decimals("to drum", 4)
+            .with_unit("m"),
             number("winch_yield_m", "m", "length that the winch pays out because it yields", |drive| {
                 drive.winch_yield_m
             })
@@ -445,21 +432,18 @@ impl CableRow {
             fields::cable_name(move |row| of(row).name.clone()),
             only_read().shown("rope", "", move |row, _| of(row).rope.clone()).only_in(Style::Typeset),
             column("unstrained_length_m", "m", "length without tension", move |row| of(row).unstrained_length_m)
-                .decimals("unstrained", "m", 4),
+                .decimals("unstrained", 4),
             only_read().shown("chord", "m", move |row, style| style.decimals(of(row).chord_m, 4)).aligned(false),
             at_platform,
             at_anchor,
             column("chord_m", "m", "distance between the ends of the free span", move |row| of(row).chord_m),
-            column("sag_ratio", "1", "sag divided by the chord", move |row| of(row).sag.sag_ratio).decimals(
-                "sag/chord",
-                "",
-                5,
-            ),
-            column("lambda2", "1", "Irvine's parameter", move |row| of(row).sag.lambda2).significant("λ²", "", 4),
+            column("sag_ratio", "1", "sag divided by the chord", move |row| of(row).sag.sag_ratio)
+                .decimals("sag/chord", 5),
+            column("lambda2", "1", "Irvine's parameter", move |row| of(row).sag.lambda2).significant("λ²", 4),
             column("string_frequency_hz", "Hz", "first natural frequency of the taut cable alone", move |row| {
                 of(row).sag.string_frequency_hz
             })
-            .decimals("string", "Hz", 3),
+            .decimals("string", 3),
             parts("force_on_platform_{}_n", AXES, "N", "force of the cable on the platform, {}", move |row| {
                 of(row).force_on_platform_n
             }),
@@ -476,14 +460,15 @@ impl CableRow {
     }
 }
 
-/// Flexible support at the equilibrium.
-#[derive(Serialize)]
-pub struct SupportRow {
-    pub name: String,
-    /// Displacement of its anchors, world axes.
-    pub displacement_m: [f64; 3],
-    /// Force of its cables on it, world axes.
-    pub force_n: [f64; 3],
+rows! {
+    /// Flexible support at the equilibrium.
+    pub struct SupportRow {
+        pub name: String;
+        /// Displacement of its anchors, world axes.
+        pub displacement_m: [f64; 3];
+        /// Force of its cables on it, world axes.
+        pub force_n: [f64; 3];
+    }
 }
 
 impl SupportRow {

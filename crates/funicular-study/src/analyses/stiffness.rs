@@ -7,6 +7,7 @@ use crate::at_rest::{self, AtRest};
 use crate::columns::{Columns, ResultTable, Tabled, column};
 use crate::error::Cancelled;
 use crate::request::{self, Model};
+use crate::rows::rows;
 use crate::table::Column;
 use crate::watch::Watch;
 use anyhow::Result;
@@ -15,7 +16,6 @@ use funicular::dynamics::{Assembly, Dynamics, DynamicsError, Linearisation};
 use funicular::math::{CMat6, Complex, Mat6};
 use funicular::robot::{Robot, WinchMode};
 use funicular::statics::{self, StaticModel};
-use serde::Serialize;
 use std::f64::consts::TAU;
 
 /// Components of a wrench, in the order of the rows of a stiffness.
@@ -23,21 +23,18 @@ pub const WRENCH: [&str; 6] = ["fx", "fy", "fz", "mx", "my", "mz"];
 /// Components of a motion, in the order of its columns.
 pub const MOTION: [&str; 6] = ["x", "y", "z", "rx", "ry", "rz"];
 
-/// Results of `stiffness`: 6×6 matrix about the platform origin, world axes.
-#[derive(Serialize)]
-pub struct Stiffness {
-    #[serde(skip)]
-    pub robot: String,
-    pub frequency_hz: f64,
-    #[serde(flatten)]
-    pub models: Models,
-    pub real: [[f64; 6]; 6],
-    pub imag: [[f64; 6]; 6],
-    /// Norm of the antisymmetric part divided by the norm of the matrix; absent if the matrix is symmetric by theory.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub antisymmetric_fraction: Option<f64>,
-    #[serde(skip)]
-    pub warnings: Vec<String>,
+rows! {
+    /// Results of `stiffness`: 6×6 matrix about the platform origin, world axes.
+    pub struct Stiffness {
+        pub robot: String = hidden;
+        pub frequency_hz: f64;
+        pub models: Models = spread;
+        pub real: [[f64; 6]; 6];
+        pub imag: [[f64; 6]; 6];
+        /// Norm of the antisymmetric part divided by the norm of the matrix; absent if the matrix is symmetric by theory.
+        pub antisymmetric_fraction: Option<f64>;
+        pub warnings: Vec<String> = hidden;
+    }
 }
 
 /// Computes the 6×6 stiffness about the platform origin, world axes, at one frequency.

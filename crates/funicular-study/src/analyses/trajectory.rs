@@ -22,6 +22,7 @@ use super::timed_rows::{MAX_SAMPLES, count_of_steps, in_steps};
 use crate::at_rest::{self, AtRest};
 use crate::columns::{Columns, ResultTable, Tabled, column, parts};
 use crate::request::TrajectoryRequest;
+use crate::rows::rows;
 use crate::table::Column;
 use crate::text::significant;
 use crate::watch::Watch;
@@ -34,7 +35,6 @@ use funicular::trajectory::AlongPath;
 use jumps::JumpCause;
 use rounded::RoundedRows;
 use samples::MotionSamples;
-use serde::Serialize;
 use used::UsedLimit;
 
 /// Key of the request that has the table of a path.
@@ -58,154 +58,147 @@ const DOUBTFUL: f64 = 0.3;
 /// Largest number of times at which the robot is kept for pictures.
 const MAX_FRAMES: usize = 61;
 
-/// Results of `trajectory`.
-#[derive(Serialize)]
-pub struct TrajectoryResult {
-    #[serde(skip)]
-    pub robot: String,
-    pub static_model: &'static str,
-    #[serde(flatten)]
-    pub origin: Origin,
-    pub duration_s: f64,
-    /// True if every limit of tensions and winches is kept on the whole path, and that of distances at all rows.
-    pub within_limits: bool,
-    /// Limit of which the largest part is used; absent if the robot file has none. All of a minimum tension is used
-    /// where the rule holds a cable there by its choice.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub most_used: Option<MostUsed>,
-    /// Largest used part of every kind of limit: of a maximum tension T/T_max, of a minimum tension T_min/T.
-    pub used: Vec<MostUsed>,
-    /// Smallest factor with which the inertia is the largest one that any tensions within their limits hold; absent
-    /// where the cables leave no choice of tensions.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub inertia_factor: Option<f64>,
-    /// Largest and lowest numbers on the path, with cable and time.
-    pub extremes: Vec<Extreme>,
-    /// Largest sums over all winches of the powers that drive and that brake; absent without winches.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub sums: Option<PowerSums>,
-    /// Nearest pair on the path; absent if the robot file says nothing about distances.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub nearest: Option<Nearest>,
-    /// Times at which a tension reaches a limit or leaves it: the rates of all lengths jump there.
-    pub limit_changes: Vec<LimitChange>,
-    /// Times at which a derivative of the path jumps, and with it lengths or their rates.
-    pub path_jumps: Vec<PathJump>,
-    /// Times at which the rule of tensions goes over to other tensions, and with them the lengths.
-    pub rule_jumps: Vec<RuleJump>,
-    /// Sentences that explain the largest numbers.
-    pub notes: Vec<String>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub quasi_static: Option<QuasiStatic>,
-    /// Controller with straight lines between its stations; absent if no length bends.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub stations: Option<Stations>,
-    /// Distances at which the path passes the poses on its way; absent without such poses.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub misses_m: Vec<f64>,
-    /// Names of the cables, in the order of all lists.
-    pub cables: Vec<String>,
-    pub rows: Vec<TrajectoryRow>,
-    /// Robot at some of the times, for pictures.
-    #[serde(skip)]
-    pub frames: Vec<(f64, Equilibrium)>,
-    #[serde(skip)]
-    pub warnings: Vec<String>,
+rows! {
+    /// Results of `trajectory`.
+    pub struct TrajectoryResult {
+        pub robot: String = hidden;
+        pub static_model: &'static str;
+        pub origin: Origin = spread;
+        pub duration_s: f64;
+        /// True if every limit of tensions and winches is kept on the whole path, and that of distances at all rows.
+        pub within_limits: bool;
+        /// Limit of which the largest part is used; absent if the robot file has none. All of a minimum tension is used
+        /// where the rule holds a cable there by its choice.
+        pub most_used: Option<MostUsed>;
+        /// Largest used part of every kind of limit: of a maximum tension T/T_max, of a minimum tension T_min/T.
+        pub used: Vec<MostUsed>;
+        /// Smallest factor with which the inertia is the largest one that any tensions within their limits hold; absent
+        /// where the cables leave no choice of tensions.
+        pub inertia_factor: Option<f64>;
+        /// Largest and lowest numbers on the path, with cable and time.
+        pub extremes: Vec<Extreme>;
+        /// Largest sums over all winches of the powers that drive and that brake; absent without winches.
+        pub sums: Option<PowerSums>;
+        /// Nearest pair on the path; absent if the robot file says nothing about distances.
+        pub nearest: Option<Nearest>;
+        /// Times at which a tension reaches a limit or leaves it: the rates of all lengths jump there.
+        pub limit_changes: Vec<LimitChange>;
+        /// Times at which a derivative of the path jumps, and with it lengths or their rates.
+        pub path_jumps: Vec<PathJump>;
+        /// Times at which the rule of tensions goes over to other tensions, and with them the lengths.
+        pub rule_jumps: Vec<RuleJump>;
+        /// Sentences that explain the largest numbers.
+        pub notes: Vec<String>;
+        pub quasi_static: Option<QuasiStatic>;
+        /// Controller with straight lines between its stations; absent if no length bends.
+        pub stations: Option<Stations>;
+        /// Distances at which the path passes the poses on its way; absent without such poses.
+        pub misses_m: Vec<f64> = sparse;
+        /// Names of the cables, in the order of all lists.
+        pub cables: Vec<String>;
+        pub rows: Vec<TrajectoryRow>;
+        /// Robot at some of the times, for pictures.
+        pub frames: Vec<(f64, Equilibrium)> = hidden;
+        pub warnings: Vec<String> = hidden;
+    }
 }
 
-/// Limit of which a motion uses the largest part.
-#[derive(Clone, Serialize)]
-pub struct MostUsed {
-    /// `maximum-tension`, `minimum-tension`, `speed`, `acceleration`, `torque`, `power`, `brake-power` or `clearance`.
-    pub limit: &'static str,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub cable: Option<String>,
-    pub t_s: f64,
-    /// Used over allowed; absent where nothing is allowed, and where a speed or an acceleration has no bound.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub part: Option<f64>,
+rows! {
+    /// Limit of which a motion uses the largest part.
+    #[derive(Clone)]
+    pub struct MostUsed {
+        /// `maximum-tension`, `minimum-tension`, `speed`, `acceleration`, `torque`, `power`, `brake-power` or `clearance`.
+        pub limit: &'static str;
+        pub cable: Option<String>;
+        pub t_s: f64;
+        /// Used over allowed; absent where nothing is allowed, and where a speed or an acceleration has no bound.
+        pub part: Option<f64>;
+    }
 }
 
-/// Largest or lowest number on a path.
-#[derive(Serialize)]
-pub struct Extreme {
-    /// Name of the number.
-    pub what: &'static str,
-    /// Largest beside the jumps where the number has no bound; absent where rates jump because tensions reach limits,
-    /// near which they change too fast for a number that does not depend on the rows.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub value: Option<f64>,
-    pub unit: &'static str,
-    pub cable: String,
-    pub t_s: f64,
-    /// Reason why the number has no bound, with the place of the largest jump.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub no_bound: Option<String>,
+rows! {
+    /// Largest or lowest number on a path.
+    pub struct Extreme {
+        /// Name of the number.
+        pub what: &'static str;
+        /// Largest beside the jumps where the number has no bound; absent where rates jump because tensions reach limits,
+        /// near which they change too fast for a number that does not depend on the rows.
+        pub value: Option<f64>;
+        pub unit: &'static str;
+        pub cable: String;
+        pub t_s: f64;
+        /// Reason why the number has no bound, with the place of the largest jump.
+        pub no_bound: Option<String>;
+    }
 }
 
-/// Jump of lengths or of their rates where a derivative of the path jumps.
-#[derive(Serialize)]
-pub struct PathJump {
-    pub t_s: f64,
-    /// `acceleration` or `jerk` of the platform.
-    pub of: &'static str,
-    /// Cable with the largest jump.
-    pub cable: String,
-    /// Jump of its length; absent if it is continuous.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub length_m: Option<f64>,
-    /// Jump of its rate.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub rate_m_s: Option<f64>,
+rows! {
+    /// Jump of lengths or of their rates where a derivative of the path jumps.
+    pub struct PathJump {
+        pub t_s: f64;
+        /// `acceleration` or `jerk` of the platform.
+        pub of: &'static str;
+        /// Cable with the largest jump.
+        pub cable: String;
+        /// Jump of its length; absent if it is continuous.
+        pub length_m: Option<f64>;
+        /// Jump of its rate.
+        pub rate_m_s: Option<f64>;
+    }
 }
 
-/// Jump of the rule of tensions.
-#[derive(Serialize)]
-pub struct RuleJump {
-    pub t_s: f64,
-    /// Cable with the largest jump of the tension.
-    pub cable: String,
-    pub tension_n: f64,
-    /// Jump of the length of the cable whose length jumps most.
-    pub length_m: f64,
+rows! {
+    /// Jump of the rule of tensions.
+    pub struct RuleJump {
+        pub t_s: f64;
+        /// Cable with the largest jump of the tension.
+        pub cable: String;
+        pub tension_n: f64;
+        /// Jump of the length of the cable whose length jumps most.
+        pub length_m: f64;
+    }
 }
 
-/// Largest sums of powers, each with its time.
-#[derive(Serialize)]
-pub struct PowerSums {
-    pub driving_power_w: f64,
-    pub driving_t_s: f64,
-    pub braking_power_w: f64,
-    pub braking_t_s: f64,
+rows! {
+    /// Largest sums of powers, each with its time.
+    pub struct PowerSums {
+        pub driving_power_w: f64;
+        pub driving_t_s: f64;
+        pub braking_power_w: f64;
+        pub braking_t_s: f64;
+    }
 }
 
-/// Nearest pair on a path.
-#[derive(Serialize)]
-pub struct Nearest {
-    pub pair: String,
-    pub distance_m: f64,
-    pub required_m: f64,
-    pub t_s: f64,
+rows! {
+    /// Nearest pair on a path.
+    pub struct Nearest {
+        pub pair: String;
+        pub distance_m: f64;
+        pub required_m: f64;
+        pub t_s: f64;
+    }
 }
 
-/// Limit that a tension reaches or leaves.
-#[derive(Serialize)]
-pub struct LimitChange {
-    pub t_s: f64,
-    pub cable: String,
-    /// `minimum` or `maximum`.
-    pub limit: &'static str,
-    /// True if the tension is at the limit afterwards.
-    pub reached: bool,
+rows! {
+    /// Limit that a tension reaches or leaves.
+    pub struct LimitChange {
+        pub t_s: f64;
+        pub cable: String;
+        /// `minimum` or `maximum`.
+        pub limit: &'static str;
+        /// True if the tension is at the limit afterwards.
+        pub reached: bool;
+    }
 }
 
-/// Frequencies of the motion and of the cables.
-#[derive(Serialize)]
-pub struct QuasiStatic {
-    /// Frequency below which 95 % of the square of the acceleration lie.
-    pub motion_hz: f64,
-    /// Lowest frequency of a cable as a taut string between fixed ends, on the whole path.
-    pub cable_hz: f64,
+rows! {
+    /// Frequencies of the motion and of the cables.
+    pub struct QuasiStatic {
+        /// Frequency below which 95 % of the square of the acceleration lie.
+        pub motion_hz: f64;
+        /// Lowest frequency of a cable as a taut string between fixed ends, on the whole path.
+        pub cable_hz: f64;
+    }
 }
 
 /// Path that a robot has to follow.

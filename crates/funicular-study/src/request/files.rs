@@ -16,7 +16,7 @@ declared! {
     /// that every command runs on it at once. docs/robot-file.md explains every key.
     pub struct NewRequest {
         /// Name of the robot.
-        name: Option<String> = None => (Text);
+        name: Option<String> = None => (Text).form("NAME");
         /// Number of cables, up to 64, in a symmetric layout.
         cables: Option<usize> = None => (Count(0..=u64::MAX)).otherwise("8; 4 for planar-xz and point-mass");
         /// Motion of the platform.
@@ -59,8 +59,8 @@ declared! {
 }
 
 declared! {
-    /// Write the JSON Schema of the robot file, with which editors complete and check it, that of requests, or the
-    /// columns of results.
+    /// Write the JSON Schema of the robot file, with which editors complete and check it, that of requests or of
+    /// results, or the columns of results.
     ///
     /// The first line `#:schema ./robot.schema.json` of a robot file names the schema to Even Better TOML in VS Code
     /// and to other editors with Taplo.
@@ -73,6 +73,7 @@ declared! {
         "funicular schema -o robot.schema.json",
         "funicular schema --of request -o request.schema.json",
         "funicular schema --of columns",
+        "funicular schema --of results -o results.schema.json",
     }
 }
 

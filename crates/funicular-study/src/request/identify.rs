@@ -74,11 +74,11 @@ declared! {
         to_hz: Option<f64> = None => (Number(Positive)).under("Measurements").otherwise("all");
         /// Standard deviation of responses without deviations, relative to their magnitude; 0.3 % of the median
         /// magnitude is added.
-        response_noise: f64 = DEFAULT_RESPONSE_NOISE => (Number(Positive)).under("Measurements");
+        response_noise: f64 = DEFAULT_RESPONSE_NOISE => (Number(Positive)).form("FRACTION").under("Measurements");
         /// Relative standard deviation of natural frequencies without deviations.
-        frequency_noise: f64 = DEFAULT_FREQUENCY_NOISE => (Number(Positive)).under("Measurements");
+        frequency_noise: f64 = DEFAULT_FREQUENCY_NOISE => (Number(Positive)).form("FRACTION").under("Measurements");
         /// Relative standard deviation of damping ratios.
-        damping_noise: f64 = DEFAULT_DAMPING_NOISE => (Number(Positive)).under("Measurements");
+        damping_noise: f64 = DEFAULT_DAMPING_NOISE => (Number(Positive)).form("FRACTION").under("Measurements");
         /// Rule and limits of tensions.
         #[serde(flatten)]
         tensions: Tensions = Tensions::default() => group;

@@ -4,6 +4,7 @@
 //! its help and its range, keyword in Python, row of the tables in the documentation.
 
 use crate::names::Named;
+use crate::units;
 use crate::values::{MAX_MAGNITUDE, MIN_POSITIVE, finite, fraction, not_negative, positive};
 use serde_json::Value;
 use std::ops::RangeInclusive;
@@ -299,7 +300,7 @@ impl Key {
             self.option.clear();
         }
         if self.form.is_empty() {
-            self.form = form_of(name);
+            self.form = units::of_name(name).map_or("VALUE", |unit| unit.form);
         }
         self
     }
@@ -312,26 +313,6 @@ impl Key {
 pub(crate) fn name<T: Named>() -> Kind {
     let choice = |of: &T| Choice { name: of.name(), about: of.about(), also: of.also() };
     Kind::Name(T::WHAT, T::ALL.iter().map(choice).collect())
-}
-
-/// Form of a number in help texts: its unit, which the end of its name tells.
-fn form_of(name: &str) -> &'static str {
-    const UNITS: [(&str, &str); 12] = [
-        ("_hz", "HZ"),
-        ("_kg", "KG"),
-        ("_kg_per_m", "KG_PER_M"),
-        ("_n_per_m", "N_PER_M"),
-        ("_mm", "MM"),
-        ("_db", "DB"),
-        ("_pa", "PA"),
-        ("_n", "N"),
-        ("_m", "M"),
-        ("_deg", "DEG"),
-        ("name", "NAME"),
-        ("noise", "FRACTION"),
-    ];
-    let longest = UNITS.iter().filter(|(end, _)| name.ends_with(end)).max_by_key(|(end, _)| end.len());
-    longest.map_or("VALUE", |(_, form)| form)
 }
 
 /// Text of the lines of a doc comment. An empty line stands between paragraphs; the last full stop of each paragraph

@@ -287,7 +287,7 @@ declared! {
         /// Robot file.
         robot: RobotText = RobotText::default() => (Data(shape::robot)).required();
         /// Name of the cable in the robot file.
-        name: String = String::new() => (Text).required();
+        name: String = String::new() => (Text).form("NAME").required();
         /// Frequencies.
         #[serde(flatten)]
         range: FrequencyRange = FrequencyRange::default() => group;

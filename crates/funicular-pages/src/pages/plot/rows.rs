@@ -4,6 +4,7 @@
 use anyhow::{Context as _, Result, bail};
 use funicular_study::sweep::{CODES, MAX_POINTS, Steps};
 use funicular_study::table::{Chunk, Column, ColumnKind, Record, SweepRows, Values, axes_of};
+use funicular_study::units;
 use serde_json::Value;
 
 /// Maximum number of packed values of a grid on a page: about two megabytes.
@@ -379,10 +380,7 @@ fn bin(value: f64, min: f64, max: f64) -> usize {
 
 /// Name of a quantity in a figure: `tension_max_n` becomes "tension max".
 pub(super) fn label(name: &str) -> String {
-    const SUFFIXES: [&str; 10] =
-        ["_n_m_per_rad", "_n_per_m", "_n_per_rad", "_m", "_n", "_hz", "_deg", "_j", "_rad", "_kg"];
-    let stem = SUFFIXES.iter().find_map(|suffix| name.strip_suffix(suffix)).unwrap_or(name);
-    stem.replace('_', " ")
+    units::without_unit(name).replace('_', " ")
 }
 
 /// Name with its unit in brackets; without brackets for a pure number.

@@ -3,58 +3,57 @@
 
 use super::Calibrated;
 use super::report::CalibrationReport;
+use crate::rows::rows;
 use funicular::calibration::CalibrationUnknown;
 use funicular::math::DMat;
-use serde::Serialize;
 use serde_json::{Value, json};
 
 /// Largest half axis of an ellipse of two deviations, as a part of the width of the room; smaller ones are drawn
 /// larger.
 const LARGEST: f64 = 0.08;
 
-/// Anchor after a calibration.
-#[derive(Serialize)]
-pub struct AnchorRow {
-    pub cable: String,
-    /// Point of the robot file.
-    pub start_m: [f64; 3],
-    pub position_m: [f64; 3],
-    /// Places of its coordinates among the values; none for a coordinate that is known.
-    #[serde(skip)]
-    pub places: [Option<usize>; 3],
-    /// Covariance of the coordinates with inner conditions; zero along a known coordinate, absent without deviations.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub covariance_m2: Option<[[f64; 3]; 3]>,
-    /// One deviation along the weakest combination.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub weakest_m: Option<[f64; 3]>,
+rows! {
+    /// Anchor after a calibration.
+    pub struct AnchorRow {
+        pub cable: String;
+        /// Point of the robot file.
+        pub start_m: [f64; 3];
+        pub position_m: [f64; 3];
+        /// Places of its coordinates among the values; none for a coordinate that is known.
+        pub places: [Option<usize>; 3] = hidden;
+        /// Covariance of the coordinates with inner conditions; zero along a known coordinate, absent without deviations.
+        pub covariance_m2: Option<[[f64; 3]; 3]>;
+        /// One deviation along the weakest combination.
+        pub weakest_m: Option<[f64; 3]>;
+    }
 }
 
-/// Rows as linear equations about the fit, for fits without some of them (96j).
-#[derive(Serialize)]
-pub struct LinearRows {
-    /// Changes of the values along the free directions, one list per value.
-    pub free: Vec<Vec<f64>>,
-    /// Covariance with inner conditions.
-    pub inner: Vec<Vec<f64>>,
-    /// Information of all rows and priors.
-    pub information: Vec<Vec<f64>>,
-    /// Net rows of each row, with their residuals.
-    pub rows: Vec<NetRows>,
-    /// Factors that turn changes of the values into their units.
-    pub units: Vec<f64>,
-    pub chi2: f64,
-    pub degrees_of_freedom: usize,
-    /// Factor of the deviations if it does not come from the residuals.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub factor: Option<f64>,
+rows! {
+    /// Rows as linear equations about the fit, for fits without some of them (96j).
+    pub struct LinearRows {
+        /// Changes of the values along the free directions, one list per value.
+        pub free: Vec<Vec<f64>>;
+        /// Covariance with inner conditions.
+        pub inner: Vec<Vec<f64>>;
+        /// Information of all rows and priors.
+        pub information: Vec<Vec<f64>>;
+        /// Net rows of each row, with their residuals.
+        pub rows: Vec<NetRows>;
+        /// Factors that turn changes of the values into their units.
+        pub units: Vec<f64>;
+        pub chi2: f64;
+        pub degrees_of_freedom: usize;
+        /// Factor of the deviations if it does not come from the residuals.
+        pub factor: Option<f64>;
+    }
 }
 
-/// Equations that one row leaves for the values.
-#[derive(Serialize)]
-pub struct NetRows {
-    pub by_free: Vec<Vec<f64>>,
-    pub residuals: Vec<f64>,
+rows! {
+    /// Equations that one row leaves for the values.
+    pub struct NetRows {
+        pub by_free: Vec<Vec<f64>>;
+        pub residuals: Vec<f64>;
+    }
 }
 
 impl Calibrated {

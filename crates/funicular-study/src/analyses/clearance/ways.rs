@@ -4,13 +4,13 @@ use super::{PoseRow, rest_at};
 use crate::Watch;
 use crate::at_rest::AtRest;
 use crate::error::{Cancelled, NoSolution};
+use crate::rows::rows;
 use crate::text::decimals;
 use anyhow::Result;
 use funicular::clearance::Surroundings;
 use funicular::math::Vec3;
 use funicular::path::StraightMove;
 use funicular::robot::{PlatformMotion, Pose, Robot};
-use serde::Serialize;
 
 /// Number of positions along each axis of the lattice of poses through which a way may lead.
 const LATTICE: usize = 5;
@@ -18,14 +18,14 @@ const LATTICE: usize = 5;
 /// Maximum number of straight moves that a search examines: some ten seconds for a robot with eight sagging cables.
 const MOST_MOVES: usize = 1000;
 
-/// Way from the pose of the state to the end of a move.
-#[derive(Serialize)]
-pub struct WayAround {
-    /// Poses between both, in their order; absent if no way was found, which does not mean that there is none.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub through: Option<Vec<PoseRow>>,
-    /// Number of straight moves that were examined.
-    pub moves_examined: usize,
+rows! {
+    /// Way from the pose of the state to the end of a move.
+    pub struct WayAround {
+        /// Poses between both, in their order; absent if no way was found, which does not mean that there is none.
+        pub through: Option<Vec<PoseRow>>;
+        /// Number of straight moves that were examined.
+        pub moves_examined: usize;
+    }
 }
 
 /// Refuses a search between two poses one of which is not free itself: no way leads there.

@@ -1,6 +1,6 @@
 //! Band of frequencies to avoid: for each pose, the natural frequencies that go below it and those that go above it.
 
-use serde::Serialize;
+use crate::rows::rows;
 
 /// Maximum number of choices that are tried besides the nearer sides. Each choice is a search of its own.
 const MAX_OTHERS: usize = 6;
@@ -37,15 +37,17 @@ impl BandCounts {
     }
 }
 
-/// Choice of the sides of a band, with its result.
-#[derive(Debug, Clone, Serialize)]
-pub struct SidesTried {
-    /// Number of natural frequencies that had to go below the band, one per pose.
-    pub below: Vec<usize>,
-    /// Value of the goal; `None` if a demand was not met.
-    pub after: Option<f64>,
-    /// True for the choice of the result.
-    pub is_chosen: bool,
+rows! {
+    /// Choice of the sides of a band, with its result.
+    #[derive(Debug, Clone)]
+    pub struct SidesTried {
+        /// Number of natural frequencies that had to go below the band, one per pose.
+        pub below: Vec<usize>;
+        /// Value of the goal; `None` if a demand was not met.
+        pub after: Option<f64>;
+        /// True for the choice of the result.
+        pub is_chosen: bool;
+    }
 }
 
 /// Choices besides the nearer sides for the frequencies that are in the band at the start, and the number of further

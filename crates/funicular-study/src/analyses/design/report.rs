@@ -8,12 +8,12 @@ use super::variables::Variable;
 use crate::chosen_numbers::at_bound;
 use crate::columns::{Columns, Style, column, only_read};
 use crate::request::DesignRequest;
+use crate::rows::rows;
 use crate::text::{counted, significant, with_unit};
 use anyhow::Result;
 use funicular::math::max_min::{Found, MaxMinEnding};
 use funicular::math::rotation;
 use funicular::robot::parameters::Parameters;
-use serde::Serialize;
 
 /// Distance from a bound, relative to the distance of both bounds, up to which a value counts as at it. It is the
 /// distance of the linear problem, whose multipliers belong to values at bounds.
@@ -22,48 +22,43 @@ const AT_BOUND: f64 = 1e-9;
 /// Number of bounds that the sentences on limits name.
 const MAX_BOUNDS: usize = 5;
 
-/// Results at one pose.
-#[derive(Serialize)]
-pub struct DesignPose {
-    /// Position of the platform [m].
-    pub position_m: [f64; 3],
-    /// Roll, pitch, yaw [degrees].
-    pub roll_pitch_yaw_deg: [f64; 3],
-    /// Value of the goal with the values of the file.
-    pub before: f64,
-    /// Value of the goal with the chosen values.
-    pub after: f64,
-    /// Gain of the goal if this pose alone gains one. The shares of all poses sum to 1, except for a weighted mean.
-    pub share: f64,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub frequency_before_hz: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub frequency_after_hz: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub stiffness_before_n_per_m: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub stiffness_after_n_per_m: Option<f64>,
-    /// Natural frequency that is deepest in the band to avoid or nearest to it.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub beside_band_before_hz: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub beside_band_after_hz: Option<f64>,
+rows! {
+    /// Results at one pose.
+    pub struct DesignPose {
+        /// Position of the platform [m].
+        pub position_m: [f64; 3];
+        /// Roll, pitch, yaw [degrees].
+        pub roll_pitch_yaw_deg: [f64; 3];
+        /// Value of the goal with the values of the file.
+        pub before: f64;
+        /// Value of the goal with the chosen values.
+        pub after: f64;
+        /// Gain of the goal if this pose alone gains one. The shares of all poses sum to 1, except for a weighted mean.
+        pub share: f64;
+        pub frequency_before_hz: Option<f64>;
+        pub frequency_after_hz: Option<f64>;
+        pub stiffness_before_n_per_m: Option<f64>;
+        pub stiffness_after_n_per_m: Option<f64>;
+        /// Natural frequency that is deepest in the band to avoid or nearest to it.
+        pub beside_band_before_hz: Option<f64>;
+        pub beside_band_after_hz: Option<f64>;
+    }
 }
 
-/// Chosen value of the robot file.
-#[derive(Serialize)]
-pub struct ChosenValue {
-    pub path: String,
-    pub unit: &'static str,
-    pub start: f64,
-    pub value: f64,
-    pub minimum: f64,
-    pub maximum: f64,
-    /// `minimum` or `maximum` if the value is at this bound.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub at_bound: Option<&'static str>,
-    /// Improvement of the goal per unit of the value by which its bound is moved outwards; zero between the bounds.
-    pub gain_per_unit: f64,
+rows! {
+    /// Chosen value of the robot file.
+    pub struct ChosenValue {
+        pub path: String;
+        pub unit: &'static str;
+        pub start: f64;
+        pub value: f64;
+        pub minimum: f64;
+        pub maximum: f64;
+        /// `minimum` or `maximum` if the value is at this bound.
+        pub at_bound: Option<&'static str>;
+        /// Improvement of the goal per unit of the value by which its bound is moved outwards; zero between the bounds.
+        pub gain_per_unit: f64;
+    }
 }
 
 impl ChosenValue {
@@ -76,10 +71,10 @@ impl ChosenValue {
         Columns::new([
             column("path", "", "path of the number", |row: &Self| row.path.clone()).plain("value"),
             column("unit", "", "unit of the number", |row: &Self| row.unit).plain("unit"),
-            column("start", "", "value of the file", |row: &Self| row.start).significant("before", "", 6),
-            column("value", "", "chosen value", |row: &Self| row.value).significant("after", "", 6),
-            column("minimum", "", "lower bound", |row: &Self| row.minimum).significant("minimum", "", 6),
-            column("maximum", "", "upper bound", |row: &Self| row.maximum).significant("maximum", "", 6),
+            column("start", "", "value of the file", |row: &Self| row.start).significant("before", 6),
+            column("value", "", "chosen value", |row: &Self| row.value).significant("after", 6),
+            column("minimum", "", "lower bound", |row: &Self| row.minimum).significant("minimum", 6),
+            column("maximum", "", "upper bound", |row: &Self| row.maximum).significant("maximum", 6),
             column("at_bound", "", "bound at which the value is", |row: &Self| row.at_bound)
                 .shown("remark", "", |row, _| row.remark())
                 .only_in(Style::Typeset),
@@ -95,18 +90,19 @@ impl ChosenValue {
     }
 }
 
-/// Demand at the pose where it is met least.
-#[derive(Serialize)]
-pub struct DemandRow {
-    pub name: String,
-    pub unit: &'static str,
-    pub limit: f64,
-    pub before: f64,
-    pub after: f64,
-    /// Number of the pose, from 1.
-    pub pose: usize,
-    /// Improvement of the goal per unit by which the demand is lowered, summed over the poses.
-    pub gain_per_unit: f64,
+rows! {
+    /// Demand at the pose where it is met least.
+    pub struct DemandRow {
+        pub name: String;
+        pub unit: &'static str;
+        pub limit: f64;
+        pub before: f64;
+        pub after: f64;
+        /// Number of the pose, from 1.
+        pub pose: usize;
+        /// Improvement of the goal per unit by which the demand is lowered, summed over the poses.
+        pub gain_per_unit: f64;
+    }
 }
 
 impl DemandRow {
@@ -114,10 +110,10 @@ impl DemandRow {
     pub fn columns() -> Columns<Self> {
         Columns::new([
             column("name", "", "demand", |row: &Self| row.name.clone()).plain("demand"),
-            column("limit", "", "limit", |row: &Self| row.limit).significant("limit", "", 5),
+            column("limit", "", "limit", |row: &Self| row.limit).significant("limit", 5),
             column("before", "", "value with the numbers of the file", |row: &Self| row.before)
-                .significant("before", "", 5),
-            column("after", "", "value with the chosen numbers", |row: &Self| row.after).significant("after", "", 5),
+                .significant("before", 5),
+            column("after", "", "value with the chosen numbers", |row: &Self| row.after).significant("after", 5),
             column("unit", "", "unit", |row: &Self| row.unit).plain("unit"),
             column("pose", "1", "number of the pose, from 1", |row: &Self| row.pose).plain("at pose"),
         ])

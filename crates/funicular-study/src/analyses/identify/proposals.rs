@@ -11,13 +11,13 @@ use crate::error::Cancelled;
 use crate::measurements::MeasuredFrequency;
 use crate::names::suggestion;
 use crate::request::{self, Experiment, IdentifyRequest, State};
+use crate::rows::rows;
 use crate::text::significant;
 use anyhow::{Result, bail};
 use funicular::math::chosen_rows::{ChosenRows, choose_rows};
 use funicular::math::least_squares::{LeastSquaresProblem, Minimum, precision};
 use funicular::math::{DMat, rotation};
 use funicular::robot::Pose;
-use serde::Serialize;
 use std::cell::RefCell;
 
 /// Maximum number of candidates: each is computed with its derivatives, which takes about as long as one step of the
@@ -36,29 +36,26 @@ const UNSEEN: f64 = 1e-6;
 /// Kinds of measurements.
 const KINDS: [&str; 4] = ["frequencies", "tensions", "lengths", "pose"];
 
-/// Measurement to make next.
-#[derive(Serialize)]
-pub struct ProposedMeasurement {
-    /// Number of proposed measurements up to this one.
-    pub number: usize,
-    pub position_m: [f64; 3],
-    pub roll_pitch_yaw_deg: [f64; 3],
-    /// Payload that the platform carries there, if payloads are candidates.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub payload_kg: Option<f64>,
-    /// Measured quantities there: `frequencies`, `tensions`, `lengths` or `pose`.
-    pub measured: String,
-    /// Natural frequencies of the identified robot there, if they are measured.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub frequency_hz: Vec<f64>,
-    /// Standard deviations of all values after this measurement and those before it, in their order.
-    pub deviations: Vec<f64>,
-    /// Largest of these relative to its value, of the chosen positive values.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub largest_percent: Option<f64>,
-    /// Value that has it.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub largest_of: Option<String>,
+rows! {
+    /// Measurement to make next.
+    pub struct ProposedMeasurement {
+        /// Number of proposed measurements up to this one.
+        pub number: usize;
+        pub position_m: [f64; 3];
+        pub roll_pitch_yaw_deg: [f64; 3];
+        /// Payload that the platform carries there, if payloads are candidates.
+        pub payload_kg: Option<f64>;
+        /// Measured quantities there: `frequencies`, `tensions`, `lengths` or `pose`.
+        pub measured: String;
+        /// Natural frequencies of the identified robot there, if they are measured.
+        pub frequency_hz: Vec<f64> = sparse;
+        /// Standard deviations of all values after this measurement and those before it, in their order.
+        pub deviations: Vec<f64>;
+        /// Largest of these relative to its value, of the chosen positive values.
+        pub largest_percent: Option<f64>;
+        /// Value that has it.
+        pub largest_of: Option<String>;
+    }
 }
 
 impl ProposedMeasurement {
@@ -69,17 +66,17 @@ impl ProposedMeasurement {
             column("number", "1", "number of proposed measurements up to this one", |row: &Self| row.number)
                 .plain("next"),
             parts("{}_m", fields::AXES, "m", "position of the platform origin, {}", |row: &Self| row.position_m)
-                .components("position", "m", 4),
+                .components("position", 4),
             parts("{}_deg", ["roll", "pitch", "yaw"], "deg", "{} of the platform", |row: &Self| row.roll_pitch_yaw_deg)
-                .components("roll, pitch, yaw", "°", 3),
+                .components("roll, pitch, yaw", 3),
             column("payload_kg", "kg", "payload that the platform carries there", |row: &Self| row.payload_kg)
-                .significant("payload", "kg", 4)
+                .significant("payload", 4)
                 .only_if(has_payloads),
             column("measured", "", "what is measured there", |row: &Self| row.measured.clone()).plain("measured"),
             column("largest_percent", "%", "largest relative deviation of a chosen value then", |row: &Self| {
                 row.largest_percent
             })
-            .significant("largest ±", "%", 3),
+            .significant("largest ±", 3),
             column("largest_of", "", "value with the largest relative deviation", |row: &Self| row.largest_of.clone())
                 .plain("of"),
         ])

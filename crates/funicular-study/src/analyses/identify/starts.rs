@@ -1,20 +1,22 @@
 //! One search from one start, and its result in the list of starts.
 
+use crate::rows::rows;
 use funicular::math::least_squares::{LeastSquaresEnding, Minimum};
 
 /// Maximum number of iterations of one search.
 pub(super) const MAX_ITERATIONS: usize = 60;
 
-/// Result of one start.
-#[derive(Debug, Clone, serde::Serialize)]
-pub struct StartRow {
-    /// χ² per degree of freedom at its end; absent if the robot has no equilibrium there.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub chi2_per_degree: Option<f64>,
-    /// Iterations.
-    pub iterations: usize,
-    /// True if the search ended at a minimum.
-    pub converged: bool,
+rows! {
+    /// Result of one start.
+    #[derive(Debug, Clone)]
+    pub struct StartRow {
+        /// χ² per degree of freedom at its end; absent if the robot has no equilibrium there.
+        pub chi2_per_degree: Option<f64>;
+        /// Iterations.
+        pub iterations: usize;
+        /// True if the search ended at a minimum.
+        pub converged: bool;
+    }
 }
 
 impl StartRow {

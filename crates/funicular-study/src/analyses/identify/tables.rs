@@ -4,63 +4,59 @@ use super::{IdentifiedModel, Observation, Subject};
 use crate::columns::{Columns, column};
 use crate::measurements::MeasuredResponse;
 use crate::request::{self, Experiment};
+use crate::rows::rows;
 use funicular::math::Complex;
-use serde::Serialize;
 
-/// Measured and fitted natural frequency.
-#[derive(Serialize)]
-pub struct FrequencyRow {
-    pub experiment: String,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub label: Option<String>,
-    /// Number of the mode in the ascending list, from 1.
-    pub number: usize,
-    pub measured_hz: f64,
-    pub fitted_hz: f64,
-    /// Absent if the robot has no equilibrium before the fit, or not this mode.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub before_hz: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub measured_damping_ratio: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub fitted_damping_ratio: Option<f64>,
+rows! {
+    /// Measured and fitted natural frequency.
+    pub struct FrequencyRow {
+        pub experiment: String;
+        pub label: Option<String>;
+        /// Number of the mode in the ascending list, from 1.
+        pub number: usize;
+        pub measured_hz: f64;
+        pub fitted_hz: f64;
+        /// Absent if the robot has no equilibrium before the fit, or not this mode.
+        pub before_hz: Option<f64>;
+        pub measured_damping_ratio: Option<f64>;
+        pub fitted_damping_ratio: Option<f64>;
+    }
 }
 
-/// Measured and fitted response.
-#[derive(Serialize)]
-pub struct FittedResponse {
-    pub experiment: String,
-    pub name: String,
-    pub input: String,
-    pub output: String,
-    pub unit: String,
-    /// Root mean square of the residuals in deviations of the noise, of the values that are not left out; 1 if the fit
-    /// is perfect.
-    pub residual_rms: f64,
-    /// Ranges that are left out because the model misses them: first and last frequency of each [Hz].
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub left_out_hz: Vec<[f64; 2]>,
-    pub frequency_hz: Vec<f64>,
-    pub measured_real: Vec<f64>,
-    pub measured_imag: Vec<f64>,
-    /// Empty if the robot has no equilibrium before the fit.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub before_real: Vec<f64>,
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub before_imag: Vec<f64>,
-    pub fitted_real: Vec<f64>,
-    pub fitted_imag: Vec<f64>,
+rows! {
+    /// Measured and fitted response.
+    pub struct FittedResponse {
+        pub experiment: String;
+        pub name: String;
+        pub input: String;
+        pub output: String;
+        pub unit: String;
+        /// Root mean square of the residuals in deviations of the noise, of the values that are not left out; 1 if the fit
+        /// is perfect.
+        pub residual_rms: f64;
+        /// Ranges that are left out because the model misses them: first and last frequency of each [Hz].
+        pub left_out_hz: Vec<[f64; 2]> = sparse;
+        pub frequency_hz: Vec<f64>;
+        pub measured_real: Vec<f64>;
+        pub measured_imag: Vec<f64>;
+        /// Empty if the robot has no equilibrium before the fit.
+        pub before_real: Vec<f64> = sparse;
+        pub before_imag: Vec<f64> = sparse;
+        pub fitted_real: Vec<f64>;
+        pub fitted_imag: Vec<f64>;
+    }
 }
 
-/// Measured and fitted number of a state.
-#[derive(Serialize)]
-pub struct StaticRow {
-    pub experiment: String,
-    /// `x_m` … `rz_rad` (differences from the measured pose), `tension_n:NAME`, `length_m:NAME`.
-    pub quantity: String,
-    pub measured: f64,
-    pub fitted: f64,
-    pub deviation: f64,
+rows! {
+    /// Measured and fitted number of a state.
+    pub struct StaticRow {
+        pub experiment: String;
+        /// `x_m` … `rz_rad` (differences from the measured pose), `tension_n:NAME`, `length_m:NAME`.
+        pub quantity: String;
+        pub measured: f64;
+        pub fitted: f64;
+        pub deviation: f64;
+    }
 }
 
 impl StaticRow {
@@ -76,13 +72,11 @@ impl StaticRow {
         Columns::new([
             column("experiment", "", "experiment", |row: &Self| row.experiment.clone()).plain("experiment"),
             column("quantity", "", "quantity with its unit", |row: &Self| row.quantity.clone()).plain("quantity"),
-            column("measured", "", "measured value", |row: &Self| row.measured).significant("measured", "", 6),
-            column("fitted", "", "value of the fit", |row: &Self| row.fitted).significant("fitted", "", 6),
-            column("difference", "1", "difference in deviations", Self::difference).significant(
-                "difference",
-                "deviations",
-                3,
-            ),
+            column("measured", "", "measured value", |row: &Self| row.measured).significant("measured", 6),
+            column("fitted", "", "value of the fit", |row: &Self| row.fitted).significant("fitted", 6),
+            column("difference", "1", "difference in deviations", Self::difference)
+                .significant("difference", 3)
+                .with_unit("deviations"),
         ])
     }
 }

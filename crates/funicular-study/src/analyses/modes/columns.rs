@@ -61,7 +61,7 @@ impl ModeRow {
 
         let first = [
             column("frequency_hz", "Hz", "undamped natural frequency", |mode: &Self| mode.frequency_hz)
-                .decimals("f", "Hz", 4),
+                .decimals("f", 4),
             column("multiplicity", "1", "number of modes with this frequency", |mode: &Self| mode.multiplicity),
             column("damping_ratio", "1", "damping ratio", |mode: &Self| mode.damping_ratio).shown(
                 "damping",

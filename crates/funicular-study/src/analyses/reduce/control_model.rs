@@ -11,81 +11,80 @@ use crate::at_rest::AtRest;
 use crate::columns::{Columns, column, only_read};
 use crate::names::{ModelForm, Named};
 use crate::request;
+use crate::rows::rows;
 use crate::signals::response_unit;
 use anyhow::Result;
 use funicular::math::DMat;
 use funicular::reduced_model::{
     ControlModel, DampingAt, ModalStates, RequestedStateSpace, ResponseOfPair, StateSpaceSize, control_model,
 };
-use serde::Serialize;
 
-/// Results of `reduce` as a state space.
-#[derive(Serialize)]
-pub struct ControlStateSpace {
-    #[serde(skip)]
-    pub robot: String,
-    pub form: &'static str,
-    pub below_hz: f64,
-    #[serde(flatten)]
-    pub models: Models,
-    pub order: usize,
-    pub error: f64,
-    pub damping_error: f64,
-    pub pointwise_error: Pointwise,
-    pub complete_order: usize,
-    pub modes_below: usize,
-    pub damping: String,
-    pub inputs: Vec<ChannelRow>,
-    pub outputs: Vec<ChannelRow>,
-    pub responses: Vec<ResponseRow>,
-    pub states: Vec<StatesRow>,
-    pub a: Vec<Vec<f64>>,
-    pub b: Vec<Vec<f64>>,
-    pub c: Vec<Vec<f64>>,
-    pub d: Vec<Vec<f64>>,
-    /// File or folder to which a front end has written the matrices.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub matrices_file: Option<String>,
-    /// Model with its matrices.
-    #[serde(skip)]
-    pub model: ControlModel,
-    #[serde(skip)]
-    pub warnings: Vec<String>,
+rows! {
+    /// Results of `reduce` as a state space.
+    pub struct ControlStateSpace {
+        pub robot: String = hidden;
+        pub form: &'static str;
+        pub below_hz: f64;
+        pub models: Models = spread;
+        pub order: usize;
+        pub error: f64;
+        pub damping_error: f64;
+        pub pointwise_error: Pointwise;
+        pub complete_order: usize;
+        pub modes_below: usize;
+        pub damping: String;
+        pub inputs: Vec<ChannelRow>;
+        pub outputs: Vec<ChannelRow>;
+        pub responses: Vec<ResponseRow>;
+        pub states: Vec<StatesRow>;
+        pub a: Vec<Vec<f64>>;
+        pub b: Vec<Vec<f64>>;
+        pub c: Vec<Vec<f64>>;
+        pub d: Vec<Vec<f64>>;
+        /// File or folder to which a front end has written the matrices.
+        pub matrices_file: Option<String>;
+        /// Model with its matrices.
+        pub model: ControlModel = hidden;
+        pub warnings: Vec<String> = hidden;
+    }
 }
 
-/// Largest error relative to the response at the same frequency.
-#[derive(Serialize)]
-pub struct Pointwise {
-    pub error: f64,
-    pub frequency_hz: f64,
-    pub output: String,
-    pub input: String,
-    pub response_over_peak: f64,
+rows! {
+    /// Largest error relative to the response at the same frequency.
+    pub struct Pointwise {
+        pub error: f64;
+        pub frequency_hz: f64;
+        pub output: String;
+        pub input: String;
+        pub response_over_peak: f64;
+    }
 }
 
-/// Peak and error of the response of one output to one input.
-#[derive(Serialize)]
-pub struct ResponseRow {
-    pub output: String,
-    pub input: String,
-    pub unit: String,
-    pub coupled: bool,
-    pub peak: f64,
-    pub peak_hz: f64,
-    pub error: f64,
-    pub error_hz: f64,
+rows! {
+    /// Peak and error of the response of one output to one input.
+    pub struct ResponseRow {
+        pub output: String;
+        pub input: String;
+        pub unit: String;
+        pub coupled: bool;
+        pub peak: f64;
+        pub peak_hz: f64;
+        pub error: f64;
+        pub error_hz: f64;
+    }
 }
 
-/// States of one mode. The first state has the number 0.
-#[derive(Serialize)]
-pub struct StatesRow {
-    pub first: usize,
-    pub states: usize,
-    pub frequency_hz: f64,
-    pub damping_ratio: f64,
-    pub kind: &'static str,
-    pub platform_energy_fraction: f64,
-    pub contribution: f64,
+rows! {
+    /// States of one mode. The first state has the number 0.
+    pub struct StatesRow {
+        pub first: usize;
+        pub states: usize;
+        pub frequency_hz: f64;
+        pub damping_ratio: f64;
+        pub kind: &'static str;
+        pub platform_energy_fraction: f64;
+        pub contribution: f64;
+    }
 }
 
 /// Kind of a motion that replaces the modes above the limit.
@@ -182,11 +181,7 @@ impl StatesRow {
             only_read().shown("states", "", |of: &Self, _| {
                 if of.states == 1 { format!("{}", of.first + 1) } else { format!("{}, {}", of.first + 1, of.first + 2) }
             }),
-            column("frequency_hz", "Hz", "natural frequency", |of: &Self| of.frequency_hz).decimals(
-                "frequency",
-                "Hz",
-                4,
-            ),
+            column("frequency_hz", "Hz", "natural frequency", |of: &Self| of.frequency_hz).decimals("frequency", 4),
             column("damping_ratio", "1", "damping ratio", |of: &Self| of.damping_ratio).shown(
                 "damping ratio",
                 "%",

@@ -7,26 +7,26 @@ use crate::at_rest::AtRest;
 use crate::error::{ErrorKind, NoSolution};
 use crate::payload::carrying;
 use crate::request::SettleRequest;
+use crate::rows::rows;
 use anyhow::{Result, anyhow};
 use funicular::modes::{CommandedMotions, Decay, DecayingMotion, LengthCommand};
 use funicular::statics;
-use serde::Serialize;
 use std::f64::consts::TAU;
 
-/// Vibration with a payload.
-#[derive(Debug, Clone, Copy, Serialize)]
-pub struct WithPayload {
-    pub payload_kg: f64,
-    /// Frequency of the mode with the largest amplitude.
-    pub frequency_hz: f64,
-    /// Sum of all amplitudes at the end of the command.
-    pub amplitude_m: f64,
-    /// Sum of all amplitudes at the end of the command without its shaper; absent without one.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub without_m: Option<f64>,
-    /// Last time at which the point is at the tolerance, since the end of the command; absent if it never settles.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub settled_s: Option<f64>,
+rows! {
+    /// Vibration with a payload.
+    #[derive(Debug, Clone, Copy)]
+    pub struct WithPayload {
+        pub payload_kg: f64;
+        /// Frequency of the mode with the largest amplitude.
+        pub frequency_hz: f64;
+        /// Sum of all amplitudes at the end of the command.
+        pub amplitude_m: f64;
+        /// Sum of all amplitudes at the end of the command without its shaper; absent without one.
+        pub without_m: Option<f64>;
+        /// Last time at which the point is at the tolerance, since the end of the command; absent if it never settles.
+        pub settled_s: Option<f64>;
+    }
 }
 
 impl Swing<'_> {

@@ -3,50 +3,53 @@
 use super::history::SwingHistory;
 use super::{HistoryRow, finite};
 use crate::request::SettleRequest;
+use crate::rows::rows;
 use anyhow::{Result, anyhow, bail};
 use funicular::modes::{Decay, DecayingMotion};
 use funicular::path::{Impulse, Shaper, ShaperKind};
-use serde::Serialize;
 use std::f64::consts::TAU;
 
-/// Shaper and what it does.
-#[derive(Serialize)]
-pub struct Shaping {
-    /// Name, as `zvd` or `ei:0.05`.
-    pub shaper: String,
-    /// Frequencies of the vibrations that it cancels.
-    pub modes_hz: Vec<f64>,
-    pub impulses: Vec<ImpulseRow>,
-    /// Time by which the command is longer.
-    pub longer_s: f64,
-    /// Sum of all amplitudes at the end, with frequencies as they are and with others.
-    pub robustness: Vec<Robustness>,
-    /// Last time at which the point is at the tolerance without the shaper, since the end of the command without it;
-    /// absent if it never settles.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub settled_without_s: Option<f64>,
-    /// Time from which on the sum of all amplitudes without the shaper is within the tolerance; absent if it never is.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub surely_settled_without_s: Option<f64>,
-    /// Motion from the end of the command without it.
-    pub history_without: Vec<HistoryRow>,
+rows! {
+    /// Shaper and what it does.
+    pub struct Shaping {
+        /// Name, as `zvd` or `ei:0.05`.
+        pub shaper: String;
+        /// Frequencies of the vibrations that it cancels.
+        pub modes_hz: Vec<f64>;
+        pub impulses: Vec<ImpulseRow>;
+        /// Time by which the command is longer.
+        pub longer_s: f64;
+        /// Sum of all amplitudes at the end, with frequencies as they are and with others.
+        pub robustness: Vec<Robustness>;
+        /// Last time at which the point is at the tolerance without the shaper, since the end of the command without it;
+        /// absent if it never settles.
+        pub settled_without_s: Option<f64>;
+        /// Time from which on the sum of all amplitudes without the shaper is within the tolerance; absent if it never is.
+        pub surely_settled_without_s: Option<f64>;
+        /// Motion from the end of the command without it.
+        pub history_without: Vec<HistoryRow>;
+    }
 }
 
-/// Part of the command and its delay.
-#[derive(Debug, Clone, Copy, Serialize)]
-pub struct ImpulseRow {
-    pub t_s: f64,
-    pub part: f64,
+rows! {
+    /// Part of the command and its delay.
+    #[derive(Debug, Clone, Copy)]
+    pub struct ImpulseRow {
+        pub t_s: f64;
+        pub part: f64;
+    }
 }
 
-/// Vibration that is left if all frequencies are multiplied by a factor, with the shaper unchanged.
-#[derive(Debug, Clone, Copy, Serialize)]
-pub struct Robustness {
-    pub frequency_factor: f64,
-    /// Sum of all amplitudes at the end of the shaped command.
-    pub amplitude_m: f64,
-    /// Sum of all amplitudes at the end of the command without the shaper.
-    pub without_m: f64,
+rows! {
+    /// Vibration that is left if all frequencies are multiplied by a factor, with the shaper unchanged.
+    #[derive(Debug, Clone, Copy)]
+    pub struct Robustness {
+        pub frequency_factor: f64;
+        /// Sum of all amplitudes at the end of the shaped command.
+        pub amplitude_m: f64;
+        /// Sum of all amplitudes at the end of the command without the shaper.
+        pub without_m: f64;
+    }
 }
 
 /// Maximum number of modes that are chosen, or given: every mode makes the command longer.

@@ -3,22 +3,24 @@
 use super::command::Command;
 use crate::at_rest::AtRest;
 use crate::error::NoSolution;
+use crate::rows::rows;
 use crate::text::significant;
 use anyhow::Result;
 use funicular::math::{Complex, Vec3, Vec6};
 use funicular::modes::{CommandedMotions, Release};
 use funicular::robot::Cable;
 use funicular::statics::CableState;
-use serde::Serialize;
 use std::f64::consts::TAU;
 
-/// Lowest tension of a cable during a command and after it, or after a release.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct LowestTension {
-    pub cable: String,
-    /// Time since the start of the command, or the release.
-    pub t_s: f64,
-    pub tension_n: f64,
+rows! {
+    /// Lowest tension of a cable during a command and after it, or after a release.
+    #[derive(Debug, Clone, PartialEq)]
+    pub struct LowestTension {
+        pub cable: String;
+        /// Time since the start of the command, or the release.
+        pub t_s: f64;
+        pub tension_n: f64;
+    }
 }
 
 /// Maximum number of times at which tensions are checked, and the number per period of the fastest mode.

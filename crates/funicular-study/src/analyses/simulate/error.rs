@@ -3,34 +3,33 @@
 use super::Simulated;
 use super::rows::SimulatedRow;
 use crate::columns::{Columns, column};
+use crate::rows::rows;
 use crate::text::significant;
 use funicular::math::Vec3;
 use funicular::simulation::ElementMesh;
-use serde::Serialize;
 
-/// Bound of the error of one column: its difference from a finer run times a factor of the mesh (97k2).
-#[derive(Serialize)]
-pub struct ColumnError {
-    /// `position_m`, `velocity_m_s`, `clearance_margin_m`, or `tension_platform_NAME_n` and `tension_anchor_NAME_n`.
-    pub column: String,
-    pub largest: f64,
-    pub root_mean_square: f64,
-    /// Root mean square over that of the column; absent for positions and distances.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub relative: Option<f64>,
+rows! {
+    /// Bound of the error of one column: its difference from a finer run times a factor of the mesh (97k2).
+    pub struct ColumnError {
+        /// `position_m`, `velocity_m_s`, `clearance_margin_m`, or `tension_platform_NAME_n` and `tension_anchor_NAME_n`.
+        pub column: String;
+        pub largest: f64;
+        pub root_mean_square: f64;
+        /// Root mean square over that of the column; absent for positions and distances.
+        pub relative: Option<f64>;
+    }
 }
 
-/// Largest tension of a cable at either end, and root mean square of that at the platform.
-#[derive(Serialize)]
-pub struct Peak {
-    pub cable: String,
-    pub peak_n: f64,
-    pub root_mean_square_n: f64,
-    /// Value of the finer run.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub finer_peak_n: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub finer_root_mean_square_n: Option<f64>,
+rows! {
+    /// Largest tension of a cable at either end, and root mean square of that at the platform.
+    pub struct Peak {
+        pub cable: String;
+        pub peak_n: f64;
+        pub root_mean_square_n: f64;
+        /// Value of the finer run.
+        pub finer_peak_n: Option<f64>;
+        pub finer_root_mean_square_n: Option<f64>;
+    }
 }
 
 /// Tensions of all cables at one of their ends in a row.
@@ -76,9 +75,9 @@ pub(super) fn errors(
         error(column.to_owned(), off, None)
     };
     let mut errors = vec![
-        vector("position_m", |row| row.pose.position_m),
-        vector("velocity_m_s", |row| row.velocity_m_s),
-        vector("angular_velocity_rad_s", |row| row.angular_velocity_rad_s),
+        vector("position_m", |row| row.motion.pose.position_m),
+        vector("velocity_m_s", |row| row.motion.velocity_m_s),
+        vector("angular_velocity_rad_s", |row| row.motion.angular_velocity_rad_s),
     ];
     let margins = rows.iter().zip(finer).filter_map(|(a, b)| Some((a.clearance_margin_m?, b.clearance_margin_m?)));
     if margins.clone().next().is_some() {
@@ -136,11 +135,11 @@ impl ColumnError {
     pub fn columns() -> Columns<Self> {
         Columns::new([
             column("column", "", "column of the result", |row: &Self| row.column.clone()).plain("column"),
-            column("largest", "", "bound of the largest error", |row: &Self| row.largest).significant("largest", "", 2),
+            column("largest", "", "bound of the largest error", |row: &Self| row.largest).significant("largest", 2),
             column("root_mean_square", "", "root mean square", |row: &Self| row.root_mean_square)
-                .significant("r.m.s.", "", 2),
+                .significant("r.m.s.", 2),
             column("relative", "1", "root mean square over that of the column", |row: &Self| row.relative)
-                .significant("relative", "", 2),
+                .significant("relative", 2),
         ])
     }
 }
@@ -150,18 +149,15 @@ impl Peak {
     pub fn columns() -> Columns<Self> {
         Columns::new([
             column("cable", "", "name of the cable", |row: &Self| row.cable.clone()).plain("cable"),
-            column("peak_n", "N", "largest tension", |row: &Self| row.peak_n).significant("largest tension", "N", 4),
-            column("finer_peak_n", "N", "largest tension of the finer run", |row: &Self| row.finer_peak_n).significant(
-                "finer run",
-                "N",
-                4,
-            ),
+            column("peak_n", "N", "largest tension", |row: &Self| row.peak_n).significant("largest tension", 4),
+            column("finer_peak_n", "N", "largest tension of the finer run", |row: &Self| row.finer_peak_n)
+                .significant("finer run", 4),
             column("root_mean_square_n", "N", "root mean square", |row: &Self| row.root_mean_square_n)
-                .significant("r.m.s.", "N", 4),
+                .significant("r.m.s.", 4),
             column("finer_root_mean_square_n", "N", "root mean square of the finer run", |row: &Self| {
                 row.finer_root_mean_square_n
             })
-            .significant("finer run", "N", 4),
+            .significant("finer run", 4),
         ])
     }
 }

@@ -100,7 +100,7 @@ impl Simulated {
 fn averages(rows: &[SimulatedRow], axis: usize, count: usize) -> Vec<f64> {
     let each = rows.chunks_exact(count);
     let values: Vec<f64> =
-        each.map(|part| part.iter().map(|row| row.pose.position_m[axis]).sum::<f64>() / count as f64).collect();
+        each.map(|part| part.iter().map(|row| row.motion.pose.position_m[axis]).sum::<f64>() / count as f64).collect();
     let mean = values.iter().sum::<f64>() / values.len() as f64;
     values.into_iter().map(|x| x - mean).collect()
 }

@@ -3,29 +3,29 @@
 use super::Planned;
 use super::at_time::{in_motion, lengths};
 use super::samples::MotionSamples;
+use crate::rows::rows;
 use anyhow::Result;
 use funicular::path::Side;
 use funicular::statics;
-use serde::Serialize;
 
-/// Error of lengths that change in straight lines between stations, where it is largest.
-#[derive(Debug, Clone, Serialize)]
-pub struct Stations {
-    /// Time between two stations.
-    pub interval_s: f64,
-    /// Largest error of a length; half way between two stations.
-    pub error_m: f64,
-    pub cable: String,
-    pub t_s: f64,
-    /// Distance of the platform from its path there; absent if the lengths hold it nowhere near.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub displacement_m: Option<f64>,
-    /// Lowest tension in any cable there.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub lowest_tension_n: Option<f64>,
-    /// Tolerance of a length, and number of stations that keeps it.
-    pub tolerance_m: f64,
-    pub needed: usize,
+rows! {
+    /// Error of lengths that change in straight lines between stations, where it is largest.
+    #[derive(Debug, Clone)]
+    pub struct Stations {
+        /// Time between two stations.
+        pub interval_s: f64;
+        /// Largest error of a length; half way between two stations.
+        pub error_m: f64;
+        pub cable: String;
+        pub t_s: f64;
+        /// Distance of the platform from its path there; absent if the lengths hold it nowhere near.
+        pub displacement_m: Option<f64>;
+        /// Lowest tension in any cable there.
+        pub lowest_tension_n: Option<f64>;
+        /// Tolerance of a length, and number of stations that keeps it.
+        pub tolerance_m: f64;
+        pub needed: usize;
+    }
 }
 
 impl Stations {

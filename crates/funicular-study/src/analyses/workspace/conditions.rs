@@ -2,13 +2,13 @@
 
 use crate::names::suggestion;
 use crate::request::{BoundValue, WorkspaceRequest};
+use crate::rows::rows;
 use crate::sweep::{Options, Quantity, values_at};
 use crate::table::{ColumnKind, Value};
 use crate::text::short;
 use anyhow::{Result, anyhow, bail};
 use funicular::robot::{Pose, Robot};
 use funicular::statics::{self, LoadCapacity};
-use serde::Serialize;
 use std::fmt;
 
 /// Column of the load factor.
@@ -47,17 +47,17 @@ impl Limit {
     }
 }
 
-/// Condition of a workspace, for reading.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct ConditionRow {
-    /// Column of the quantity; `tensions` if only their limits count.
-    pub of: String,
-    /// Least value that is allowed.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub at_least: Option<f64>,
-    /// Greatest value that is allowed.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub at_most: Option<f64>,
+rows! {
+    /// Condition of a workspace, for reading.
+    #[derive(Debug, Clone, PartialEq)]
+    pub struct ConditionRow {
+        /// Column of the quantity; `tensions` if only their limits count.
+        pub of: String;
+        /// Least value that is allowed.
+        pub at_least: Option<f64>;
+        /// Greatest value that is allowed.
+        pub at_most: Option<f64>;
+    }
 }
 
 impl fmt::Display for ConditionRow {

@@ -5,78 +5,73 @@ use super::places::{PlaneOfMotion, THICKNESS};
 use crate::analyses::fields::AXES;
 use crate::analyses::found;
 use crate::columns::{Columns, ResultTable, Tabled, column, parts};
+use crate::rows::rows;
 use crate::table::Column;
 use crate::text::{counted, significant};
 use funicular::level_set::{
     BOX_FACES, BoundaryMesh, LevelSet, PointGrid, RaySet, RaysInBox, SearchEnd, SetPart, signed_area,
 };
 use funicular::math::{Rotation, Vec3, rotation};
-use serde::Serialize;
 
 /// Error of the volume, over the volume, above which the grid counts as too coarse.
 const COARSE: f64 = 0.03;
 
-/// Results of `workspace`.
-#[derive(Serialize)]
-pub struct Workspace {
-    #[serde(skip)]
-    pub robot: String,
-    pub static_model: &'static str,
-    pub conditions: Vec<ConditionRow>,
-    /// Roll, pitch and yaw of every orientation, and which of them have to be possible: `all` or `some`.
-    pub roll_pitch_yaw_deg: Vec<[f64; 3]>,
-    pub orientations: &'static str,
-    /// Plane of a planar platform, in which the set is an area; absent in space. Volumes are those of a slab of 1 m.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub plane: Option<AreaOfWorkspace>,
-    pub grid: GridOfWorkspace,
-    /// True if everything was found: otherwise the work was stopped before the steps were as small as requested, or
-    /// before the vertices had their places.
-    pub complete: bool,
-    /// Number of positions that were evaluated.
-    pub evaluations: usize,
-    /// Volumes: with the steps of the grid, with two and four of them as one, and along rays.
-    pub volumes: Vec<VolumeRow>,
-    /// Parts that do not touch each other, and holes, the largest first.
-    pub parts: Vec<PartOfWorkspace>,
-    pub holes: Vec<PartOfWorkspace>,
-    /// Faces of the box up to which the set reaches: it may go on behind them.
-    pub touches: Vec<&'static str>,
-    /// Area in which the faces of the box cut the set.
-    pub cut_area_m2: f64,
-    /// Smallest box around the set.
-    pub bounds_m: [[f64; 3]; 2],
-    /// Largest box whose nodes are all in the set.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub inner_box: Option<InnerBox>,
-    pub sections: Vec<SectionOfWorkspace>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub rays: Option<RaysOfWorkspace>,
-    /// Comparison with another robot.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub compared: Option<ComparedSets>,
-    /// Closed surface: vertices, and triangles by the numbers of their vertices from 0, counterclockwise from outside.
-    pub vertices_m: Vec<[f64; 3]>,
-    pub triangles: Vec<[usize; 3]>,
-    /// Number of triangles on the surface of the set; those after them lie on the faces of the box.
-    pub triangles_of_surface: usize,
-    /// Anchors of the cables, for figures.
-    #[serde(skip)]
-    pub anchors: Vec<Vec3>,
-    #[serde(skip)]
-    pub warnings: Vec<String>,
+rows! {
+    /// Results of `workspace`.
+    pub struct Workspace {
+        pub robot: String = hidden;
+        pub static_model: &'static str;
+        pub conditions: Vec<ConditionRow>;
+        /// Roll, pitch and yaw of every orientation, and which of them have to be possible: `all` or `some`.
+        pub roll_pitch_yaw_deg: Vec<[f64; 3]>;
+        pub orientations: &'static str;
+        /// Plane of a planar platform, in which the set is an area; absent in space. Volumes are those of a slab of 1 m.
+        pub plane: Option<AreaOfWorkspace>;
+        pub grid: GridOfWorkspace;
+        /// True if everything was found: otherwise the work was stopped before the steps were as small as requested, or
+        /// before the vertices had their places.
+        pub complete: bool;
+        /// Number of positions that were evaluated.
+        pub evaluations: usize;
+        /// Volumes: with the steps of the grid, with two and four of them as one, and along rays.
+        pub volumes: Vec<VolumeRow>;
+        /// Parts that do not touch each other, and holes, the largest first.
+        pub parts: Vec<PartOfWorkspace>;
+        pub holes: Vec<PartOfWorkspace>;
+        /// Faces of the box up to which the set reaches: it may go on behind them.
+        pub touches: Vec<&'static str>;
+        /// Area in which the faces of the box cut the set.
+        pub cut_area_m2: f64;
+        /// Smallest box around the set.
+        pub bounds_m: [[f64; 3]; 2];
+        /// Largest box whose nodes are all in the set.
+        pub inner_box: Option<InnerBox>;
+        pub sections: Vec<SectionOfWorkspace>;
+        pub rays: Option<RaysOfWorkspace>;
+        /// Comparison with another robot.
+        pub compared: Option<ComparedSets>;
+        /// Closed surface: vertices, and triangles by the numbers of their vertices from 0, counterclockwise from outside.
+        pub vertices_m: Vec<[f64; 3]>;
+        pub triangles: Vec<[usize; 3]>;
+        /// Number of triangles on the surface of the set; those after them lie on the faces of the box.
+        pub triangles_of_surface: usize;
+        /// Anchors of the cables, for figures.
+        pub anchors: Vec<Vec3> = hidden;
+        pub warnings: Vec<String> = hidden;
+    }
 }
 
-/// Set of a planar platform.
-#[derive(Serialize)]
-pub struct AreaOfWorkspace {
-    /// Axis at right angles to the plane, and coordinate of the plane.
-    pub axis: &'static str,
-    pub at_m: f64,
-    pub area_m2: f64,
-    /// Numbers of parts that do not touch each other, and of holes.
-    pub parts: usize,
-    pub holes: usize,
+rows! {
+    /// Set of a planar platform.
+    pub struct AreaOfWorkspace {
+        /// Axis at right angles to the plane, and coordinate of the plane.
+        pub axis: &'static str;
+        pub at_m: f64;
+        pub area_m2: f64;
+        /// Numbers of parts that do not touch each other, and of holes.
+        pub parts: usize;
+        pub holes: usize;
+    }
 }
 
 impl AreaOfWorkspace {
@@ -95,100 +90,97 @@ impl AreaOfWorkspace {
     }
 }
 
-/// Grid on which a set was found.
-#[derive(Serialize)]
-pub struct GridOfWorkspace {
-    pub lower_m: [f64; 3],
-    pub upper_m: [f64; 3],
-    /// Step along each axis.
-    pub step_m: [f64; 3],
-    /// Largest step with which the set was searched at first: separate parts and holes that are smaller can be missed.
-    pub first_step_m: f64,
-    pub vertex_tolerance_m: f64,
+rows! {
+    /// Grid on which a set was found.
+    pub struct GridOfWorkspace {
+        pub lower_m: [f64; 3];
+        pub upper_m: [f64; 3];
+        /// Step along each axis.
+        pub step_m: [f64; 3];
+        /// Largest step with which the set was searched at first: separate parts and holes that are smaller can be missed.
+        pub first_step_m: f64;
+        pub vertex_tolerance_m: f64;
+    }
 }
 
-/// Volume of the set with what it was found with.
-#[derive(Serialize)]
-pub struct VolumeRow {
-    /// `grid`, `rays` (all intervals of all rays) or `hull of rays` (triangles between their first ends).
-    pub by: &'static str,
-    /// Largest step of the grid, or between the points of a ray.
-    pub step_m: f64,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub rays: Option<usize>,
-    pub volume_m3: f64,
-    /// Largest error that the volume is expected to have, by what the steps and points between the nodes leave open.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub volume_error_m3: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub area_m2: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub centroid_m: Option<[f64; 3]>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub parts: Option<usize>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub holes: Option<usize>,
-    /// Number of handles of all surfaces: 0 for balls, 1 for a ring.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub handles: Option<usize>,
+rows! {
+    /// Volume of the set with what it was found with.
+    pub struct VolumeRow {
+        /// `grid`, `rays` (all intervals of all rays) or `hull of rays` (triangles between their first ends).
+        pub by: &'static str;
+        /// Largest step of the grid, or between the points of a ray.
+        pub step_m: f64;
+        pub rays: Option<usize>;
+        pub volume_m3: f64;
+        /// Largest error that the volume is expected to have, by what the steps and points between the nodes leave open.
+        pub volume_error_m3: Option<f64>;
+        pub area_m2: Option<f64>;
+        pub centroid_m: Option<[f64; 3]>;
+        pub parts: Option<usize>;
+        pub holes: Option<usize>;
+        /// Number of handles of all surfaces: 0 for balls, 1 for a ring.
+        pub handles: Option<usize>;
+    }
 }
 
-/// Part of a set, or a hole in it.
-#[derive(Serialize)]
-pub struct PartOfWorkspace {
-    /// Volume; that of a part includes its holes.
-    pub volume_m3: f64,
-    pub handles: usize,
+rows! {
+    /// Part of a set, or a hole in it.
+    pub struct PartOfWorkspace {
+        /// Volume; that of a part includes its holes.
+        pub volume_m3: f64;
+        pub handles: usize;
+    }
 }
 
-/// Box inside a set.
-#[derive(Serialize)]
-pub struct InnerBox {
-    pub lower_m: [f64; 3],
-    pub upper_m: [f64; 3],
-    pub volume_m3: f64,
+rows! {
+    /// Box inside a set.
+    pub struct InnerBox {
+        pub lower_m: [f64; 3];
+        pub upper_m: [f64; 3];
+        pub volume_m3: f64;
+    }
 }
 
-/// Section of a set.
-#[derive(Serialize)]
-pub struct SectionOfWorkspace {
-    pub axis: &'static str,
-    pub at_m: f64,
-    pub area_m2: f64,
-    /// Closed polygons: counterclockwise around the set, clockwise around holes.
-    pub polygons_m: Vec<Vec<[f64; 3]>>,
+rows! {
+    /// Section of a set.
+    pub struct SectionOfWorkspace {
+        pub axis: &'static str;
+        pub at_m: f64;
+        pub area_m2: f64;
+        /// Closed polygons: counterclockwise around the set, clockwise around holes.
+        pub polygons_m: Vec<Vec<[f64; 3]>>;
+    }
 }
 
-/// Set along rays.
-#[derive(Serialize)]
-pub struct RaysOfWorkspace {
-    pub center_m: [f64; 3],
-    pub count: usize,
-    /// Rays with more than one interval: the set is not star-shaped from the centre.
-    pub with_several_intervals: usize,
-    /// Rays along which the set reaches the box.
-    pub cut: usize,
-    /// Unit vector of every ray, and the distances from the centre between which it is in the set.
-    pub directions: Vec<[f64; 3]>,
-    pub intervals_m: Vec<Vec<[f64; 2]>>,
-    #[serde(skip)]
-    volumes: Vec<VolumeRow>,
-    #[serde(skip)]
-    evaluations: usize,
+rows! {
+    /// Set along rays.
+    pub struct RaysOfWorkspace {
+        pub center_m: [f64; 3];
+        pub count: usize;
+        /// Rays with more than one interval: the set is not star-shaped from the centre.
+        pub with_several_intervals: usize;
+        /// Rays along which the set reaches the box.
+        pub cut: usize;
+        /// Unit vector of every ray, and the distances from the centre between which it is in the set.
+        pub directions: Vec<[f64; 3]>;
+        pub intervals_m: Vec<Vec<[f64; 2]>>;
+        volumes: Vec<VolumeRow> = hidden;
+        evaluations: usize = hidden;
+    }
 }
 
-/// Volumes of two sets on one grid, and of what they share.
-#[derive(Serialize)]
-pub struct ComparedSets {
-    /// Name of the other robot.
-    pub other: String,
-    pub other_volume_m3: f64,
-    pub common_volume_m3: f64,
-    /// Volume that only this robot reaches, and that only the other one reaches.
-    pub only_own_m3: f64,
-    pub only_other_m3: f64,
-    #[serde(skip)]
-    evaluations: usize,
+rows! {
+    /// Volumes of two sets on one grid, and of what they share.
+    pub struct ComparedSets {
+        /// Name of the other robot.
+        pub other: String;
+        pub other_volume_m3: f64;
+        pub common_volume_m3: f64;
+        /// Volume that only this robot reaches, and that only the other one reaches.
+        pub only_own_m3: f64;
+        pub only_other_m3: f64;
+        evaluations: usize = hidden;
+    }
 }
 
 impl ComparedSets {
@@ -412,16 +404,16 @@ impl VolumeRow {
         Columns::new([
             column("by", "", "grid, rays, or hull of rays", |row: &Self| row.by).plain("by"),
             column("step_m", "m", "largest step of the grid, or between points of a ray", |row: &Self| row.step_m)
-                .short("step", "m", 4),
+                .short("step", 4),
             column("rays", "1", "number of rays", |row: &Self| row.rays).plain("rays"),
-            column("volume_m3", "m³", "volume of the set", |row: &Self| row.volume_m3).significant("volume", "m³", 6),
+            column("volume_m3", "m³", "volume of the set", |row: &Self| row.volume_m3).significant("volume", 6),
             column("volume_error_m3", "m³", "largest expected error of the volume", |row: &Self| row.volume_error_m3)
-                .significant("error", "m³", 2),
-            column("area_m2", "m²", "area of its surface", |row: &Self| row.area_m2).significant("area", "m²", 6),
+                .significant("error", 2),
+            column("area_m2", "m²", "area of its surface", |row: &Self| row.area_m2).significant("area", 6),
             parts("centroid_{}_m", AXES, "m", "centroid of its volume, {}", |row: &Self| {
                 row.centroid_m.map_or([None; 3], |centroid| centroid.map(Some))
             })
-            .decimals("centroid", "m", 3),
+            .decimals("centroid", 3),
             column("parts", "1", "number of parts that do not touch each other", |row: &Self| row.parts).plain("parts"),
             column("holes", "1", "number of holes that the outside does not reach", |row: &Self| row.holes)
                 .plain("holes"),
