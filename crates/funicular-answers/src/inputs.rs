@@ -79,6 +79,7 @@ impl FileKey<'_> {
                 let check = |columns: &GappedColumns| calibrate::check_readings(columns, robot);
                 serde_json::to_value(tables::read_with_gaps(path, role, check)?)?
             }
+            Reader::Records => serde_json::to_value(tables::read_records(path, role)?)?,
             Reader::Poses => serde_json::to_value(poses::read(path, robot()?, &mut read.notes)?)?,
             Reader::Scenario => serde_json::to_value(scenario(path, read)?)?,
             Reader::Robot => serde_json::to_value(read_robot(Some(path), self.changes, role, read)?)?,

@@ -29,6 +29,7 @@ mod stiffness;
 mod trajectory;
 mod uncertainty;
 mod validate;
+mod winches;
 mod workspace;
 
 use crate::args::{Cli, RequestArgs, RunArgs};

@@ -4,6 +4,7 @@ use crate::csv_lines::CsvText;
 use crate::measurements::check_size;
 use anyhow::{Result, anyhow};
 use funicular_study::values::{NumberError, number};
+use serde_json::{Map, Value};
 use std::collections::BTreeMap;
 
 /// Columns of a file, whose values are numbers, or numbers and gaps.
@@ -45,6 +46,27 @@ pub fn read(path: &str, bytes: &[u8]) -> Result<NumberTable> {
 /// ```
 pub fn read_with_gaps(path: &str, bytes: &[u8]) -> Result<NumberTable<Option<f64>>> {
     read_by(path, bytes, |text| if text.is_empty() { Ok(None) } else { number(text).map(Some) })
+}
+
+/// Reads such a table of texts and numbers as objects, one per row. Empty cells are left out.
+///
+/// # Errors
+/// A table that is too large, or a column that is there twice.
+///
+/// # Example
+/// ```
+/// let found = funicular_formats::number_columns::read_records("winches.csv", b"name,speed_m_s\nA,1.5\nB,\n")?;
+/// assert_eq!((found[0]["name"].as_str(), found[0]["speed_m_s"].as_f64()), (Some("A"), Some(1.5)));
+/// assert!(!found[1].contains_key("speed_m_s"));
+/// # Ok::<(), anyhow::Error>(())
+/// ```
+pub fn read_records(path: &str, bytes: &[u8]) -> Result<Vec<Map<String, Value>>> {
+    let table = read_by(path, bytes, |text| Ok(number(text).map_or_else(|_| Value::from(text), Value::from)))?;
+    let row = |row: usize| {
+        let cells = table.columns.iter().map(|(name, values)| (name.clone(), values[row].clone()));
+        cells.filter(|(_, value)| value.as_str() != Some("")).collect()
+    };
+    Ok((0..table.lines.len()).map(row).collect())
 }
 
 fn read_by<V: Clone>(

@@ -33,6 +33,7 @@ COMMANDS: dict[str, tuple[str, list[Callable[..., Any]]]] = {
     "payload": ("`robot.payload(…)`", [Robot.payload]),
     "loads": ("`robot.loads(…)`", [Robot.loads]),
     "speeds": ("`robot.speeds(…)`", [Robot.speeds]),
+    "winches": ("`robot.winches(…)`", [Robot.winches]),
     "trajectory": ("`robot.trajectory(path, …)`", [Robot.trajectory]),
     "simulate": ("`robot.simulate(scenario, …)`", [Robot.simulate]),
     "clearance": ("`robot.clearance(…)`", [Robot.clearance]),

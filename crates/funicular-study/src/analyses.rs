@@ -34,6 +34,7 @@ pub mod stiffness;
 mod timed_rows;
 pub mod trajectory;
 pub mod uncertainty;
+pub mod winches;
 pub mod workspace;
 
 pub use reduce::control_model;

@@ -26,6 +26,7 @@ mod steps;
 mod trajectory;
 mod uncertainty;
 mod vibration;
+mod winches;
 mod workspace;
 
 pub use calibrate::{CalibrateRequest, PriorValue};
@@ -63,6 +64,7 @@ pub use vibration::{
     CableRequest, CompareRequest, FrfRequest, GustRequest, ModesRequest, ReduceRequest, SettleRequest,
     TurbulenceOptions,
 };
+pub use winches::WinchesRequest;
 pub use workspace::{BoundValue, WorkspaceRequest};
 
 pub use parts::check;
@@ -168,6 +170,7 @@ commands! {
     Payload(PayloadRequest) "payload" Needed robot;
     Loads(LoadsRequest) "loads" Needed robot;
     Speeds(SpeedsRequest) "speeds" Needed robot;
+    Winches(WinchesRequest) "winches" Needed robot;
     Trajectory(TrajectoryRequest) "trajectory" Needed robot;
     Simulate(SimulateRequest) "simulate" Needed robot;
     Clearance(ClearanceRequest) "clearance" Needed robot;

@@ -25,6 +25,7 @@ use crate::analyses::{
     stiffness::{self, Stiffness},
     trajectory::{self, TrajectoryResult},
     uncertainty::{self, Uncertainties},
+    winches::{self, Winches},
     workspace::{self, Workspace},
 };
 use crate::at_rest::AtRest;
@@ -156,6 +157,7 @@ answers! {
     Payload(Payload): of => payload::run(robot()?, of)?;
     Loads(Loads): of => loads::run(robot()?, of)?;
     Speeds(Speeds): of => speeds::run(robot()?, of)?;
+    Winches(Winches): of => winches::run(robot()?, of, watch)?;
     Trajectory(TrajectoryResult): of => trajectory::run(robot()?, of, watch)?;
     Simulate(Box<Simulated>): of => Box::new(simulate::run(robot()?, of, watch)?);
     Clearance(Clearances): of => clearance::run(robot()?, of, watch)?;

@@ -88,7 +88,7 @@ pub struct WinchNeeds {
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum WinchNeedsError {
     /// Required load that the cables do not hold within their limits.
-    #[error("{reason}{}", beside(load_w))]
+    #[error("{}{reason}", under(load_w))]
     NotHeld {
         /// Load in addition to the dead load, world axes about the platform origin (N, N m).
         load_w: Vec6,
@@ -100,12 +100,12 @@ pub enum WinchNeedsError {
     NoRates(#[from] GradientError),
 }
 
-fn beside(load_w: &Vec6) -> String {
+fn under(load_w: &Vec6) -> String {
     if *load_w == Vec6::zeros() {
         return String::new();
     }
     let [fx, fy, fz, mx, my, mz] = (*load_w).into();
-    format!(", with the required load ({fx:.1}, {fy:.1}, {fz:.1}) N, ({mx:.1}, {my:.1}, {mz:.1}) N m")
+    format!("under the required load ({fx:.1}, {fy:.1}, {fz:.1}) N, ({mx:.1}, {my:.1}, {mz:.1}) N m: ")
 }
 
 impl WinchNeeds {
@@ -193,10 +193,6 @@ impl CableNeeds {
     /// Rope that goes on and off the drum between the extreme lengths [m].
     pub fn stroke(&self) -> f64 {
         self.lengths[1] - self.lengths[0]
-    }
-
-    fn value(&self, need: WinchNeed) -> f64 {
-        self.of(need).map_or(0.0, |largest| largest.value)
     }
 
     /// Takes a need if it is the largest.

@@ -4,6 +4,7 @@ use anyhow::{Context, Result, anyhow};
 use funicular_formats::number_columns::{self, NumberTable};
 use funicular_study::TableFault;
 use funicular_study::request::{GappedColumns, NumberColumns};
+use serde_json::{Map, Value};
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
@@ -30,6 +31,16 @@ pub(super) fn read_with_gaps(
     check: impl FnOnce(&GappedColumns) -> Result<(), TableFault>,
 ) -> Result<GappedColumns> {
     read_by(path, what, number_columns::read_with_gaps, check)
+}
+
+/// Reads the rows of a CSV file as objects.
+///
+/// # Errors
+/// A file that cannot be read, or a fault of its table.
+pub(super) fn read_records(path: &Path, what: &str) -> Result<Vec<Map<String, Value>>> {
+    let shown = path.display();
+    let bytes = fs::read(path).with_context(|| format!("cannot read {what} {shown}"))?;
+    number_columns::read_records(&shown.to_string(), &bytes)
 }
 
 fn read_by<V>(

@@ -72,7 +72,7 @@ pub(super) fn document(default: DefaultDestination, about: &'static str) -> Arg 
 /// Sentence on the file from which a key is read.
 fn about_file(reader: Reader) -> &'static str {
     match reader {
-        Reader::Columns | Reader::GappedColumns => "; a CSV file",
+        Reader::Columns | Reader::GappedColumns | Reader::Records => "; a CSV file",
         Reader::Poses => "; a CSV file with the columns x_m, y_m, z_m and optionally roll_deg, pitch_deg, yaw_deg",
         Reader::Scenario => {
             "; a TOML file with [[release]] and so on, in which a `table` of [[lengths]] names a CSV file beside it"
@@ -84,7 +84,7 @@ fn about_file(reader: Reader) -> &'static str {
 /// Form of the name of the file from which a key is read.
 fn form_of_file(key: &Key) -> &'static str {
     match key.file.map(|file| file.reader) {
-        Some(Reader::Columns | Reader::GappedColumns | Reader::Poses) => "FILE.csv",
+        Some(Reader::Columns | Reader::GappedColumns | Reader::Records | Reader::Poses) => "FILE.csv",
         Some(Reader::Scenario | Reader::Robot) => "FILE.toml",
         Some(Reader::Source | Reader::Sources) => "FILE",
         Some(Reader::Paths | Reader::Path) | None => key.form,

@@ -136,6 +136,23 @@ def speeds(of: Any, given: Given) -> Results:
     return _results.of_answered(of._answer("speeds", given))
 
 
+@declared(Robot, "winches", positional=("grid", "pose"), others=_AS_REST)
+def winches(of: Any, given: Given) -> Results:
+    """Computes the winches that a robot needs over its poses, for everything that is required there.
+
+    Returns
+    -------
+    The keys of the program's JSON: `winches` with the numbers of one winch that serves every cable and of each cable,
+    `asked` with what asks for each number of the first, `poses`, `held`, `not_held`, and `offers` with the comparison.
+
+    Raises
+    ------
+    StaticsError
+        No pose holds every required load.
+    """
+    return _results.of_answered(of._answer("winches", given))
+
+
 @declared(Robot, "trajectory", positional=("path", "move_to", "pose"), without=("path",), others=_AS_REST, files=True)
 def trajectory(
     of: Any, given: Given, path: File | Mapping[str, ArrayLike] | Callable[[float], ArrayLike] | None = None

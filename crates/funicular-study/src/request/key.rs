@@ -147,6 +147,8 @@ pub enum Reader {
     Columns,
     /// Columns of numbers in a CSV file, in which cells may be empty.
     GappedColumns,
+    /// Rows of a CSV file as objects, with texts and numbers; empty cells are left out.
+    Records,
     /// Poses in a CSV file.
     Poses,
     /// Events in a TOML file, which names tables.

@@ -21,6 +21,7 @@ use funicular::statics::{
     TensionRule,
 };
 use funicular::warnings;
+use funicular::winch_needs::{WinchNeed, WinchNeeds, WinchNeedsError};
 use std::cell::OnceCell;
 
 /// Frequency up to which cables are resolved for their slow motion [Hz]; the shape of slow motion itself is exact.
@@ -50,6 +51,8 @@ pub(super) struct PointEvaluation<'a> {
     capacity: OnceCell<Result<LoadCapacity<'a>, Status>>,
     /// Winches while the platform moves.
     speeds: OnceCell<Result<WinchSpeeds, Status>>,
+    /// Needs of the winches for everything that is required.
+    winches: OnceCell<Result<WinchNeeds, Status>>,
     /// Response to the gusts of the robot file.
     in_gusts: OnceCell<Result<PointInGusts, Status>>,
     /// Pair with the least margin between cables, platform and obstacles, with its text.
@@ -71,7 +74,8 @@ impl<'a> PointEvaluation<'a> {
     ) -> Self {
         let (lowest, exact, damped_platform) = (OnceCell::new(), OnceCell::new(), OnceCell::new());
         let missing = Status::note_for(robot, rest);
-        let (capacity, speeds, in_gusts) = (OnceCell::new(), OnceCell::new(), OnceCell::new());
+        let (capacity, speeds, winches, in_gusts) =
+            (OnceCell::new(), OnceCell::new(), OnceCell::new(), OnceCell::new());
         let nearest = OnceCell::new();
         Self {
             robot,
@@ -85,6 +89,7 @@ impl<'a> PointEvaluation<'a> {
             damped_platform,
             capacity,
             speeds,
+            winches,
             in_gusts,
             nearest,
             missing,
@@ -291,6 +296,21 @@ impl PointEvaluation<'_> {
         let asks = half_widths != Vec6::zeros();
         let none = if asks { "no winch limits the required velocities" } else { "no velocity is required" };
         self.of_speeds(|speeds| asks.then(|| measure(speeds, &half_widths)), none)
+    }
+
+    /// Largest need of a winch for everything that is required, over all cables.
+    pub(super) fn winch_need(&mut self, need: WinchNeed, out: &mut Vec<Value>) {
+        let find = || {
+            let Options { static_model, tension_rule, .. } = self.options;
+            WinchNeeds::at(self.robot, &self.rest.pose, *static_model, tension_rule).map_err(|error| match error {
+                WinchNeedsError::NotHeld { .. } => Status::new("required-load", &error),
+                WinchNeedsError::NoRates(_) => Status::new("no-derivative", &error),
+            })
+        };
+        let none = || Status::new("no-winch", "no drum has a radius, which gives the torque of its motor");
+        let found = self.winches.get_or_init(find).as_ref().map_err(Clone::clone);
+        let value = found.and_then(|needs| needs.of_one(need).map(|(_, of)| of.value).ok_or_else(none));
+        self.push(Some(value), out);
     }
 
     /// Pair with the least margin between cables, platform and obstacles, with its text.

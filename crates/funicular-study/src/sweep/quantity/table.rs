@@ -9,6 +9,7 @@ use funicular::math::{Vec6, rotation};
 use funicular::robot::{Constraint, Pose, Robot};
 use funicular::speeds::WinchSpeeds;
 use funicular::statics::{self, TensionRange};
+use funicular::winch_needs::WinchNeed;
 
 /// Reason why the cables have no margin.
 const NO_FACETS: &str = "no maximum tension limits the loads, or the cables do not span all degrees of freedom";
@@ -353,6 +354,78 @@ pub(super) static TABLE: &[Definition] = &[
             let found = row.of_required_speeds(|speeds, half_widths| speeds.powers(half_widths).braking);
             row.push(Some(found), out);
         },
+        ..Definition::PLAIN
+    },
+    Definition {
+        name: "winch-tension",
+        about: "largest tension at a drum for everything that is required",
+        documentation: "`winch_tension_n`: largest tension at the drum of any cable, over every required load, with \
+                        tensions by their rule",
+        needs: RequiredModel::HeldPose,
+        columns: |_, _| one("winch_tension_n", "N", "largest tension at a drum for everything that is required"),
+        values: |row, _, out| row.winch_need(WinchNeed::Tension, out),
+        ..Definition::PLAIN
+    },
+    Definition {
+        name: "winch-speed",
+        about: "largest speed of a cable at its drum for the required velocities",
+        documentation: "`winch_speed_m_s`: largest speed of any cable at its drum for the required velocities, over \
+                        every required load",
+        needs: RequiredModel::HeldPose,
+        columns: |_, _| {
+            one("winch_speed_m_s", "m/s", "largest speed of a cable at its drum for the required velocities")
+        },
+        values: |row, _, out| row.winch_need(WinchNeed::Speed, out),
+        ..Definition::PLAIN
+    },
+    Definition {
+        name: "winch-acceleration",
+        about: "largest acceleration of a cable at its drum for the required motions",
+        documentation: "`winch_acceleration_m_s2`: largest acceleration of any cable at its drum for the required \
+                        accelerations and velocities",
+        needs: RequiredModel::HeldPose,
+        columns: |_, _| {
+            one(
+                "winch_acceleration_m_s2",
+                "m/s²",
+                "largest acceleration of a cable at its drum for the required motions",
+            )
+        },
+        values: |row, _, out| row.winch_need(WinchNeed::Acceleration, out),
+        ..Definition::PLAIN
+    },
+    Definition {
+        name: "winch-torque",
+        about: "largest torque of a motor for everything that is required",
+        documentation: "`winch_torque_n_m`: largest torque of any motor for everything that is required; empty \
+                        without a radius of a drum",
+        needs: RequiredModel::HeldPose,
+        columns: |_, _| one("winch_torque_n_m", "N m", "largest torque of a motor for everything that is required"),
+        values: |row, _, out| row.winch_need(WinchNeed::Torque, out),
+        ..Definition::PLAIN
+    },
+    Definition {
+        name: "winch-power",
+        about: "largest power of a motor that drives, for everything that is required",
+        documentation: "`winch_power_w`: largest mechanical power of any motor that drives, for everything that is \
+                        required, as `winches` computes it",
+        needs: RequiredModel::HeldPose,
+        columns: |_, _| {
+            one("winch_power_w", "W", "largest power of a motor that drives, for everything that is required")
+        },
+        values: |row, _, out| row.winch_need(WinchNeed::Power, out),
+        ..Definition::PLAIN
+    },
+    Definition {
+        name: "winch-brake-power",
+        about: "largest power of a motor that brakes, for everything that is required",
+        documentation: "`winch_brake_power_w`: largest mechanical power of any motor that brakes, for everything \
+                        that is required",
+        needs: RequiredModel::HeldPose,
+        columns: |_, _| {
+            one("winch_brake_power_w", "W", "largest power of a motor that brakes, for everything that is required")
+        },
+        values: |row, _, out| row.winch_need(WinchNeed::BrakePower, out),
         ..Definition::PLAIN
     },
     Definition {

@@ -1,0 +1,442 @@
+//! `winches`: the winches that a robot needs over its poses, for everything that is required there.
+
+use super::candidate_poses;
+use super::found;
+use super::gradient::no_solution;
+use super::shared::PoseRow;
+use crate::at_rest;
+use crate::columns::{ResultTable, Tabled};
+use crate::error::{Cancelled, NoSolution};
+use crate::names::suggestion;
+use crate::request::{self, WinchesRequest};
+use crate::rows::rows;
+use crate::table::Column;
+use crate::text::{significant, with_unit};
+use crate::values::{finite, positive};
+use crate::watch::Watch;
+use anyhow::{Result, anyhow, bail};
+use funicular::math::Vec6;
+use funicular::robot::{Pose, Robot, RopeSection, State};
+use funicular::winch_needs::{CableNeeds, LargestNeed, WinchNeed, WinchNeeds, WinchNeedsError};
+use serde_json::{Map, Value};
+use std::f64::consts::PI;
+
+/// Name of the winch that serves every cable.
+const EVERY: &str = "every cable";
+
+/// Turns of rope that stay on the drum when it is paid out: the rope holds by their friction.
+const SPARE_TURNS: f64 = 3.0;
+
+/// Distance of two layers of rope over its diameter: ropes lie in the grooves of the layer below.
+const LAYER_PITCH: f64 = 0.866;
+
+/// Maximum number of layers that are counted; no drum has so many.
+const MAX_LAYERS: usize = 100;
+
+rows! {
+    /// Results of `winches`.
+    pub struct Winches {
+        pub robot: String = hidden;
+        pub static_model: &'static str;
+        /// Number of poses.
+        pub poses: usize;
+        /// Number of poses at which every required load is held; the others ask for no winch.
+        pub held: usize;
+        /// First pose at which a required load is not held.
+        pub not_held: Option<NotHeldRow>;
+        /// Winch that serves every cable: what asks for each of its numbers.
+        pub asked: Vec<AskedRow>;
+        /// Winch that serves every cable, then that of each cable.
+        pub winches: Vec<WinchRow>;
+        /// Winches on offer; absent without offers.
+        pub offers: Option<Vec<OfferRow>>;
+        pub warnings: Vec<String> = hidden;
+    }
+}
+
+rows! {
+    /// Pose at which a required load is not held.
+    pub struct NotHeldRow {
+        pub pose: PoseRow;
+        /// Reason.
+        pub reason: String;
+    }
+}
+
+rows! {
+    /// Largest value of a quantity, with what asks for it.
+    pub struct AskedRow {
+        /// `tension`, `speed`, `acceleration`, `torque`, `power` or `brake-power`.
+        pub quantity: &'static str;
+        pub value: f64;
+        /// Unit of the value.
+        pub unit: &'static str;
+        pub cable: String;
+        pub pose: PoseRow;
+        /// Required load in addition to the dead load, world axes.
+        pub force_n: [f64; 3];
+        pub moment_n_m: [f64; 3];
+        /// Velocity of the platform; absent for a tension.
+        pub velocity_m_s: Option<[f64; 3]>;
+        pub angular_velocity_rad_s: Option<[f64; 3]>;
+    }
+}
+
+rows! {
+    /// Winch that is needed.
+    pub struct WinchRow in tables() {
+        /// name of the cable, or `every cable` for a winch that serves all
+        pub name: String => one.plain("winch");
+        /// largest tension at the drum
+        pub tension_n: f64 => one.significant("tension", 4);
+        /// largest speed of the cable at the drum
+        pub speed_m_s: f64 => one.significant("speed", 4);
+        /// largest acceleration of the cable at the drum
+        pub acceleration_m_s2: f64 => one.significant("acceleration", 4);
+        /// largest torque of the motor; absent without a radius of the drum
+        pub torque_n_m: Option<f64> => one.significant("torque", 4);
+        /// largest mechanical power of the motor that drives
+        pub power_w: f64 => one.significant("power", 4);
+        /// largest mechanical power of the motor that brakes
+        pub brake_power_w: f64 => one.significant("brakes", 4);
+        /// rope that goes on and off the drum between the extreme lengths
+        pub rope_m: f64 => one.significant("rope", 4);
+        /// least unstrained length
+        pub length_min_m: f64 => one;
+        /// largest unstrained length
+        pub length_max_m: f64 => one;
+        /// layers of rope on the drum, three spare turns included; absent without width and radius of the drum and
+        /// diameter of the rope
+        pub layers: Option<usize> => one.significant("layers", 3);
+    }
+}
+
+rows! {
+    /// Winch on offer, compared with the winch that serves every cable.
+    pub struct OfferRow in tables() {
+        /// name of the winch on offer
+        pub name: String => one.plain("offer");
+        /// true if it is enough for every cable, as far as it says what it gives
+        pub fits: bool => one.plain("fits");
+        /// largest needed part of what it gives, above 1 for a winch that is too small; absent if it says nothing
+        pub used: Option<f64> => one.significant("used", 3).unit("1");
+        /// quantity of this part
+        pub by: Option<&'static str> => one.plain("by");
+    }
+}
+
+/// Quantities of a winch as results and offers name them: name, key of an offer, unit.
+const QUANTITIES: [(&str, &str, &str); 6] = [
+    ("tension", "tension_n", "N"),
+    ("speed", "speed_m_s", "m/s"),
+    ("acceleration", "acceleration_m_s2", "m/s²"),
+    ("torque", "torque_n_m", "N m"),
+    ("power", "power_w", "W"),
+    ("brake-power", "brake_power_w", "W"),
+];
+
+/// Key of the rope that an offer takes.
+const ROPE: (&str, &str) = ("rope", "rope_m");
+
+/// Computes the winches that a robot needs.
+///
+/// # Errors
+/// A request that contradicts itself or the robot, fewer cables than degrees of freedom, no pose at which every required
+/// load is held, or work that was stopped before its first pose.
+pub fn run(robot: Robot, request: &WinchesRequest, watch: &mut dyn Watch) -> Result<Winches> {
+    request::check("drum_width_m", request.drum_width_m, positive)?;
+    let offers = request.offers.as_deref().map(offers).transpose()?;
+    let robot = at_rest::with_limits(&at_rest::with_state(robot, &request.state)?, &request.tensions)?;
+    let robot =
+        at_rest::with_required_velocities(at_rest::with_required(robot, &request.required)?, &request.velocities)?;
+    if robot.constraint().is_under() {
+        bail!(
+            "{} cables do not hold a platform with {} degrees of freedom at every pose: `winches` needs at least as many \
+             cables as degrees of freedom",
+            robot.cables.len(),
+            robot.platform.motion.count()
+        );
+    }
+    if request.state.hold_lengths_of_pose {
+        bail!("winches give every pose its lengths: leave out ⟪hold_lengths_of_pose⟫");
+    }
+    let poses = poses(&robot, request)?;
+    let rule = at_rest::rule(&request.tensions)?.unwrap_or_default();
+    let model = request.state.static_model;
+
+    // The needs of all poses.
+    let (mut needs, mut held, mut not_held, mut done) = (None::<WinchNeeds>, 0, None, 0);
+    for pose in &poses {
+        if watch.is_cancelled() {
+            break;
+        }
+        match WinchNeeds::at(&robot, pose, model, &rule) {
+            Ok(found) => {
+                held += 1;
+                match &mut needs {
+                    None => needs = Some(found),
+                    Some(needs) => needs.merge(&found),
+                }
+            }
+            Err(WinchNeedsError::NoRates(error)) => return Err(no_solution(error)),
+            Err(WinchNeedsError::NotHeld { reason, .. }) if !reason.is_no_solution() => return Err(reason.into()),
+            Err(error) => {
+                not_held = not_held.or(Some(NotHeldRow { pose: PoseRow::of(pose), reason: error.to_string() }))
+            }
+        }
+        done += 1;
+        watch.progress(done, poses.len(), "poses");
+    }
+    let Some(needs) = needs else {
+        let Some(NotHeldRow { reason, .. }) = not_held else { return Err(Cancelled.into()) };
+        let at = if done == 1 { "the pose" } else { "none of the poses" };
+        let held = if done == 1 { "does not hold" } else { "holds" };
+        bail!(NoSolution(format!("{at} {held} every required load: {reason}")));
+    };
+
+    let winches: Vec<WinchRow> = rows_of(&robot, &needs, request.drum_width_m);
+    let mut warnings = Vec::new();
+    if done < poses.len() {
+        warnings.push(format!("stopped after {done} of {} poses: the winches are those of these poses", poses.len()));
+    }
+    if let Some(NotHeldRow { pose, reason }) = &not_held {
+        let [x, y, z] = pose.position_m.map(|value| significant(value, 4));
+        warnings.push(format!(
+            "{} of {done} poses do not hold every required load and ask for no winch; the first is ({x}, {y}, {z}) m: \
+             {reason}",
+            done - held
+        ));
+    }
+    Ok(Winches {
+        robot: robot.name.clone(),
+        static_model: model.name(),
+        poses: done,
+        held,
+        not_held,
+        asked: asked(&robot, &needs),
+        offers: offers.map(|offers| offers.iter().map(|offer| offer.compared(&winches[0])).collect()),
+        winches,
+        warnings,
+    })
+}
+
+/// Poses of a request: a grid about the pose of the state, a list, or this pose alone.
+fn poses(robot: &Robot, request: &WinchesRequest) -> Result<Vec<Pose>> {
+    let is_list = request.poses.is_some() || !request.grid.is_empty();
+    let middle = match (&robot.state, is_list) {
+        (State::Pose(pose), _) => *pose,
+        (_, true) => Pose::new([0.0; 3], [0.0; 3]),
+        (_, false) => bail!("the robot has no pose: give ⟪grid⟫, ⟪poses⟫ or ⟪pose⟫"),
+    };
+    if !is_list {
+        return Ok(vec![middle]);
+    }
+    let candidates = candidate_poses::wanted((true, ""), &request.grid, request.poses.as_ref(), robot)?;
+    candidates.poses(robot, &middle)
+}
+
+/// Rows of the winch that serves every cable, and of each.
+fn rows_of(robot: &Robot, needs: &WinchNeeds, drum_width: Option<f64>) -> Vec<WinchRow> {
+    let of_cables: Vec<WinchRow> = (robot.cables.iter().zip(&needs.cables))
+        .map(|(cable, needs)| {
+            let radius = cable.anchor.winch.as_ref().and_then(|winch| winch.drum_radius);
+            // The area of a wire rope is that of its metal: it tells no diameter.
+            let diameter = cable.material.dimensions.section.and_then(|section| match section {
+                RopeSection::Diameter(diameter) => Some(diameter),
+                RopeSection::Area(_) => None,
+            });
+            let drum = drum_width.zip(radius).zip(diameter);
+            WinchRow::of(
+                cable.name.clone(),
+                needs,
+                drum.and_then(|((width, radius), d)| layers(needs.stroke(), width, radius, d)),
+            )
+        })
+        .collect();
+    let most = |of: fn(&WinchRow) -> f64| of_cables.iter().map(of).fold(f64::NEG_INFINITY, f64::max);
+    let every = WinchRow {
+        name: EVERY.to_owned(),
+        tension_n: most(|row| row.tension_n),
+        speed_m_s: most(|row| row.speed_m_s),
+        acceleration_m_s2: most(|row| row.acceleration_m_s2),
+        torque_n_m: of_cables.iter().filter_map(|row| row.torque_n_m).reduce(f64::max),
+        power_w: most(|row| row.power_w),
+        brake_power_w: most(|row| row.brake_power_w),
+        rope_m: most(|row| row.rope_m),
+        length_min_m: -most(|row| -row.length_min_m),
+        length_max_m: most(|row| row.length_max_m),
+        layers: of_cables.iter().filter_map(|row| row.layers).max(),
+    };
+    std::iter::once(every).chain(of_cables).collect()
+}
+
+impl WinchRow {
+    fn of(name: String, needs: &CableNeeds, layers: Option<usize>) -> Self {
+        let value = |need| needs.of(need).map(|largest: LargestNeed| largest.value);
+        let or_zero = |need| value(need).unwrap_or(0.0);
+        let [length_min_m, length_max_m] = needs.lengths;
+        Self {
+            name,
+            tension_n: or_zero(WinchNeed::Tension),
+            speed_m_s: or_zero(WinchNeed::Speed),
+            acceleration_m_s2: or_zero(WinchNeed::Acceleration),
+            torque_n_m: value(WinchNeed::Torque),
+            power_w: or_zero(WinchNeed::Power),
+            brake_power_w: or_zero(WinchNeed::BrakePower),
+            rope_m: needs.stroke(),
+            length_min_m,
+            length_max_m,
+            layers,
+        }
+    }
+
+    /// Values in the order of [`QUANTITIES`].
+    fn values(&self) -> [Option<f64>; 6] {
+        [
+            Some(self.tension_n),
+            Some(self.speed_m_s),
+            Some(self.acceleration_m_s2),
+            self.torque_n_m,
+            Some(self.power_w),
+            Some(self.brake_power_w),
+        ]
+    }
+}
+
+/// Layers of rope of a diameter [m] on a drum of a width and a radius to the middle of the first layer [m] that take a
+/// length of rope [m] besides the spare turns; none for a drum that is narrower than the rope, or far too small.
+fn layers(length: f64, width: f64, radius: f64, diameter: f64) -> Option<usize> {
+    // Half a thousandth of a turn counts as rounding of the width.
+    let turns = (width / diameter + 5e-4).floor();
+    let mut left = length + SPARE_TURNS * 2.0 * PI * radius;
+    (turns >= 1.0).then_some(())?;
+    for layer in 1..=MAX_LAYERS {
+        left -= turns * 2.0 * PI * (radius + (layer - 1) as f64 * LAYER_PITCH * diameter);
+        if left <= 0.0 {
+            return Some(layer);
+        }
+    }
+    None
+}
+
+/// What asks for each number of the winch that serves every cable.
+fn asked(robot: &Robot, needs: &WinchNeeds) -> Vec<AskedRow> {
+    let parts = |of: &Vec6| {
+        let [x, y, z, rx, ry, rz] = (*of).into();
+        [[x, y, z], [rx, ry, rz]]
+    };
+    let row = |(need, (quantity, _, unit)): (WinchNeed, (&'static str, &str, &'static str))| {
+        let (cable, of) = needs.of_one(need)?;
+        let [force_n, moment_n_m] = parts(&of.load_w);
+        let moves = need != WinchNeed::Tension;
+        let [velocity_m_s, angular_velocity_rad_s] = parts(&of.twist_w).map(|part| moves.then_some(part));
+        let cable = robot.cables[cable].name.clone();
+        let pose = PoseRow::of(&of.pose);
+        Some(AskedRow {
+            quantity,
+            value: of.value,
+            unit,
+            cable,
+            pose,
+            force_n,
+            moment_n_m,
+            velocity_m_s,
+            angular_velocity_rad_s,
+        })
+    };
+    WinchNeed::ALL.into_iter().zip(QUANTITIES).filter_map(row).collect()
+}
+
+/// Winch on offer.
+struct Offer {
+    name: String,
+    /// What it gives, in the order of [`QUANTITIES`].
+    gives: [Option<f64>; 6],
+    rope: Option<f64>,
+}
+
+/// Offers of a request.
+///
+/// # Errors
+/// A key that no offer has, or a value that is not positive; the message names the row.
+fn offers(rows: &[Map<String, Value>]) -> Result<Vec<Offer>> {
+    if rows.is_empty() {
+        bail!("⟪offers⟫ has no winches: give at least one");
+    }
+    let known: Vec<String> = std::iter::once("name")
+        .chain(QUANTITIES.iter().map(|(_, key, _)| *key))
+        .chain([ROPE.1])
+        .map(str::to_owned)
+        .collect();
+    let offer = |(number, row): (usize, &Map<String, Value>)| {
+        if let Some(key) = row.keys().find(|key| !known.contains(key)) {
+            bail!("⟪offers⟫, winch {number}: there is no `{key}` of a winch{}", suggestion(key, &known));
+        }
+        let value = |key: &str| -> Result<Option<f64>> {
+            let Some(given) = row.get(key) else { return Ok(None) };
+            let number_of = given.as_f64().ok_or_else(|| anyhow!("{given} is no number"));
+            let checked =
+                number_of.and_then(|value| finite(value).and_then(positive).map_err(|reason| anyhow!(reason)));
+            checked.map(Some).map_err(|reason| anyhow!("⟪offers⟫, winch {number}, `{key}`: {reason}"))
+        };
+        let mut gives = [None; 6];
+        for (gives, (_, key, _)) in gives.iter_mut().zip(QUANTITIES) {
+            *gives = value(key)?;
+        }
+        let name = match row.get("name") {
+            Some(Value::String(name)) => name.clone(),
+            Some(other) => other.to_string(),
+            None => number.to_string(),
+        };
+        Ok(Offer { name, gives, rope: value(ROPE.1)? })
+    };
+    (1..).zip(rows).map(offer).collect()
+}
+
+impl Offer {
+    /// Comparison with what is needed.
+    fn compared(&self, needed: &WinchRow) -> OfferRow {
+        let quantities = QUANTITIES.iter().map(|(name, ..)| *name).zip(needed.values()).zip(self.gives);
+        let rope = ((ROPE.0, Some(needed.rope_m)), self.rope);
+        let parts = quantities.chain([rope]).filter_map(|((name, need), gives)| Some((name, need? / gives?)));
+        let most = parts.reduce(|most, of| if of.1 > most.1 { of } else { most });
+        OfferRow {
+            name: self.name.clone(),
+            fits: most.is_some_and(|(_, part)| part <= 1.0),
+            used: most.map(|(_, part)| part),
+            by: most.map(|(name, _)| name),
+        }
+    }
+}
+
+impl Winches {
+    /// Winch that serves every cable in one sentence.
+    pub fn sentence(&self) -> String {
+        let of = |(quantity, digits): (&str, usize)| {
+            let row = self.asked.iter().find(|row| row.quantity == quantity && row.value > 0.0)?;
+            Some(with_unit(&significant(row.value, digits), row.unit))
+        };
+        let shown =
+            [("tension", 4), ("speed", 3), ("acceleration", 3), ("torque", 3), ("power", 3), ("brake-power", 3)];
+        let numbers: Vec<String> = shown
+            .into_iter()
+            .filter_map(|shown| {
+                let number = of(shown)?;
+                Some(if shown.0 == "brake-power" { format!("{number} while it brakes") } else { number })
+            })
+            .collect();
+        format!("Each winch: {}; {} m of rope", numbers.join(", "), significant(self.winches[0].rope_m, 3))
+    }
+}
+
+impl Tabled for Winches {
+    fn tables() -> Vec<(&'static str, Vec<Column>)> {
+        vec![("", WinchRow::columns().described())]
+    }
+
+    fn table(&self) -> ResultTable<'_> {
+        ResultTable::new(WinchRow::columns(), &self.winches)
+    }
+}
+
+found!(Winches, "winches");

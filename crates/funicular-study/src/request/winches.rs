@@ -1,0 +1,50 @@
+//! Request for the winches that a robot needs.
+
+use super::key::declared;
+use super::loads::Requirements;
+use super::parts::{Axis, RobotText, State, Tensions};
+use super::speeds::RequiredVelocities;
+use serde_json::{Map, Value};
+
+declared! {
+    /// Winches that a robot needs, over all poses and for everything that is required there: tension, speed,
+    /// acceleration, torque, powers and rope of one winch that serves every cable, and of each.
+    ///
+    /// Tensions follow their rule under every required load, and the required velocities and accelerations act in every
+    /// combination with the loads. Each number comes with the pose, the load and the velocity that ask for it.
+    pub struct WinchesRequest {
+        /// Robot file.
+        robot: RobotText = RobotText::default() => (Data(shape::robot)).required();
+        /// Axis of the grid: x, y, z [m], roll, pitch, yaw [degrees], with N values from A to B, or with listed values
+        /// (repeatable); an axis that is not given keeps the value of the robot's state or of ⟪pose⟫.
+        grid: Vec<Axis> = Vec::new() => (List(ProgramForm::GridAxis)).form("AXIS=A:B:N|V,V,…");
+        /// List of poses instead of a grid: position [m] and roll, pitch, yaw [degrees].
+        poses: Option<Vec<[f64; 6]>> = None => (Poses).excludes(&["grid", "pose", "lengths_m"])
+            .read_by(Reader::Poses, "the poses");
+        /// Winches on offer, to be compared with the needs: `name`, and what each bears or gives, `tension_n`,
+        /// `speed_m_s`, `acceleration_m_s2`, `torque_n_m`, `power_w`, `brake_power_w`, `rope_m`; what a winch does not
+        /// say is not compared
+        offers: Option<Vec<Map<String, Value>>> = None => (Data(shape::objects))
+            .read_by(Reader::Records, "the winches on offer");
+        /// Width of the drums between their flanges [m], for the layers of rope.
+        drum_width_m: Option<f64> = None => (Number(Positive));
+        /// Required loads.
+        #[serde(flatten)]
+        required: Requirements = Requirements::default() => group;
+        /// Required velocities.
+        #[serde(flatten)]
+        velocities: RequiredVelocities = RequiredVelocities::default() => group;
+        /// State and loads.
+        #[serde(flatten)]
+        state: State = State::default() => group;
+        /// Rule and limits of tensions.
+        #[serde(flatten)]
+        tensions: Tensions = Tensions::default() => group;
+    }
+    examples {
+        "funicular winches robots/cogiro-winches.toml --grid x=-3:3:5 --grid y=-2:2:5 --grid z=1.5:2.5:3 \
+         \\\n    --required-velocity-m-s 1,1,0.5 --required-acceleration-m-s2 2,2,1 --required-payload-max-kg 100",
+        "funicular winches robots/cogiro-winches.toml --pose 1,1,1.5 --required-velocity-m-s 1,1,1 --offers \
+         winches.csv --drum-width-m 0.3",
+    }
+}
