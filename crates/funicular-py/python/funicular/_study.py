@@ -259,13 +259,14 @@ def new_robot(
     return made
 
 
-def schema(of: Literal["robot-file", "request"] = "robot-file") -> dict[str, Any]:
+def schema(of: Literal["robot-file", "request", "columns", "results"] = "robot-file") -> dict[str, Any]:
     """Returns a JSON Schema, as the program's `schema` writes it.
 
     Parameters
     ----------
     of
-        The robot file, or requests: the dictionaries that `run` takes.
+        The robot file, requests (the dictionaries that `run` takes), or results: the keys of every command with their
+        meanings and units. `columns` are those of the tables in files.
     """
     made: dict[str, Any] = run({"command": "schema", "of": of})
     return made
