@@ -1,12 +1,17 @@
 """The JSON Schema of the robot file accepts robot files and refuses mistakes, by the validator of another project."""
 
 import json
+import pickle
+import subprocess
+import sys
 import tomllib
+from pathlib import Path
 from typing import Any
 
 import funicular
+import funicular.results
 import pytest
-from conftest import ROBOT_FILES, ROBOTS
+from conftest import ROBOT_FILES, ROBOTS, ROOT
 from jsonschema import Draft7Validator, Draft202012Validator
 
 
@@ -74,3 +79,22 @@ def test_results_are_valid_by_their_schema_and_a_change_is_not(request_of: dict[
     found = json.loads(funicular._funicular.answer(json.dumps(request)))
     assert [error.message for error in validator.iter_errors(found)] == []
     assert not validator.is_valid({**found, "foreign": 1})
+
+
+def test_the_classes_of_results_are_those_of_the_declarations() -> None:
+    script = ROOT / "scripts" / "python_results.py"
+    made = subprocess.run([sys.executable, script], capture_output=True, text=True, check=True).stdout
+    assert made == Path(funicular.results.__file__).read_text(), "run UPDATE_STUBS=1 scripts/test-python"
+
+
+def test_keys_of_results_are_attributes_with_the_types_of_their_class(robot: funicular.Robot) -> None:
+    found = robot.equilibrium().settle(release_n=[0, 0, 10], below_hz=2)
+    assert type(found) is funicular.results.SettleResults and isinstance(found, funicular.Results)
+    assert found.modes is found["modes"] and type(found.modes[0]) is funicular.results.SettlingMode
+    assert found.modes[0].frequency_hz == found["modes"][0]["frequency_hz"]
+    assert found.shaping is None and "shaping" not in found
+    with pytest.raises(AttributeError, match="SettleResults has no key `mods`.*modes"):
+        _ = found.mods  # type: ignore[attr-defined]
+    again = pickle.loads(pickle.dumps(found.modes[0]))
+    assert type(again) is type(found.modes[0]) and again == found.modes[0] == dict(found.modes[0])
+    assert funicular.run(robot.request("loads")).closure in (True, False)

@@ -84,8 +84,11 @@ pub(crate) fn key<T: Described>(name: &'static str, about: &[&str], is_sparse: b
     if let Value::Object(schema) = &mut schema {
         // A list has one key for all parts.
         let about = sentence(about).replace("cable {}", "each cable").replace(", {}", "");
-        if !about.is_empty() {
-            schema.insert("description".to_owned(), about.into());
+        if !about.is_empty()
+            && let Some(of_type) = schema.insert("description".to_owned(), about.into())
+        {
+            // Meaning of the object itself, whatever the key.
+            schema.insert("$comment".to_owned(), of_type);
         }
         let unit = units::of_name(name).filter(|_| !schema.contains_key("properties"));
         if let Some(unit) = unit {

@@ -13,7 +13,14 @@ from funicular._funicular import Analyses, Robot
 from funicular._live import Live, live as live_page
 from funicular._pages import Page, page, try_page
 from funicular._reading import File
-from funicular._results import Modes, ReducedModel, Results, StateSpaceModel
+from funicular._results import Modes, ReducedModel, StateSpaceModel
+from funicular.results import (
+    CableResults,
+    CompareResults,
+    GradientResults,
+    GustResults,
+    SettleResults,
+)
 
 _AS_MODES = "The other parameters are those of `Equilibrium.stiffness`."
 
@@ -134,7 +141,7 @@ def receptance(of: Any, given: Given, hz: ArrayLike) -> NDArray[complex128]:
 
 
 @declared(Analyses, "settle", positional=("release_n",), headings=REST, others=_AS_MODES, files=True)
-def settle(of: Any, given: Given) -> Results:
+def settle(of: Any, given: Given) -> SettleResults:
     """Computes how a point of the platform swings after a release, a stop, a move or a trajectory, and when it has settled.
 
     The motion is linear about the equilibrium at the end, in closed form over the damped modes. A stop, a move and a
@@ -152,7 +159,7 @@ def settle(of: Any, given: Given) -> Results:
 
 
 @declared(Analyses, "gust", positional=("output",), headings=REST, others=_AS_MODES, files=True)
-def gust(of: Any, given: Given) -> Results:
+def gust(of: Any, given: Given) -> GustResults:
     """Computes the response to turbulent wind: r.m.s. values and expected peaks of motions and tensions, with their
     spectra.
 
@@ -171,7 +178,7 @@ def gust(of: Any, given: Given) -> Results:
 
 
 @declared(Analyses, "compare", positional=("below_hz",), headings=REST, others=_AS_MODES, files=True)
-def compare(of: Any, given: Given) -> Results:
+def compare(of: Any, given: Given) -> CompareResults:
     """Compares every cable model with the catenary-dynamic model: frequencies found, missed and wrong, and the
     recommended model.
 
@@ -183,7 +190,7 @@ def compare(of: Any, given: Given) -> Results:
 
 
 @declared(Analyses, "gradient", positional=("of",), headings=REST, others=_AS_MODES)
-def gradient(of: Any, given: Given) -> Results:
+def gradient(of: Any, given: Given) -> GradientResults:
     """Computes derivatives of results by numbers of the robot file, without perturbing any.
 
     Parameters
@@ -219,7 +226,7 @@ def gradient(of: Any, given: Given) -> Results:
 
 
 @declared(Analyses, "cable", positional=("name", "hz"), headings=REST, without=_RANGE, others=_AS_MODES)
-def cable(of: Any, given: Given, name: str, hz: ArrayLike) -> Results:
+def cable(of: Any, given: Given, name: str, hz: ArrayLike) -> CableResults:
     """Computes the dynamic stiffness of the platform end of one cable with a fixed anchor.
 
     Parameters
@@ -235,7 +242,7 @@ def cable(of: Any, given: Given, name: str, hz: ArrayLike) -> Results:
     normal in plane, out of plane [N/m]. `world` is (n, 3, 3), complex, in world axes. `clamped_frequencies_hz` are
     the natural frequencies of the cable with both ends fixed.
     """
-    found: Results = of._cable(name, hz, given)
+    found: CableResults = of._cable(name, hz, given)
     return found
 
 

@@ -16,9 +16,20 @@ from funicular._errors import InputError
 from funicular._funicular import Equilibrium, Robot, number, numbers
 from funicular._identify import Identified, identified
 from funicular._reading import File, keywords, with_state
-from funicular._results import Equilibria, Results
+from funicular._results import Equilibria
 from funicular._sweeps import Sweep
 from funicular._uncertainty import Uncertainty, uncertainty as deviations_of
+from funicular.results import (
+    CalibrateResults,
+    ClearanceResults,
+    LoadsResults,
+    PayloadResults,
+    PoseErrorResults,
+    SimulateResults,
+    SpeedsResults,
+    TrajectoryResults,
+    WorkspaceResults,
+)
 
 _AS_REST = "The other parameters are those of `Robot.equilibrium`."
 _AS_BOTH = "The other parameters are those of `Robot.equilibrium` and of `Equilibrium.stiffness`."
@@ -79,7 +90,7 @@ def equilibria(
 
 
 @declared(Robot, "payload", positional=("pose", "lengths_m", "static_model", "tension_rule"), others=_AS_REST)
-def payload(of: Any, given: Given) -> Results:
+def payload(of: Any, given: Given) -> PayloadResults:
     """Computes the minimum and the maximum payload at a pose, with the cables whose tension limits bind.
 
     The payload is held by any tensions within the limits, not only by those of a tension rule. The pose need not be
@@ -99,7 +110,7 @@ def payload(of: Any, given: Given) -> Results:
 
 
 @declared(Robot, "loads", positional=("pose", "static_model"), others=_AS_REST)
-def loads(of: Any, given: Given) -> Results:
+def loads(of: Any, given: Given) -> LoadsResults:
     """Compares the loads that the cables hold at a pose with the required ones: verdict, load factor, what binds, margins.
 
     All tensions within the limits count, not only those of a tension rule.
@@ -119,7 +130,7 @@ def loads(of: Any, given: Given) -> Results:
 
 
 @declared(Robot, "speeds", positional=("pose", "static_model"), others=_AS_REST)
-def speeds(of: Any, given: Given) -> Results:
+def speeds(of: Any, given: Given) -> SpeedsResults:
     """Computes what the winches do while the platform moves, and how fast their limits let it be.
 
     Returns
@@ -139,7 +150,7 @@ def speeds(of: Any, given: Given) -> Results:
 @declared(Robot, "trajectory", positional=("path", "move_to", "pose"), without=("path",), others=_AS_REST, files=True)
 def trajectory(
     of: Any, given: Given, path: File | Mapping[str, ArrayLike] | Callable[[float], ArrayLike] | None = None
-) -> Results:
+) -> TrajectoryResults:
     """Computes the motion along a path: lengths with their rates, tensions with the inertia, winches, and what limits them.
 
     Parameters
@@ -202,7 +213,7 @@ def simulate(
     of: Any,
     given: Given,
     progress: Callable[[int, int], object] | None = None,
-) -> Results:
+) -> SimulateResults:
     """Simulates large motion in time of platform and sagging ropes.
 
     Parameters
@@ -292,7 +303,7 @@ def _tabled(scenario: Any) -> Any:
 
 
 @declared(Robot, "clearance", positional=("pose", "static_model"), others=_AS_REST)
-def clearance(of: Any, given: Given) -> Results:
+def clearance(of: Any, given: Given) -> ClearanceResults:
     """Computes the distances between the sagging cables, the platform and obstacles: what is nearest, where, and what is
     too near.
 
@@ -323,7 +334,7 @@ def workspace(
     compare: Robot | None = None,
     threads: SupportsIndex | None = None,
     progress: Callable[[int, int], object] | None = None,
-) -> Results:
+) -> WorkspaceResults:
     """Finds all positions at which quantities keep their limits: surface, volume, parts and holes.
 
     Without a limit the positions are those at which tensions within their limits hold the platform, with the required
@@ -368,7 +379,7 @@ def workspace(
 
 
 @declared(Robot, "pose-error", positional=("mass_kg",), others=_AS_REST)
-def pose_error(of: Any, given: Given) -> Results:
+def pose_error(of: Any, given: Given) -> PoseErrorResults:
     """Computes the distance of the poses of spring and catenary cables from those of ideal cables, over the platform
     mass.
 
@@ -418,7 +429,7 @@ def identify(of: Any, given: Given) -> Identified:
 
 
 @declared(Robot, "calibrate", positional=("readings", "unknowns"), files=True)
-def calibrate(of: Any, given: Given) -> Results:
+def calibrate(of: Any, given: Given) -> CalibrateResults:
     """Calibrates anchors, attachments, offsets and more from readings of lengths at poses that are not known.
 
     Parameters
