@@ -155,7 +155,7 @@ def settle(of: Any, given: Given) -> SettleResults:
     ----------
     docs/theory.md, equations (46f) to (46n).
     """
-    return _results.of_answered(of._results("settle", given))
+    return _results.of_answered(SettleResults, of._results("settle", given))
 
 
 @declared(Analyses, "gust", positional=("output",), headings=REST, others=_AS_MODES, files=True)
@@ -174,7 +174,7 @@ def gust(of: Any, given: Given) -> GustResults:
     ----------
     docs/theory.md, equations (49f) to (49q).
     """
-    return _results.of_answered(of._results("gust", given))
+    return _results.of_answered(GustResults, of._results("gust", given))
 
 
 @declared(Analyses, "compare", positional=("below_hz",), headings=REST, others=_AS_MODES, files=True)
@@ -186,7 +186,7 @@ def compare(of: Any, given: Given) -> CompareResults:
     -------
     The keys of the program's JSON; lists of numbers are arrays.
     """
-    return _results.of_answered(of._results("compare", given))
+    return _results.of_answered(CompareResults, of._results("compare", given))
 
 
 @declared(Analyses, "gradient", positional=("of",), headings=REST, others=_AS_MODES)
@@ -222,7 +222,7 @@ def gradient(of: Any, given: Given) -> GradientResults:
     NoSolutionError
         A cable is slack, or the equilibrium indifferent: it has no derivatives.
     """
-    return _results.of_answered(of._results("gradient", given))
+    return _results.of_answered(GradientResults, of._results("gradient", given))
 
 
 @declared(Analyses, "cable", positional=("name", "hz"), headings=REST, without=_RANGE, others=_AS_MODES)

@@ -10,7 +10,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from os import PathLike
 from pathlib import Path
-from typing import Any, ClassVar
+from typing import Any, ClassVar, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -127,6 +127,9 @@ class Results(Row):
         return _show.dataset(self)
 
 
+Kind = TypeVar("Kind", bound=Results)
+
+
 def results(found: dict[str, Any]) -> Any:
     """Results with arrays in place of lists of numbers, of the class of their command."""
     return with_arrays(found, kind_of(found))
@@ -139,9 +142,9 @@ def kind_of(found: Mapping[str, Any]) -> type[Results]:
     return OF_COMMANDS.get(found.get("command", ""), Results)
 
 
-def of_answered(answered: Answered) -> Any:
+def of_answered(kind: type[Kind], answered: Answered) -> Kind:
     """Results with arrays, which the compiled half holds with their request: their table follows from it."""
-    found = results(json.loads(answered.json()))
+    found: Kind = with_arrays(json.loads(answered.json()), kind)
     found._answered = answered
     return found
 

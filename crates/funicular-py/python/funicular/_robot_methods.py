@@ -106,7 +106,7 @@ def payload(of: Any, given: Given) -> PayloadResults:
     StaticsError
         No payload is held at this pose.
     """
-    return _results.of_answered(of._answer("payload", given))
+    return _results.of_answered(PayloadResults, of._answer("payload", given))
 
 
 @declared(Robot, "loads", positional=("pose", "static_model"), others=_AS_REST)
@@ -126,7 +126,7 @@ def loads(of: Any, given: Given) -> LoadsResults:
     StaticsError
         The robot has no such pose, or no load factor was found.
     """
-    return _results.of_answered(of._answer("loads", given))
+    return _results.of_answered(LoadsResults, of._answer("loads", given))
 
 
 @declared(Robot, "speeds", positional=("pose", "static_model"), others=_AS_REST)
@@ -144,7 +144,7 @@ def speeds(of: Any, given: Given) -> SpeedsResults:
     StaticsError
         The robot has no such equilibrium, or its lengths have no rates there.
     """
-    return _results.of_answered(of._answer("speeds", given))
+    return _results.of_answered(SpeedsResults, of._answer("speeds", given))
 
 
 @declared(Robot, "trajectory", positional=("path", "move_to", "pose"), without=("path",), others=_AS_REST, files=True)
@@ -175,7 +175,7 @@ def trajectory(
         path = _sampled(path, given)
     if path is not None:
         given["path"] = path
-    return _results.of_answered(of._answer("trajectory", given))
+    return _results.of_answered(TrajectoryResults, of._answer("trajectory", given))
 
 
 # Maximum number of rows of a function of the time.
@@ -251,7 +251,7 @@ def simulate(
     """
     if "scenario" in given:
         given["scenario"] = _tabled(given["scenario"])
-    return _results.of_answered(of._answer("simulate", given, progress=progress))
+    return _results.of_answered(SimulateResults, of._answer("simulate", given, progress=progress))
 
 
 # Time between the rows of a function [s], and least number of its parts. Between the rows lies a cubic spline: it is right
@@ -317,7 +317,7 @@ def clearance(of: Any, given: Given) -> ClearanceResults:
     StaticsError
         The robot has no such equilibrium.
     """
-    return _results.of_answered(of._answer("clearance", given))
+    return _results.of_answered(ClearanceResults, of._answer("clearance", given))
 
 
 @declared(
@@ -375,7 +375,7 @@ def workspace(
     """
     if compare is not None:
         given = {**given, "compare": {"text": compare.to_toml()}}
-    return _results.of_answered(of._answer("workspace", given, threads=threads, progress=progress))
+    return _results.of_answered(WorkspaceResults, of._answer("workspace", given, threads=threads, progress=progress))
 
 
 @declared(Robot, "pose-error", positional=("mass_kg",), others=_AS_REST)
@@ -392,7 +392,7 @@ def pose_error(of: Any, given: Given) -> PoseErrorResults:
     -------
     The keys of the program's JSON: `points` with one entry for each mass.
     """
-    return _results.of_answered(of._answer("pose-error", given))
+    return _results.of_answered(PoseErrorResults, of._answer("pose-error", given))
 
 
 @declared(Robot, "identify", positional=("fit", "experiments"), state=True, others=_AS_BOTH, files=True)
@@ -461,7 +461,7 @@ def calibrate(of: Any, given: Given) -> CalibrateResults:
     """
     if given.get("prior") is not None:
         given = {**given, **keywords("calibrate", {"prior": given["prior"]}, of.cable_names)}
-    return _results.of_answered(of._answer("calibrate", given))
+    return _results.of_answered(CalibrateResults, of._answer("calibrate", given))
 
 
 @declared(Robot, "design", positional=("change",), without=("lengths_m", "hold_lengths_of_pose"), others=_AS_BOTH, files=True)
