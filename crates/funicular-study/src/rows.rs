@@ -84,8 +84,11 @@ pub(crate) fn key<T: Described>(name: &'static str, about: &[&str], is_sparse: b
     if let Value::Object(schema) = &mut schema {
         // A list has one key for all parts.
         let about = sentence(about).replace("cable {}", "each cable").replace(", {}", "");
-        if !about.is_empty() {
-            schema.insert("description".to_owned(), about.into());
+        if !about.is_empty()
+            && let Some(of_type) = schema.insert("description".to_owned(), about.into())
+        {
+            // Meaning of the object itself, whatever the key.
+            schema.insert("$comment".to_owned(), of_type);
         }
         let unit = units::of_name(name).filter(|_| !schema.contains_key("properties"));
         if let Some(unit) = unit {
@@ -344,18 +347,20 @@ impl ReadBack for Vec<[f64; 3]> {
 /// A type may be followed by `= sparse` (the key is left out for an empty value), `= spread` (the keys of this part stand
 /// among those of the whole) or `= hidden` (no key). After `=>` stands the column: `one`, `one("name")`, `each(parts)`,
 /// `each(parts, "pattern_{}")`, `each(parts, "pattern_{}", "meaning of {}")`, with the methods of [`Field`]; for a part the arguments of its columns. The meaning of a
-/// column is the first paragraph of the doc comment. An entry that begins with `=>` is a column without a key.
+/// column is the first paragraph of the doc comment. Columns of other values follow after a further `=>`.
 ///
-/// `in tables(names: &Names)` gives the function `columns`, `read back` the function `read`.
+/// `in tables(names: &Names)` gives the function `columns`, `read back` the function `read`. `with { … } rows` stands
+/// before the columns and makes what several of them need.
 macro_rules! rows {
     (
         $(#[doc = $about:literal])+
         $(#[derive($($derive:path),*)])?
-        $visibility:vis struct $Name:ident in tables($($arg:ident: $Arg:ty),*) $(read $back:ident)? { $($body:tt)* }
+        $visibility:vis struct $Name:ident in tables($($arg:ident: $Arg:ty),*)
+            $(with { $($before:tt)* } rows)? $(read $back:ident)? { $($body:tt)* }
     ) => {
         crate::rows::structure! { [$($about),+] [$($($derive),*)?] $visibility $Name { $($body)* } }
 
-        crate::rows::columns! { $Name ($($arg: $Arg),*) { $($body)* } $($back)? }
+        crate::rows::columns! { $Name ($($arg: $Arg),*) [$($($before)*)?] { $($body)* } $($back)? }
     };
     (
         $(#[doc = $about:literal])+
@@ -373,7 +378,7 @@ macro_rules! structure {
             $(
                 $(#[doc = $text:literal])*
                 $field_visibility:vis $field:ident: $Type:ty $(= $mark:ident)?
-                $(=> $first:ident $(($($a:tt)*))? $(.$method:ident($($m:tt)*))*)*;
+                $(=> $first:ident $(::$more:ident)* $(($($a:tt)*))? $(.$method:ident($($m:tt)*))*)*;
             )*
         }
     ) => {
@@ -419,16 +424,16 @@ macro_rules! structure {
 
 /// Columns of [`rows!`], and the reading of their numbers.
 macro_rules! columns {
-    ($Name:ident ($($arg:ident: $Arg:ty),*) $body:tt back) => {
-        crate::rows::columns! { $Name ($($arg: $Arg),*) $body }
+    ($Name:ident ($($arg:ident: $Arg:ty),*) $before:tt $body:tt back) => {
+        crate::rows::columns! { $Name ($($arg: $Arg),*) $before $body }
         crate::rows::read_back! { $Name ($($arg: $Arg),*) $body }
     };
     (
-        $Name:ident ($($arg:ident: $Arg:ty),*) {
+        $Name:ident ($($arg:ident: $Arg:ty),*) [$($before:tt)*] {
             $(
                 $(#[doc = $text:literal])*
                 $field_visibility:vis $field:ident: $Type:ty $(= $mark:ident)?
-                $(=> $first:ident $(($($a:tt)*))? $(.$method:ident($($m:tt)*))*)*;
+                $(=> $first:ident $(::$more:ident)* $(($($a:tt)*))? $(.$method:ident($($m:tt)*))*)*;
             )*
         }
     ) => {
@@ -436,11 +441,12 @@ macro_rules! columns {
             /// Columns of the rows.
             #[allow(unused_variables, reason = "not every key has a column")]
             pub fn columns($($arg: $Arg),*) -> crate::columns::Columns<Self> {
+                $($before)*
                 let mut fields: Vec<crate::columns::Field<Self>> = Vec::new();
                 $({
                     let about: &[&str] = &[$($text),*];
                     $(fields.extend(
-                        crate::rows::column!(about, $field: $Type, $first $(($($a)*))?) $(.$method($($m)*))*
+                        crate::rows::column!(about, $field: $Type, $first $(::$more)* $(($($a)*))?) $(.$method($($m)*))*
                     );)*
                 })*
                 crate::columns::Columns::new(fields)
@@ -531,8 +537,8 @@ macro_rules! column {
     ($about:ident, $field:ident: $Type:ty, columns($($a:tt)*)) => {
         <<$Type as crate::rows::Part>::Of>::columns($($a)*).within(|row: &Self| crate::rows::Part::part(&row.$field))
     };
-    ($about:ident, $field:ident: $Type:ty, $other:ident($($a:tt)*)) => {
-        $other($($a)*)
+    ($about:ident, $field:ident: $Type:ty, $($other:tt)+) => {
+        $($other)+
     };
 }
 

@@ -21,7 +21,7 @@ pub(crate) fn check(results: &Value) {
 fn fault(value: &Value, schema: &Value, place: &str) -> Result<(), String> {
     for (word, wanted) in schema.as_object().ok_or_else(|| format!("{place}: the schema is no object"))? {
         let holds = match word.as_str() {
-            "title" | "description" | "unit" => true,
+            "title" | "description" | "$comment" | "unit" => true,
             "const" => value == wanted,
             "enum" => wanted.as_array().is_some_and(|all| all.contains(value)),
             "type" => is_of_type(value, wanted),

@@ -13,7 +13,14 @@ from funicular._funicular import Analyses, Robot
 from funicular._live import Live, live as live_page
 from funicular._pages import Page, page, try_page
 from funicular._reading import File
-from funicular._results import Modes, ReducedModel, Results, StateSpaceModel
+from funicular._results import Modes, ReducedModel, StateSpaceModel
+from funicular.results import (
+    CableResults,
+    CompareResults,
+    GradientResults,
+    GustResults,
+    SettleResults,
+)
 
 _AS_MODES = "The other parameters are those of `Equilibrium.stiffness`."
 
@@ -134,7 +141,7 @@ def receptance(of: Any, given: Given, hz: ArrayLike) -> NDArray[complex128]:
 
 
 @declared(Analyses, "settle", positional=("release_n",), headings=REST, others=_AS_MODES, files=True)
-def settle(of: Any, given: Given) -> Results:
+def settle(of: Any, given: Given) -> SettleResults:
     """Computes how a point of the platform swings after a release, a stop, a move or a trajectory, and when it has settled.
 
     The motion is linear about the equilibrium at the end, in closed form over the damped modes. A stop, a move and a
@@ -148,11 +155,11 @@ def settle(of: Any, given: Given) -> Results:
     ----------
     docs/theory.md, equations (46f) to (46n).
     """
-    return _results.of_answered(of._results("settle", given))
+    return _results.of_answered(SettleResults, of._results("settle", given))
 
 
 @declared(Analyses, "gust", positional=("output",), headings=REST, others=_AS_MODES, files=True)
-def gust(of: Any, given: Given) -> Results:
+def gust(of: Any, given: Given) -> GustResults:
     """Computes the response to turbulent wind: r.m.s. values and expected peaks of motions and tensions, with their
     spectra.
 
@@ -167,11 +174,11 @@ def gust(of: Any, given: Given) -> Results:
     ----------
     docs/theory.md, equations (49f) to (49q).
     """
-    return _results.of_answered(of._results("gust", given))
+    return _results.of_answered(GustResults, of._results("gust", given))
 
 
 @declared(Analyses, "compare", positional=("below_hz",), headings=REST, others=_AS_MODES, files=True)
-def compare(of: Any, given: Given) -> Results:
+def compare(of: Any, given: Given) -> CompareResults:
     """Compares every cable model with the catenary-dynamic model: frequencies found, missed and wrong, and the
     recommended model.
 
@@ -179,11 +186,11 @@ def compare(of: Any, given: Given) -> Results:
     -------
     The keys of the program's JSON; lists of numbers are arrays.
     """
-    return _results.of_answered(of._results("compare", given))
+    return _results.of_answered(CompareResults, of._results("compare", given))
 
 
 @declared(Analyses, "gradient", positional=("of",), headings=REST, others=_AS_MODES)
-def gradient(of: Any, given: Given) -> Results:
+def gradient(of: Any, given: Given) -> GradientResults:
     """Computes derivatives of results by numbers of the robot file, without perturbing any.
 
     Parameters
@@ -215,11 +222,11 @@ def gradient(of: Any, given: Given) -> Results:
     NoSolutionError
         A cable is slack, or the equilibrium indifferent: it has no derivatives.
     """
-    return _results.of_answered(of._results("gradient", given))
+    return _results.of_answered(GradientResults, of._results("gradient", given))
 
 
 @declared(Analyses, "cable", positional=("name", "hz"), headings=REST, without=_RANGE, others=_AS_MODES)
-def cable(of: Any, given: Given, name: str, hz: ArrayLike) -> Results:
+def cable(of: Any, given: Given, name: str, hz: ArrayLike) -> CableResults:
     """Computes the dynamic stiffness of the platform end of one cable with a fixed anchor.
 
     Parameters
@@ -235,7 +242,7 @@ def cable(of: Any, given: Given, name: str, hz: ArrayLike) -> Results:
     normal in plane, out of plane [N/m]. `world` is (n, 3, 3), complex, in world axes. `clamped_frequencies_hz` are
     the natural frequencies of the cable with both ends fixed.
     """
-    found: Results = of._cable(name, hz, given)
+    found: CableResults = of._cable(name, hz, given)
     return found
 
 

@@ -2,38 +2,85 @@
 
 import copy
 import dataclasses
+import functools
+import inspect
 import json
 import warnings
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from os import PathLike
 from pathlib import Path
-from typing import Any
+from typing import Any, ClassVar, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from funicular import _show
 from funicular._errors import InputError, needs
-from funicular._funicular import Answered, answer, matlab_file, write_unit
+from funicular._funicular import Answered, answer, matlab_file, suggested, write_unit
 from funicular._reading import read
 
 
-def with_arrays(found: Any) -> Any:
-    """Replaces lists of numbers by arrays, and pairs of `real` and `imag` by complex arrays."""
+class Row(dict[str, Any]):
+    """Part of results: a dictionary with the keys of the program's JSON, which are attributes as well.
+
+    A key that the part does not have is None as an attribute. A key with the name of a method of dictionaries, such as
+    `values`, is read as `row["values"]`.
+    """
+
+    _PARTS: ClassVar[dict[str, "type[Row]"]] = {}
+
+    def __getattr__(self, name: str) -> Any:
+        if name in self:
+            return self[name]
+        if name in _declared_keys(type(self)):
+            return None
+        known = [key for key in (*self, *_declared_keys(type(self))) if key.isidentifier()]
+        hint = "" if name.startswith("_") else suggested(name, known)
+        raise AttributeError(f"{type(self).__name__} has no key `{name}`{hint}", name=name, obj=self)
+
+    def __dir__(self) -> list[str]:
+        return sorted({*super().__dir__(), *self, *_declared_keys(type(self))})
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, dict) and _same(dict(self), dict(other))
+
+    def __ne__(self, other: object) -> bool:
+        return not self == other
+
+    __hash__ = None
+
+
+@functools.cache
+def _declared_keys(of: type[Row]) -> frozenset[str]:
+    """Keys of a class of results."""
+    return frozenset(name for name in inspect.get_annotations(of) if not name.startswith("_"))
+
+
+def with_arrays(found: Any, kind: type[Row] | None = None) -> Any:
+    """Replaces lists of numbers by arrays, and pairs of `real` and `imag` by complex arrays.
+
+    Dictionaries become rows of a kind, if there is one.
+    """
     if isinstance(found, dict):
         if found.keys() == {"real", "imag"}:
             return np.array(found["real"]) + 1j * np.array(found["imag"])
-        return {key: with_arrays(value) for key, value in found.items()}
+        parts = {} if kind is None else kind._PARTS
+        made = {key: with_arrays(value, parts.get(key)) for key, value in found.items()}
+        return made if kind is None else kind(made)
     if isinstance(found, list):
         if found and _are_numbers(found):
             return np.array(found)
-        return [with_arrays(value) for value in found]
+        return [with_arrays(value, kind) for value in found]
     return found
 
 
-class Results(dict[str, Any]):
-    """Results with the keys of the program's JSON, as a dictionary that notebooks show as tables."""
+class Results(Row):
+    """Results with the keys of the program's JSON, as a dictionary that notebooks show as tables.
+
+    The keys are attributes as well: `found["rows"]` and `found.rows`. The classes of `funicular.results` have those of each
+    command with their types, units and meanings.
+    """
 
     __module__ = "funicular"
 
@@ -45,14 +92,6 @@ class Results(dict[str, Any]):
         return _show.html(self)
 
     _answered: Answered | None = None
-
-    def __eq__(self, other: object) -> bool:
-        return isinstance(other, dict) and _same(dict(self), dict(other))
-
-    def __ne__(self, other: object) -> bool:
-        return not self == other
-
-    __hash__ = None
 
     def to_dict(self) -> dict[str, Any]:
         """Returns a plain dictionary."""
@@ -88,14 +127,24 @@ class Results(dict[str, Any]):
         return _show.dataset(self)
 
 
-def results(found: dict[str, Any]) -> Results:
-    """Results with arrays in place of lists of numbers."""
-    return Results(with_arrays(found))
+Kind = TypeVar("Kind", bound=Results)
 
 
-def of_answered(answered: Answered) -> Results:
+def results(found: dict[str, Any]) -> Any:
+    """Results with arrays in place of lists of numbers, of the class of their command."""
+    return with_arrays(found, kind_of(found))
+
+
+def kind_of(found: Mapping[str, Any]) -> type[Results]:
+    """Class of the results of a command."""
+    from funicular.results import OF_COMMANDS  # its classes are made of those here
+
+    return OF_COMMANDS.get(found.get("command", ""), Results)
+
+
+def of_answered(kind: type[Kind], answered: Answered) -> Kind:
     """Results with arrays, which the compiled half holds with their request: their table follows from it."""
-    found = results(json.loads(answered.json()))
+    found: Kind = with_arrays(json.loads(answered.json()), kind)
     found._answered = answered
     return found
 

@@ -16,9 +16,20 @@ from funicular._errors import InputError
 from funicular._funicular import Equilibrium, Robot, number, numbers
 from funicular._identify import Identified, identified
 from funicular._reading import File, keywords, with_state
-from funicular._results import Equilibria, Results
+from funicular._results import Equilibria
 from funicular._sweeps import Sweep
 from funicular._uncertainty import Uncertainty, uncertainty as deviations_of
+from funicular.results import (
+    CalibrateResults,
+    ClearanceResults,
+    LoadsResults,
+    PayloadResults,
+    PoseErrorResults,
+    SimulateResults,
+    SpeedsResults,
+    TrajectoryResults,
+    WorkspaceResults,
+)
 
 _AS_REST = "The other parameters are those of `Robot.equilibrium`."
 _AS_BOTH = "The other parameters are those of `Robot.equilibrium` and of `Equilibrium.stiffness`."
@@ -79,7 +90,7 @@ def equilibria(
 
 
 @declared(Robot, "payload", positional=("pose", "lengths_m", "static_model", "tension_rule"), others=_AS_REST)
-def payload(of: Any, given: Given) -> Results:
+def payload(of: Any, given: Given) -> PayloadResults:
     """Computes the minimum and the maximum payload at a pose, with the cables whose tension limits bind.
 
     The payload is held by any tensions within the limits, not only by those of a tension rule. The pose need not be
@@ -95,11 +106,11 @@ def payload(of: Any, given: Given) -> Results:
     StaticsError
         No payload is held at this pose.
     """
-    return _results.of_answered(of._answer("payload", given))
+    return _results.of_answered(PayloadResults, of._answer("payload", given))
 
 
 @declared(Robot, "loads", positional=("pose", "static_model"), others=_AS_REST)
-def loads(of: Any, given: Given) -> Results:
+def loads(of: Any, given: Given) -> LoadsResults:
     """Compares the loads that the cables hold at a pose with the required ones: verdict, load factor, what binds, margins.
 
     All tensions within the limits count, not only those of a tension rule.
@@ -115,11 +126,11 @@ def loads(of: Any, given: Given) -> Results:
     StaticsError
         The robot has no such pose, or no load factor was found.
     """
-    return _results.of_answered(of._answer("loads", given))
+    return _results.of_answered(LoadsResults, of._answer("loads", given))
 
 
 @declared(Robot, "speeds", positional=("pose", "static_model"), others=_AS_REST)
-def speeds(of: Any, given: Given) -> Results:
+def speeds(of: Any, given: Given) -> SpeedsResults:
     """Computes what the winches do while the platform moves, and how fast their limits let it be.
 
     Returns
@@ -133,7 +144,7 @@ def speeds(of: Any, given: Given) -> Results:
     StaticsError
         The robot has no such equilibrium, or its lengths have no rates there.
     """
-    return _results.of_answered(of._answer("speeds", given))
+    return _results.of_answered(SpeedsResults, of._answer("speeds", given))
 
 
 @declared(Robot, "winches", positional=("grid", "pose"), others=_AS_REST)
@@ -156,7 +167,7 @@ def winches(of: Any, given: Given) -> Results:
 @declared(Robot, "trajectory", positional=("path", "move_to", "pose"), without=("path",), others=_AS_REST, files=True)
 def trajectory(
     of: Any, given: Given, path: File | Mapping[str, ArrayLike] | Callable[[float], ArrayLike] | None = None
-) -> Results:
+) -> TrajectoryResults:
     """Computes the motion along a path: lengths with their rates, tensions with the inertia, winches, and what limits them.
 
     Parameters
@@ -181,7 +192,7 @@ def trajectory(
         path = _sampled(path, given)
     if path is not None:
         given["path"] = path
-    return _results.of_answered(of._answer("trajectory", given))
+    return _results.of_answered(TrajectoryResults, of._answer("trajectory", given))
 
 
 # Maximum number of rows of a function of the time.
@@ -219,7 +230,7 @@ def simulate(
     of: Any,
     given: Given,
     progress: Callable[[int, int], object] | None = None,
-) -> Results:
+) -> SimulateResults:
     """Simulates large motion in time of platform and sagging ropes.
 
     Parameters
@@ -257,7 +268,7 @@ def simulate(
     """
     if "scenario" in given:
         given["scenario"] = _tabled(given["scenario"])
-    return _results.of_answered(of._answer("simulate", given, progress=progress))
+    return _results.of_answered(SimulateResults, of._answer("simulate", given, progress=progress))
 
 
 # Time between the rows of a function [s], and least number of its parts. Between the rows lies a cubic spline: it is right
@@ -309,7 +320,7 @@ def _tabled(scenario: Any) -> Any:
 
 
 @declared(Robot, "clearance", positional=("pose", "static_model"), others=_AS_REST)
-def clearance(of: Any, given: Given) -> Results:
+def clearance(of: Any, given: Given) -> ClearanceResults:
     """Computes the distances between the sagging cables, the platform and obstacles: what is nearest, where, and what is
     too near.
 
@@ -323,7 +334,7 @@ def clearance(of: Any, given: Given) -> Results:
     StaticsError
         The robot has no such equilibrium.
     """
-    return _results.of_answered(of._answer("clearance", given))
+    return _results.of_answered(ClearanceResults, of._answer("clearance", given))
 
 
 @declared(
@@ -340,7 +351,7 @@ def workspace(
     compare: Robot | None = None,
     threads: SupportsIndex | None = None,
     progress: Callable[[int, int], object] | None = None,
-) -> Results:
+) -> WorkspaceResults:
     """Finds all positions at which quantities keep their limits: surface, volume, parts and holes.
 
     Without a limit the positions are those at which tensions within their limits hold the platform, with the required
@@ -381,11 +392,11 @@ def workspace(
     """
     if compare is not None:
         given = {**given, "compare": {"text": compare.to_toml()}}
-    return _results.of_answered(of._answer("workspace", given, threads=threads, progress=progress))
+    return _results.of_answered(WorkspaceResults, of._answer("workspace", given, threads=threads, progress=progress))
 
 
 @declared(Robot, "pose-error", positional=("mass_kg",), others=_AS_REST)
-def pose_error(of: Any, given: Given) -> Results:
+def pose_error(of: Any, given: Given) -> PoseErrorResults:
     """Computes the distance of the poses of spring and catenary cables from those of ideal cables, over the platform
     mass.
 
@@ -398,7 +409,7 @@ def pose_error(of: Any, given: Given) -> Results:
     -------
     The keys of the program's JSON: `points` with one entry for each mass.
     """
-    return _results.of_answered(of._answer("pose-error", given))
+    return _results.of_answered(PoseErrorResults, of._answer("pose-error", given))
 
 
 @declared(Robot, "identify", positional=("fit", "experiments"), state=True, others=_AS_BOTH, files=True)
@@ -435,7 +446,7 @@ def identify(of: Any, given: Given) -> Identified:
 
 
 @declared(Robot, "calibrate", positional=("readings", "unknowns"), files=True)
-def calibrate(of: Any, given: Given) -> Results:
+def calibrate(of: Any, given: Given) -> CalibrateResults:
     """Calibrates anchors, attachments, offsets and more from readings of lengths at poses that are not known.
 
     Parameters
@@ -467,7 +478,7 @@ def calibrate(of: Any, given: Given) -> Results:
     """
     if given.get("prior") is not None:
         given = {**given, **keywords("calibrate", {"prior": given["prior"]}, of.cable_names)}
-    return _results.of_answered(of._answer("calibrate", given))
+    return _results.of_answered(CalibrateResults, of._answer("calibrate", given))
 
 
 @declared(Robot, "design", positional=("change",), without=("lengths_m", "hold_lengths_of_pose"), others=_AS_BOTH, files=True)

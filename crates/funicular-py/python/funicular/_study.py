@@ -29,7 +29,7 @@ from funicular._live import live
 from funicular._hints import hinted
 from funicular._pages import Page, page, try_page
 from funicular._reading import File, keywords, read
-from funicular._results import Results
+from funicular._results import kind_of
 from funicular._sweeps import Sweep
 
 
@@ -188,10 +188,12 @@ def run(request: Mapping[str, Any] | str, **files: Any) -> Any:
         case "merge":
             raise InputError("`merge` writes a file: call `funicular.merge(parts, path)`")
         case "validate":
-            return Results(json.loads(answer(text)))
+            found = json.loads(answer(text))
+            return kind_of(found)(found)
         case _:
             answered = Answered(text)
-            found = Results(json.loads(answered.json()))
+            plain = json.loads(answered.json())
+            found = kind_of(plain)(plain)
             write_wanted(answered, "funicular.run(request, ", wanted)
             found._answered = answered
             return found
@@ -259,13 +261,14 @@ def new_robot(
     return made
 
 
-def schema(of: Literal["robot-file", "request"] = "robot-file") -> dict[str, Any]:
+def schema(of: Literal["robot-file", "request", "columns", "results"] = "robot-file") -> dict[str, Any]:
     """Returns a JSON Schema, as the program's `schema` writes it.
 
     Parameters
     ----------
     of
-        The robot file, or requests: the dictionaries that `run` takes.
+        The robot file, requests (the dictionaries that `run` takes), or results: the keys of every command with their
+        meanings and units. `columns` are those of the tables in files.
     """
     made: dict[str, Any] = run({"command": "schema", "of": of})
     return made

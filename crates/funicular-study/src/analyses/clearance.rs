@@ -43,15 +43,17 @@ rows! {
 
 rows! {
     /// Pair of things with its distance, on a move the least one.
-    pub struct ClearanceRow {
-        /// Kind of the pair: `cables`, `platform` or `obstacles`.
-        pub kind: &'static str;
+    pub struct ClearanceRow in tables(moves: bool, sways: bool) {
+        /// Kind of the pair: cables, platform or obstacles.
+        pub kind: &'static str => one.plain("kind");
         /// Name of the first cable, or of a body of the platform.
-        pub first: String;
+        pub first: String => one.plain("first");
         /// Name of the other cable, body or obstacle.
-        pub second: String;
+        pub second: String => one.plain("second");
+        /// Distance between the surfaces, negative in an overlap.
+        ///
         /// Distance between the surfaces, negative by the depth of an overlap.
-        pub distance_m: f64;
+        pub distance_m: f64 => one.decimals("distance", 4);
         /// Required distance, vibration included.
         pub required_m: f64;
         /// Part of the required distance for the motions of both in gusts; absent without them.
@@ -61,7 +63,35 @@ rows! {
         /// Nearest points, on the centre lines of cables.
         pub points_m: [[f64; 3]; 2];
         /// Fraction of the move where the margin is least.
-        pub fraction: Option<f64>;
+        pub fraction: Option<f64>
+            => one.decimals("at part of way", 4).read_if(moves)
+            => column(
+                "crosses_at",
+                "1",
+                "first fraction of the move at which the cables cross each other",
+                |row: &Self| row.crossing_fractions.first().copied(),
+            )
+            .decimals("crosses at", 6)
+            .read_if(moves)
+            => column("required_m", "m", "required distance", |row: &Self| row.required_m).decimals("required", 4)
+            => column("vibration_m", "m", "part of the required distance for the motions in gusts", |row: &Self| {
+                row.vibration_m
+            })
+            .decimals("for gusts", 4)
+            .read_if(sways)
+            => column("margin_m", "m", "distance beyond the required one", |row: &Self| row.margin_m).read_if(false)
+            => parts(
+                "first_{}_m",
+                AXES,
+                "m",
+                "nearest point of the first, on the centre line of a cable, {}",
+                |row: &Self| row.points_m[0].map(Some),
+            )
+            .decimals("at", 3)
+            => parts("second_{}_m", AXES, "m", "nearest point of the second, {}", |row: &Self| {
+                row.points_m[1].map(Some)
+            })
+            .read_if(false);
         /// Fractions of the move at which the two cables cross each other.
         pub crossing_fractions: Vec<f64> = sparse;
     }
@@ -194,51 +224,6 @@ impl ClearanceRow {
     /// True if the pair does not touch and keeps its required distance.
     pub fn is_kept(&self) -> bool {
         self.margin_m >= 0.0
-    }
-
-    /// Columns of the pairs; those of a move and of gusts are read if there are such.
-    pub fn columns(moves: bool, sways: bool) -> Columns<Self> {
-        Columns::new([
-            column("kind", "", "kind of the pair: cables, platform or obstacles", |row: &Self| row.kind).plain("kind"),
-            column("first", "", "name of the first cable, or of a body of the platform", |row: &Self| {
-                row.first.clone()
-            })
-            .plain("first"),
-            column("second", "", "name of the other cable, body or obstacle", |row: &Self| row.second.clone())
-                .plain("second"),
-            column("distance_m", "m", "distance between the surfaces, negative in an overlap", |row: &Self| {
-                row.distance_m
-            })
-            .decimals("distance", 4),
-            column("fraction", "1", "fraction of the move where the margin is least", |row: &Self| row.fraction)
-                .decimals("at part of way", 4)
-                .read_if(moves),
-            column(
-                "crosses_at",
-                "1",
-                "first fraction of the move at which the cables cross each other",
-                |row: &Self| row.crossing_fractions.first().copied(),
-            )
-            .decimals("crosses at", 6)
-            .read_if(moves),
-            column("required_m", "m", "required distance", |row: &Self| row.required_m).decimals("required", 4),
-            column("vibration_m", "m", "part of the required distance for the motions in gusts", |row: &Self| {
-                row.vibration_m
-            })
-            .decimals("for gusts", 4)
-            .read_if(sways),
-            column("margin_m", "m", "distance beyond the required one", |row: &Self| row.margin_m).read_if(false),
-            parts(
-                "first_{}_m",
-                AXES,
-                "m",
-                "nearest point of the first, on the centre line of a cable, {}",
-                |row: &Self| row.points_m[0].map(Some),
-            )
-            .decimals("at", 3),
-            parts("second_{}_m", AXES, "m", "nearest point of the second, {}", |row: &Self| row.points_m[1].map(Some))
-                .read_if(false),
-        ])
     }
 }
 

@@ -52,32 +52,60 @@ rows! {
 
 rows! {
     /// Damping of a mode, of first order.
-    pub struct AirDamping {
-        pub frequency_hz: f64;
-        pub damping_ratio: f64;
-        /// Damping ratio by the mean wind, which adds to the other.
-        pub aerodynamic_damping_ratio: f64;
+    pub struct AirDamping in tables() with {
+        let percent = |ratio: fn(&Self) -> f64| {
+            move |mode: &Self, style: crate::columns::Style| style.significant(100.0 * ratio(mode), 3)
+        };
+    } rows {
+        /// Natural frequency.
+        pub frequency_hz: f64 => one.decimals("f", 4);
+        /// Damping ratio in still air.
+        pub damping_ratio: f64 => one.shown("damping", "%",percent(|mode| mode.damping_ratio));
+        /// Damping ratio by the mean wind.
+        ///
+        /// Which adds to the other.
+        pub aerodynamic_damping_ratio: f64 => one
+            .shown("by the wind", "%", percent(|mode| mode.aerodynamic_damping_ratio));
     }
 }
 
 rows! {
     /// One output in gusts.
-    pub struct GustRow {
-        pub output: String;
-        pub unit: String;
+    pub struct GustRow in tables() {
+        /// Output.
+        pub output: String => one.plain("output");
+        /// Unit.
+        pub unit: String => one.plain("unit");
+        /// Mean.
+        ///
         /// Mean tension; zero for a motion, which is about the equilibrium in the mean wind.
-        pub mean: f64;
-        pub rms: f64;
+        pub mean: f64 => one.unit("").significant("mean", 4);
+        pub rms: f64 => one.unit("").about("r.m.s. value about the mean").significant("r.m.s.", 4);
         /// R.m.s. value without the dynamics of the robot; absent without stiffness.
-        pub quasi_static_rms: Option<f64>;
+        pub quasi_static_rms: Option<f64>
+            => one.unit("").about("r.m.s. value without dynamics").significant("slow gusts", 4)
+            => column("main_mode_hz", "Hz", "mode nearest to which most of the variance is", |row: &Self| {
+                row.main_mode.map(|(hz, _)| hz)
+            })
+            .significant("mostly near", 3)
+            => column("main_share", "1", "part of the variance there", |row: &Self| row.main_mode.map(|(_, part)| part))
+                .significant("part", 2)
+                .with_unit("1");
+        /// Rate of crossings.
+        ///
         /// Rate at which the mean is crossed upwards.
-        pub rate_hz: f64;
+        pub rate_hz: f64
+            => one.significant("rate", 3)
+            => column("smallest", "", "expected smallest value", Self::smallest).significant("smallest", 4)
+            => column("largest", "", "expected largest value", Self::largest).significant("largest", 4);
         /// Expected largest excursion to one side within the duration; absent for fewer than ten expected crossings.
         pub peak: Option<f64>;
         /// Standard deviation of that excursion.
         pub peak_deviation: Option<f64>;
+        /// Probability of a slack cable.
+        ///
         /// Probability that the tension falls to zero within the duration, 0 below 1e-12; tensions alone.
-        pub slack_probability: Option<f64>;
+        pub slack_probability: Option<f64> => one.significant("slack", 2).with_unit("1");
         /// Part of the variance nearest to each mode of `modes`, in their order.
         pub share_by_mode: Vec<f64>;
         /// Spectral density, unit squared per Hz.
@@ -349,52 +377,6 @@ impl TurbulenceRow {
 impl AirDamping {
     fn of((mode, aerodynamic_damping_ratio): (&modes::Mode, f64)) -> Self {
         Self { frequency_hz: mode.frequency_hz, damping_ratio: mode.damping_ratio, aerodynamic_damping_ratio }
-    }
-
-    /// Columns of the damping in air.
-    pub fn columns() -> Columns<Self> {
-        let percent = |ratio: fn(&Self) -> f64| {
-            move |mode: &Self, style: crate::columns::Style| style.significant(100.0 * ratio(mode), 3)
-        };
-        Columns::new([
-            column("frequency_hz", "Hz", "natural frequency", |mode: &Self| mode.frequency_hz).decimals("f", 4),
-            column("damping_ratio", "1", "damping ratio in still air", |mode: &Self| mode.damping_ratio).shown(
-                "damping",
-                "%",
-                percent(|mode| mode.damping_ratio),
-            ),
-            column("aerodynamic_damping_ratio", "1", "damping ratio by the mean wind", |mode: &Self| {
-                mode.aerodynamic_damping_ratio
-            })
-            .shown("by the wind", "%", percent(|mode| mode.aerodynamic_damping_ratio)),
-        ])
-    }
-}
-
-impl GustRow {
-    /// Columns of the outputs in tables for reading.
-    pub fn columns() -> Columns<Self> {
-        Columns::new([
-            column("output", "", "output", |row: &Self| row.output.clone()).plain("output"),
-            column("unit", "", "unit", |row: &Self| row.unit.clone()).plain("unit"),
-            column("mean", "", "mean", |row: &Self| row.mean).significant("mean", 4),
-            column("rms", "", "r.m.s. value about the mean", |row: &Self| row.rms).significant("r.m.s.", 4),
-            column("quasi_static_rms", "", "r.m.s. value without dynamics", |row: &Self| row.quasi_static_rms)
-                .significant("slow gusts", 4),
-            column("main_mode_hz", "Hz", "mode nearest to which most of the variance is", |row: &Self| {
-                row.main_mode.map(|(hz, _)| hz)
-            })
-            .significant("mostly near", 3),
-            column("main_share", "1", "part of the variance there", |row: &Self| row.main_mode.map(|(_, part)| part))
-                .significant("part", 2)
-                .with_unit("1"),
-            column("rate_hz", "Hz", "rate of crossings", |row: &Self| row.rate_hz).significant("rate", 3),
-            column("smallest", "", "expected smallest value", Self::smallest).significant("smallest", 4),
-            column("largest", "", "expected largest value", Self::largest).significant("largest", 4),
-            column("slack_probability", "1", "probability of a slack cable", |row: &Self| row.slack_probability)
-                .significant("slack", 2)
-                .with_unit("1"),
-        ])
     }
 }
 

@@ -1,7 +1,7 @@
 //! `parameters`: all numbers of a robot file.
 
 use super::found;
-use crate::columns::{Columns, ResultTable, Tabled, column};
+use crate::columns::{ResultTable, Tabled};
 use crate::request::RobotText;
 use crate::rows::rows;
 use crate::table::Column;
@@ -23,23 +23,41 @@ rows! {
 
 rows! {
     /// Number of a robot.
-    pub struct ParameterRow {
+    pub struct ParameterRow in tables() {
+        /// Path of the number for `set`, `vary` and `fit`.
+        ///
         /// Path for `set` and `vary`.
-        pub path: String;
-        pub value: f64;
+        pub path: String => one.plain("path");
+        /// Value, in the unit of the row.
+        pub value: f64 => one.unit("")
+            .shown("value", "", |row, _| {
+                if row.value.abs() < LONG { format!("{}", row.value) } else { format!("{:e}", row.value) }
+            });
         /// Unit; `1` for a ratio.
-        pub unit: &'static str;
+        pub unit: &'static str => one.plain("unit");
+        /// Range that is allowed, in words.
+        ///
         /// Permitted range in words.
-        pub range: String;
+        pub range: String => one.plain("range");
+        /// Lower end of the range.
+        ///
         /// Minimum of the range.
-        pub minimum: f64;
+        pub minimum: f64 => one.unit("");
+        /// Upper end of the range.
+        ///
         /// Maximum of the range, or the limit below which values are permitted.
-        pub maximum: f64;
-        pub meaning: &'static str;
+        pub maximum: f64 => one.unit("");
+        /// Meaning of the number.
+        pub meaning: &'static str => one
+            .shown("meaning", "", |row, _| {
+                if row.given { row.meaning.to_owned() } else { format!("{} (default)", row.meaning) }
+            });
         /// Name in words with the unit.
         pub label: String;
+        /// The file gives the number; otherwise the value is the default.
+        ///
         /// True if the file gives the number; otherwise the value is the default.
-        pub given: bool;
+        pub given: bool => one;
     }
 }
 
@@ -49,33 +67,6 @@ impl ParameterRow {
         let (minimum, maximum) = (range.minimum(), range.maximum());
         let (path, label) = (parameter.path(), parameter.label());
         Self { path, label, value, unit, range: range.to_string(), minimum, maximum, meaning: about, given }
-    }
-}
-
-impl ParameterRow {
-    /// Columns of the numbers.
-    pub fn columns() -> Columns<Self> {
-        Columns::new([
-            column("path", "", "path of the number for `set`, `vary` and `fit`", |row: &Self| row.path.clone())
-                .plain("path"),
-            column("value", "", "value, in the unit of the row", |row: &Self| row.value).shown(
-                "value",
-                "",
-                |row, _| {
-                    if row.value.abs() < LONG { format!("{}", row.value) } else { format!("{:e}", row.value) }
-                },
-            ),
-            column("unit", "", "unit; `1` for a ratio", |row: &Self| row.unit).plain("unit"),
-            column("range", "", "range that is allowed, in words", |row: &Self| row.range.clone()).plain("range"),
-            column("minimum", "", "lower end of the range", |row: &Self| row.minimum),
-            column("maximum", "", "upper end of the range", |row: &Self| row.maximum),
-            column("meaning", "", "meaning of the number", |row: &Self| row.meaning).shown("meaning", "", |row, _| {
-                if row.given { row.meaning.to_owned() } else { format!("{} (default)", row.meaning) }
-            }),
-            column("given", "", "the file gives the number; otherwise the value is the default", |row: &Self| {
-                row.given
-            }),
-        ])
     }
 }
 

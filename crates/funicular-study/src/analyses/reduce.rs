@@ -6,7 +6,7 @@ use super::shared::Models;
 use super::{Found, found};
 use crate::Watch;
 use crate::at_rest::{self, AtRest};
-use crate::columns::{Columns, ResultTable, Tabled, column};
+use crate::columns::{ResultTable, Tabled};
 use crate::error::Cancelled;
 use crate::names::{ModelForm, Named};
 use crate::request;
@@ -111,10 +111,13 @@ rows! {
 
 rows! {
     /// Coordinate of the model.
-    pub struct CoordinateRow {
-        pub name: String;
-        pub unit: &'static str;
-        pub clamped_frequency_hz: Option<f64>;
+    pub struct CoordinateRow in tables() {
+        /// Name of the coordinate.
+        pub name: String => one("coordinate");
+        /// Unit of the coordinate.
+        pub unit: &'static str => one;
+        /// Frequency of a mode of a cable with both ends fixed.
+        pub clamped_frequency_hz: Option<f64> => one;
     }
 }
 
@@ -334,21 +337,6 @@ impl CoordinateRow {
                 clamped_frequency_hz: None,
             },
         }
-    }
-}
-
-impl CoordinateRow {
-    fn columns() -> Columns<Self> {
-        Columns::new([
-            column("coordinate", "", "name of the coordinate", |row: &Self| row.name.clone()),
-            column("unit", "", "unit of the coordinate", |row: &Self| row.unit),
-            column(
-                "clamped_frequency_hz",
-                "Hz",
-                "frequency of a mode of a cable with both ends fixed",
-                |row: &Self| row.clamped_frequency_hz,
-            ),
-        ])
     }
 }
 

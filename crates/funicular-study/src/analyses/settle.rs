@@ -137,16 +137,32 @@ rows! {
 
 rows! {
     /// Part of a mode in the motion.
-    pub struct SettlingMode {
-        pub frequency_hz: f64;
-        pub damping_ratio: f64;
+    pub struct SettlingMode in tables(modes: &[Self]) with {
+        let is_shaped = modes.iter().any(|mode| mode.amplitude_without_m.is_some());
+    } rows {
+        /// Frequency of the damped mode.
+        pub frequency_hz: f64 => one.decimals("f", 4);
+        /// Damping ratio.
+        pub damping_ratio: f64 => one
+            .shown("damping", "%", |mode, style| style.significant(100.0 * mode.damping_ratio, 3));
+        /// Amplitude at the release or the end of the command.
+        ///
         /// Amplitude at the release or the end of the command: half of the long axis of the ellipse on which the point
         /// moves.
-        pub amplitude_m: f64;
-        /// Amplitude without the shaper; absent without one.
-        pub amplitude_without_m: Option<f64>;
-        /// Time in which this amplitude alone falls to the tolerance; zero if it is smaller, absent if it never does.
-        pub settled_s: Option<f64>;
+        pub amplitude_m: f64 => one
+            .shown("amplitude", "mm", |mode, style| style.significant(1e3 * mode.amplitude_m, 3));
+        /// Amplitude without the shaper.
+        ///
+        /// Absent without one.
+        pub amplitude_without_m: Option<f64> => one
+            .shown("without shaper", "mm", |mode, style| {
+                mode.amplitude_without_m.map_or_else(String::new, |size| style.significant(1e3 * size, 3))
+            })
+            .read_if(is_shaped);
+        /// Time in which this amplitude alone falls to the tolerance.
+        ///
+        /// Zero if it is smaller, absent if it never does.
+        pub settled_s: Option<f64> => one.significant("to the tolerance", 3);
     }
 }
 
@@ -154,14 +170,26 @@ rows! {
     /// Displacement of the point at one time from where the lengths of this time hold it at rest, and the bound of its
     /// distance.
     #[derive(Clone)]
-    pub struct HistoryRow {
+    pub struct HistoryRow in tables() with {
+        let place = |row: &Self| [row.x_m, row.y_m, row.z_m];
+    } rows {
         /// Time since the release or the end of the command.
-        pub t_s: f64;
+        pub t_s: f64
+            => one
+            => parts(
+                "{}_m",
+                AXES,
+                "m",
+                "displacement of the point from its rest with the lengths of this time, {}",
+                place,
+            );
         pub x_m: f64;
         pub y_m: f64;
         pub z_m: f64;
+        /// Bound of its distance from its rest, from the end of a command on.
+        ///
         /// Absent while a command runs.
-        pub envelope_m: Option<f64>;
+        pub envelope_m: Option<f64> => one;
     }
 }
 
@@ -477,28 +505,6 @@ fn during(motions: &CommandedMotions, command: &LengthCommand) -> Vec<HistoryRow
     if end > 0.0 { times.iter().zip(beside).map(row).collect() } else { Vec::new() }
 }
 
-impl HistoryRow {
-    fn columns() -> Columns<Self> {
-        let place = |row: &Self| [row.x_m, row.y_m, row.z_m];
-        Columns::new([
-            column("t_s", "s", "time since the release or the end of the command", |row: &Self| row.t_s),
-            parts(
-                "{}_m",
-                AXES,
-                "m",
-                "displacement of the point from its rest with the lengths of this time, {}",
-                place,
-            ),
-            column(
-                "envelope_m",
-                "m",
-                "bound of its distance from its rest, from the end of a command on",
-                |row: &Self| row.envelope_m,
-            ),
-        ])
-    }
-}
-
 /// Words for a time after which something holds.
 pub fn after(time: Option<f64>) -> String {
     time.map_or_else(|| "never".to_owned(), |time| format!("after {} s", significant(time, 4)))
@@ -549,35 +555,6 @@ impl Commanded {
             ),
         ]);
         ResultTable::new(columns, &self.lengths)
-    }
-}
-
-impl SettlingMode {
-    /// Columns of the modes that take part.
-    pub fn columns(modes: &[Self]) -> Columns<Self> {
-        let is_shaped = modes.iter().any(|mode| mode.amplitude_without_m.is_some());
-        Columns::new([
-            column("frequency_hz", "Hz", "frequency of the damped mode", |mode: &Self| mode.frequency_hz)
-                .decimals("f", 4),
-            column("damping_ratio", "1", "damping ratio", |mode: &Self| mode.damping_ratio).shown(
-                "damping",
-                "%",
-                |mode, style| style.significant(100.0 * mode.damping_ratio, 3),
-            ),
-            column("amplitude_m", "m", "amplitude at the release or the end of the command", |mode: &Self| {
-                mode.amplitude_m
-            })
-            .shown("amplitude", "mm", |mode, style| style.significant(1e3 * mode.amplitude_m, 3)),
-            column("amplitude_without_m", "m", "amplitude without the shaper", |mode: &Self| mode.amplitude_without_m)
-                .shown("without shaper", "mm", |mode, style| {
-                    mode.amplitude_without_m.map_or_else(String::new, |size| style.significant(1e3 * size, 3))
-                })
-                .read_if(is_shaped),
-            column("settled_s", "s", "time in which this amplitude alone falls to the tolerance", |mode: &Self| {
-                mode.settled_s
-            })
-            .significant("to the tolerance", 3),
-        ])
     }
 }
 

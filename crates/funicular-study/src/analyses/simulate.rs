@@ -17,7 +17,7 @@ pub use spectrum::MotionSpectrum;
 use super::found;
 use super::shared::Origin;
 use crate::at_rest::{self, AtRest};
-use crate::columns::{Columns, ResultTable, Tabled, column};
+use crate::columns::{ResultTable, Tabled};
 use crate::error::{Cancelled, NoSolution};
 use crate::request::{PointValue, SimulateRequest};
 use crate::rows::rows;
@@ -126,14 +126,19 @@ impl NearestRow {
 rows! {
     /// Loss of the stretch of ropes in one mode of the platform. In time it is a damping time, which has the loss factor
     /// at one frequency only.
-    pub struct StretchLossRow {
-        pub frequency_hz: f64;
+    pub struct StretchLossRow in tables() {
+        /// Natural frequency of the platform on massless ropes.
+        pub frequency_hz: f64 => one.significant("mode", 4);
+        /// Share of the stretch in the energy of deformation.
+        ///
         /// Share of the stretch of the ropes in the energy of deformation.
-        pub stretch_share: f64;
+        pub stretch_share: f64 => one.significant("stretch", 2);
+        /// Damping ratio by the losses of the robot file.
+        ///
         /// Damping ratio by the loss factors and damping times of the robot file.
-        pub damping_ratio: f64;
+        pub damping_ratio: f64 => one.significant("ratio", 2);
         /// Damping ratio in this run.
-        pub damping_ratio_in_time: f64;
+        pub damping_ratio_in_time: f64 => one.significant("in time", 2);
     }
 }
 
@@ -141,26 +146,6 @@ impl StretchLossRow {
     fn of(loss: &LossOfMode) -> Self {
         let LossOfMode { frequency_hz, stretch_share, ratio, ratio_in_time } = *loss;
         Self { frequency_hz, stretch_share, damping_ratio: ratio, damping_ratio_in_time: ratio_in_time }
-    }
-
-    /// Columns of the table of losses.
-    pub fn columns() -> Columns<Self> {
-        Columns::new([
-            column("frequency_hz", "Hz", "natural frequency of the platform on massless ropes", |row: &Self| {
-                row.frequency_hz
-            })
-            .significant("mode", 4),
-            column("stretch_share", "1", "share of the stretch in the energy of deformation", |row: &Self| {
-                row.stretch_share
-            })
-            .significant("stretch", 2),
-            column("damping_ratio", "1", "damping ratio by the losses of the robot file", |row: &Self| {
-                row.damping_ratio
-            })
-            .significant("ratio", 2),
-            column("damping_ratio_in_time", "1", "damping ratio in this run", |row: &Self| row.damping_ratio_in_time)
-                .significant("in time", 2),
-        ])
     }
 }
 

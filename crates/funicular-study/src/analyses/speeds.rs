@@ -5,7 +5,7 @@ use super::found;
 use super::gradient::no_solution;
 use super::shared::{Origin, PoseRow};
 use crate::at_rest::{self, AtRest};
-use crate::columns::{Columns, Field, ResultTable, Tabled, column, parts};
+use crate::columns::{Field, ResultTable, Tabled, column};
 use crate::request::SpeedsRequest;
 use crate::rows::rows;
 use crate::table::Column;
@@ -73,24 +73,71 @@ rows! {
 
 rows! {
     /// One cable with its winch.
-    pub struct CableSpeeds {
-        pub name: String;
+    pub struct CableSpeeds in tables(asks: bool) with {
+        let used = |name: &'static str, of: fn(&WinchInUse) -> Option<f64>| {
+            let part = move |row: &Self| row.required.as_ref().and_then(of);
+            column(name, "1", "used part of this limit, above 1 beyond it", move |row: &Self| {
+                part(row).filter(|part| part.is_finite())
+            })
+        };
+        let shown = |field: Field<Self>, heading: &'static str, of: fn(&WinchInUse) -> Option<f64>| {
+            field
+                .shown(heading, "", move |row, style| match row.required.as_ref().and_then(of) {
+                    Some(part) if part.is_infinite() => "beyond".to_owned(),
+                    part => style.significant(part, 3),
+                })
+                .read_if(asks)
+        };
+        let required = |of: fn(&WinchInUse) -> f64| move |row: &Self| row.required.as_ref().map(of);
+    } rows {
+        pub name: String => fields::cable_name(|row: &Self| row.name.clone());
+        /// Speed of the cable at the drum per speed along {}, paying out.
+        ///
         /// Speed of the cable at the drum per speed of the platform along the axes of the world, positive while it pays
         /// out.
-        pub rate_per_velocity: [f64; 3];
+        pub rate_per_velocity: [f64; 3] => each(fields::AXES, "rate_{}");
+        /// Speed of the cable at the drum per angular velocity about {}, paying out.
+        ///
         /// Speed of the cable at the drum per angular velocity about these axes.
-        pub rate_per_angular_velocity_m_per_rad: [f64; 3];
-        pub tension_drum_n: f64;
-        /// Torque of the motor at rest; absent without a radius of the drum.
-        pub motor_torque_at_rest_n_m: Option<f64>;
+        pub rate_per_angular_velocity_m_per_rad: [f64; 3] => each(fields::AXES, "rate_r{}_m_per_rad");
+        /// Tension at the drum.
+        pub tension_drum_n: f64 => one.decimals("T drum", 2);
+        /// Torque of the motor at rest.
+        ///
+        /// Absent without a radius of the drum.
+        pub motor_torque_at_rest_n_m: Option<f64> => one.significant("torque at rest", 4);
+        /// Largest speed of the cable while it winds in.
+        ///
         /// Largest speed of the cable at the drum while it winds in; absent without a limit.
-        pub speed_max_in_m_s: Option<f64>;
+        pub speed_max_in_m_s: Option<f64> => one.significant("in up to", 4);
+        /// Largest speed of the cable while it pays out.
+        ///
         /// Largest value while the winch pays out.
-        pub speed_max_out_m_s: Option<f64>;
+        pub speed_max_out_m_s: Option<f64> => one.significant("out up to", 4);
         /// Limit that is reached first.
-        pub limit: Option<&'static str>;
+        pub limit: Option<&'static str> => one.plain("limit");
+        /// Largest speed of the platform in every direction, as far as this winch allows.
+        ///
         /// Largest speed of the platform in every direction without turning, as far as this winch allows.
-        pub platform_speed_max_m_s: Option<f64>;
+        pub platform_speed_max_m_s: Option<f64>
+            => one.significant("platform", 4)
+            => column("speed_m_s", "m/s", "largest speed for the required velocities", required(|of| of.speed_m_s))
+                .significant("speed", 4)
+                .read_if(asks)
+            => column("driving_power_w", "W", "largest power of the motor that drives", required(|of| {
+                of.driving_power_w
+            }))
+                .significant("drives", 4)
+                .read_if(asks)
+            => column("braking_power_w", "W", "largest power of the motor that brakes", required(|of| {
+                of.braking_power_w
+            }))
+                .significant("brakes", 4)
+                .read_if(asks)
+            => shown(used("used_speed", |of| of.used_speed), "of speed", |of| of.used_speed)
+            => shown(used("used_torque", |of| of.used_torque), "of torque", |of| of.used_torque)
+            => shown(used("used_power", |of| of.used_power), "of power", |of| of.used_power)
+            => shown(used("used_brake_power", |of| of.used_brake_power), "of brake", |of| of.used_brake_power);
         /// Work of the winch for the required velocities; absent if none is required.
         pub required: Option<WinchInUse> = spread;
     }
@@ -221,76 +268,6 @@ impl CableSpeeds {
             platform_speed_max_m_s: finite(slowest / at_rest.by_twist.fixed_rows::<3>(0).norm()),
             required: half_widths.map(|half_widths| WinchInUse::of(at_rest, half_widths)),
         }
-    }
-
-    /// Columns of the cables. The numbers for required velocities are read if there are any.
-    pub fn columns(asks: bool) -> Columns<Self> {
-        let used = |name: &'static str, of: fn(&WinchInUse) -> Option<f64>| {
-            let part = move |row: &Self| row.required.as_ref().and_then(of);
-            column(name, "1", "used part of this limit, above 1 beyond it", move |row: &Self| {
-                part(row).filter(|part| part.is_finite())
-            })
-        };
-        let shown = |field: Field<Self>, heading: &'static str, of: fn(&WinchInUse) -> Option<f64>| {
-            field
-                .shown(heading, "", move |row, style| match row.required.as_ref().and_then(of) {
-                    Some(part) if part.is_infinite() => "beyond".to_owned(),
-                    part => style.significant(part, 3),
-                })
-                .read_if(asks)
-        };
-        let required = |of: fn(&WinchInUse) -> f64| move |row: &Self| row.required.as_ref().map(of);
-        Columns::new([
-            fields::cable_name(|row: &Self| row.name.clone()),
-            parts(
-                "rate_{}",
-                fields::AXES,
-                "1",
-                "speed of the cable at the drum per speed along {}, paying out",
-                |row: &Self| row.rate_per_velocity,
-            ),
-            parts(
-                "rate_r{}_m_per_rad",
-                fields::AXES,
-                "m/rad",
-                "speed of the cable at the drum per angular velocity about {}, paying out",
-                |row: &Self| row.rate_per_angular_velocity_m_per_rad,
-            ),
-            column("tension_drum_n", "N", "tension at the drum", |row: &Self| row.tension_drum_n).decimals("T drum", 2),
-            column("motor_torque_at_rest_n_m", "N m", "torque of the motor at rest", |row: &Self| {
-                row.motor_torque_at_rest_n_m
-            })
-            .significant("torque at rest", 4),
-            column("speed_max_in_m_s", "m/s", "largest speed of the cable while it winds in", |row: &Self| {
-                row.speed_max_in_m_s
-            })
-            .significant("in up to", 4),
-            column("speed_max_out_m_s", "m/s", "largest speed of the cable while it pays out", |row: &Self| {
-                row.speed_max_out_m_s
-            })
-            .significant("out up to", 4),
-            column("limit", "", "limit that is reached first", |row: &Self| row.limit).plain("limit"),
-            column(
-                "platform_speed_max_m_s",
-                "m/s",
-                "largest speed of the platform in every direction, as far as this winch allows",
-                |row: &Self| row.platform_speed_max_m_s,
-            )
-            .significant("platform", 4),
-            column("speed_m_s", "m/s", "largest speed for the required velocities", required(|of| of.speed_m_s))
-                .significant("speed", 4)
-                .read_if(asks),
-            column("driving_power_w", "W", "largest power of the motor that drives", required(|of| of.driving_power_w))
-                .significant("drives", 4)
-                .read_if(asks),
-            column("braking_power_w", "W", "largest power of the motor that brakes", required(|of| of.braking_power_w))
-                .significant("brakes", 4)
-                .read_if(asks),
-            shown(used("used_speed", |of| of.used_speed), "of speed", |of| of.used_speed),
-            shown(used("used_torque", |of| of.used_torque), "of torque", |of| of.used_torque),
-            shown(used("used_power", |of| of.used_power), "of power", |of| of.used_power),
-            shown(used("used_brake_power", |of| of.used_brake_power), "of brake", |of| of.used_brake_power),
-        ])
     }
 }
 

@@ -6,7 +6,7 @@ use super::rows::{DemandKind, Evaluated, PoseValues};
 use super::search::{RELEVANT, TOLERANCE, Tried};
 use super::variables::Variable;
 use crate::chosen_numbers::at_bound;
-use crate::columns::{Columns, Style, column, only_read};
+use crate::columns::{Style, column, only_read};
 use crate::request::DesignRequest;
 use crate::rows::rows;
 use crate::text::{counted, significant, with_unit};
@@ -47,17 +47,33 @@ rows! {
 
 rows! {
     /// Chosen value of the robot file.
-    pub struct ChosenValue {
-        pub path: String;
-        pub unit: &'static str;
-        pub start: f64;
-        pub value: f64;
-        pub minimum: f64;
-        pub maximum: f64;
+    pub struct ChosenValue in tables() {
+        /// Path of the number.
+        pub path: String => one.plain("value");
+        /// Unit of the number.
+        pub unit: &'static str => one.plain("unit");
+        /// Value of the file.
+        pub start: f64 => one.unit("").significant("before", 6);
+        /// Chosen value.
+        pub value: f64 => one.unit("").significant("after", 6);
+        /// Lower bound.
+        pub minimum: f64 => one.unit("").significant("minimum", 6);
+        /// Upper bound.
+        pub maximum: f64 => one.unit("").significant("maximum", 6);
+        /// Bound at which the value is.
+        ///
         /// `minimum` or `maximum` if the value is at this bound.
-        pub at_bound: Option<&'static str>;
+        pub at_bound: Option<&'static str>
+            => one.shown("remark", "", |row, _| row.remark()).only_in(Style::Typeset)
+            => only_read().shown("", "", |row: &Self, _| row.remark()).only_in(Style::Plain);
+        /// Gain of the goal per unit by which the bound moves outwards.
+        ///
         /// Improvement of the goal per unit of the value by which its bound is moved outwards; zero between the bounds.
-        pub gain_per_unit: f64;
+        pub gain_per_unit: f64 => one.unit("")
+            .shown("gain per unit", "", |row, style| {
+                row.at_bound.map_or_else(String::new, |_| style.significant(row.gain_per_unit, 3))
+            })
+            .only_in(Style::Typeset);
     }
 }
 
@@ -65,58 +81,26 @@ impl ChosenValue {
     fn remark(&self) -> String {
         self.at_bound.map_or_else(String::new, |bound| format!("at its {bound}"))
     }
-
-    /// Columns of the chosen values.
-    pub fn columns() -> Columns<Self> {
-        Columns::new([
-            column("path", "", "path of the number", |row: &Self| row.path.clone()).plain("value"),
-            column("unit", "", "unit of the number", |row: &Self| row.unit).plain("unit"),
-            column("start", "", "value of the file", |row: &Self| row.start).significant("before", 6),
-            column("value", "", "chosen value", |row: &Self| row.value).significant("after", 6),
-            column("minimum", "", "lower bound", |row: &Self| row.minimum).significant("minimum", 6),
-            column("maximum", "", "upper bound", |row: &Self| row.maximum).significant("maximum", 6),
-            column("at_bound", "", "bound at which the value is", |row: &Self| row.at_bound)
-                .shown("remark", "", |row, _| row.remark())
-                .only_in(Style::Typeset),
-            only_read().shown("", "", |row: &Self, _| row.remark()).only_in(Style::Plain),
-            column("gain_per_unit", "", "gain of the goal per unit by which the bound moves outwards", |row: &Self| {
-                row.gain_per_unit
-            })
-            .shown("gain per unit", "", |row, style| {
-                row.at_bound.map_or_else(String::new, |_| style.significant(row.gain_per_unit, 3))
-            })
-            .only_in(Style::Typeset),
-        ])
-    }
 }
 
 rows! {
     /// Demand at the pose where it is met least.
-    pub struct DemandRow {
-        pub name: String;
+    pub struct DemandRow in tables() {
+        /// Demand.
+        pub name: String => one.plain("demand");
         pub unit: &'static str;
-        pub limit: f64;
-        pub before: f64;
-        pub after: f64;
+        /// Limit.
+        pub limit: f64 => one.unit("").significant("limit", 5);
+        /// Value with the numbers of the file.
+        pub before: f64 => one.unit("").significant("before", 5);
+        /// Value with the chosen numbers.
+        pub after: f64
+            => one.unit("").significant("after", 5)
+            => column("unit", "", "unit", |row: &Self| row.unit).plain("unit");
         /// Number of the pose, from 1.
-        pub pose: usize;
+        pub pose: usize => one.plain("at pose");
         /// Improvement of the goal per unit by which the demand is lowered, summed over the poses.
         pub gain_per_unit: f64;
-    }
-}
-
-impl DemandRow {
-    /// Columns of the demands.
-    pub fn columns() -> Columns<Self> {
-        Columns::new([
-            column("name", "", "demand", |row: &Self| row.name.clone()).plain("demand"),
-            column("limit", "", "limit", |row: &Self| row.limit).significant("limit", 5),
-            column("before", "", "value with the numbers of the file", |row: &Self| row.before)
-                .significant("before", 5),
-            column("after", "", "value with the chosen numbers", |row: &Self| row.after).significant("after", 5),
-            column("unit", "", "unit", |row: &Self| row.unit).plain("unit"),
-            column("pose", "1", "number of the pose, from 1", |row: &Self| row.pose).plain("at pose"),
-        ])
     }
 }
 

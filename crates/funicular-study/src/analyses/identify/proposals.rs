@@ -6,7 +6,6 @@ use super::unknowns::Unknown;
 use crate::Watch;
 use crate::analyses::fields;
 use crate::at_rest;
-use crate::columns::{Columns, column, parts};
 use crate::error::Cancelled;
 use crate::measurements::MeasuredFrequency;
 use crate::names::suggestion;
@@ -38,48 +37,36 @@ const KINDS: [&str; 4] = ["frequencies", "tensions", "lengths", "pose"];
 
 rows! {
     /// Measurement to make next.
-    pub struct ProposedMeasurement {
+    pub struct ProposedMeasurement in tables(rows: &[Self]) with {
+        let has_payloads = rows.iter().any(|row| row.payload_kg.is_some());
+    } rows {
         /// Number of proposed measurements up to this one.
-        pub number: usize;
-        pub position_m: [f64; 3];
-        pub roll_pitch_yaw_deg: [f64; 3];
-        /// Payload that the platform carries there, if payloads are candidates.
-        pub payload_kg: Option<f64>;
+        pub number: usize => one.plain("next");
+        /// Position of the platform origin, {}.
+        pub position_m: [f64; 3] => each(fields::AXES, "{}_m").components("position", 4);
+        /// Roll, pitch, yaw of the platform.
+        pub roll_pitch_yaw_deg: [f64; 3] => each(fields::ANGLES, "{}_deg", "{} of the platform")
+            .components("roll, pitch, yaw", 3);
+        /// Payload that the platform carries there.
+        ///
+        /// If payloads are candidates.
+        pub payload_kg: Option<f64> => one.significant("payload", 4).only_if(has_payloads);
+        /// What is measured there.
+        ///
         /// Measured quantities there: `frequencies`, `tensions`, `lengths` or `pose`.
-        pub measured: String;
+        pub measured: String => one.plain("measured");
         /// Natural frequencies of the identified robot there, if they are measured.
         pub frequency_hz: Vec<f64> = sparse;
         /// Standard deviations of all values after this measurement and those before it, in their order.
         pub deviations: Vec<f64>;
+        /// Largest relative deviation of a chosen value then.
+        ///
         /// Largest of these relative to its value, of the chosen positive values.
-        pub largest_percent: Option<f64>;
+        pub largest_percent: Option<f64> => one.significant("largest ±", 3);
+        /// Value with the largest relative deviation.
+        ///
         /// Value that has it.
-        pub largest_of: Option<String>;
-    }
-}
-
-impl ProposedMeasurement {
-    /// Columns of proposed measurements, with their payloads if these were candidates.
-    pub fn columns(rows: &[Self]) -> Columns<Self> {
-        let has_payloads = rows.iter().any(|row| row.payload_kg.is_some());
-        Columns::new([
-            column("number", "1", "number of proposed measurements up to this one", |row: &Self| row.number)
-                .plain("next"),
-            parts("{}_m", fields::AXES, "m", "position of the platform origin, {}", |row: &Self| row.position_m)
-                .components("position", 4),
-            parts("{}_deg", ["roll", "pitch", "yaw"], "deg", "{} of the platform", |row: &Self| row.roll_pitch_yaw_deg)
-                .components("roll, pitch, yaw", 3),
-            column("payload_kg", "kg", "payload that the platform carries there", |row: &Self| row.payload_kg)
-                .significant("payload", 4)
-                .only_if(has_payloads),
-            column("measured", "", "what is measured there", |row: &Self| row.measured.clone()).plain("measured"),
-            column("largest_percent", "%", "largest relative deviation of a chosen value then", |row: &Self| {
-                row.largest_percent
-            })
-            .significant("largest ±", 3),
-            column("largest_of", "", "value with the largest relative deviation", |row: &Self| row.largest_of.clone())
-                .plain("of"),
-        ])
+        pub largest_of: Option<String> => one.plain("of");
     }
 }
 

@@ -1,7 +1,7 @@
 //! Tables of measured and fitted numbers.
 
 use super::{IdentifiedModel, Observation, Subject};
-use crate::columns::{Columns, column};
+use crate::columns::column;
 use crate::measurements::MeasuredResponse;
 use crate::request::{self, Experiment};
 use crate::rows::rows;
@@ -49,12 +49,21 @@ rows! {
 
 rows! {
     /// Measured and fitted number of a state.
-    pub struct StaticRow {
-        pub experiment: String;
+    pub struct StaticRow in tables() {
+        /// Experiment.
+        pub experiment: String => one.plain("experiment");
+        /// Quantity with its unit.
+        ///
         /// `x_m` … `rz_rad` (differences from the measured pose), `tension_n:NAME`, `length_m:NAME`.
-        pub quantity: String;
-        pub measured: f64;
-        pub fitted: f64;
+        pub quantity: String => one.plain("quantity");
+        /// Measured value.
+        pub measured: f64 => one.unit("").significant("measured", 6);
+        /// Value of the fit.
+        pub fitted: f64
+            => one.unit("").significant("fitted", 6)
+            => column("difference", "1", "difference in deviations", Self::difference)
+                .significant("difference", 3)
+                .with_unit("deviations");
         pub deviation: f64;
     }
 }
@@ -63,21 +72,6 @@ impl StaticRow {
     /// Difference of the fitted from the measured number in deviations.
     pub fn difference(&self) -> f64 {
         (self.fitted - self.measured) / self.deviation
-    }
-}
-
-impl StaticRow {
-    /// Columns of measured and fitted poses, tensions and lengths.
-    pub fn columns() -> Columns<Self> {
-        Columns::new([
-            column("experiment", "", "experiment", |row: &Self| row.experiment.clone()).plain("experiment"),
-            column("quantity", "", "quantity with its unit", |row: &Self| row.quantity.clone()).plain("quantity"),
-            column("measured", "", "measured value", |row: &Self| row.measured).significant("measured", 6),
-            column("fitted", "", "value of the fit", |row: &Self| row.fitted).significant("fitted", 6),
-            column("difference", "1", "difference in deviations", Self::difference)
-                .significant("difference", 3)
-                .with_unit("deviations"),
-        ])
     }
 }
 

@@ -8,7 +8,7 @@ use crate::Watch;
 use crate::analyses::found;
 use crate::analyses::shared::Models;
 use crate::at_rest::AtRest;
-use crate::columns::{Columns, column, only_read};
+use crate::columns::only_read;
 use crate::names::{ModelForm, Named};
 use crate::request;
 use crate::rows::rows;
@@ -76,14 +76,26 @@ rows! {
 
 rows! {
     /// States of one mode. The first state has the number 0.
-    pub struct StatesRow {
-        pub first: usize;
-        pub states: usize;
-        pub frequency_hz: f64;
-        pub damping_ratio: f64;
-        pub kind: &'static str;
-        pub platform_energy_fraction: f64;
-        pub contribution: f64;
+    pub struct StatesRow in tables() {
+        /// Number of the first state of the mode, from 0.
+        pub first: usize => one("first_state");
+        /// Number of its states.
+        pub states: usize
+            => one
+            => only_read().shown("states", "", |of: &Self, _| {
+                if of.states == 1 { format!("{}", of.first + 1) } else { format!("{}, {}", of.first + 1, of.first + 2) }
+            });
+        /// Natural frequency.
+        pub frequency_hz: f64 => one.decimals("frequency", 4);
+        /// Damping ratio.
+        pub damping_ratio: f64 => one
+            .shown("damping ratio", "%", |of, style| style.decimals(100.0 * of.damping_ratio, 4));
+        /// Kind of the mode.
+        pub kind: &'static str => one.plain("kind");
+        /// Share of the platform in the kinetic energy.
+        pub platform_energy_fraction: f64 => one;
+        /// Largest part of the mode in a response, over its peak.
+        pub contribution: f64 => one.shown("part in a response", "%", |of, _| percent(of.contribution));
     }
 }
 
@@ -170,33 +182,6 @@ impl StatesRow {
 
 fn rows(matrix: &DMat) -> Vec<Vec<f64>> {
     matrix.row_iter().map(|row| row.iter().copied().collect()).collect()
-}
-
-impl StatesRow {
-    /// Columns of the modes of a state space.
-    pub fn columns() -> Columns<Self> {
-        Columns::new([
-            column("first_state", "1", "number of the first state of the mode, from 0", |of: &Self| of.first),
-            column("states", "1", "number of its states", |of: &Self| of.states),
-            only_read().shown("states", "", |of: &Self, _| {
-                if of.states == 1 { format!("{}", of.first + 1) } else { format!("{}, {}", of.first + 1, of.first + 2) }
-            }),
-            column("frequency_hz", "Hz", "natural frequency", |of: &Self| of.frequency_hz).decimals("frequency", 4),
-            column("damping_ratio", "1", "damping ratio", |of: &Self| of.damping_ratio).shown(
-                "damping ratio",
-                "%",
-                |of, style| style.decimals(100.0 * of.damping_ratio, 4),
-            ),
-            column("kind", "", "kind of the mode", |of: &Self| of.kind).plain("kind"),
-            column("platform_energy_fraction", "1", "share of the platform in the kinetic energy", |of: &Self| {
-                of.platform_energy_fraction
-            }),
-            column("contribution", "1", "largest part of the mode in a response, over its peak", |of: &Self| {
-                of.contribution
-            })
-            .shown("part in a response", "%", |of, _| percent(of.contribution)),
-        ])
-    }
 }
 
 /// Fraction in percent, with three digits.

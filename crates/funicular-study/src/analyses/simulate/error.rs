@@ -2,7 +2,7 @@
 
 use super::Simulated;
 use super::rows::SimulatedRow;
-use crate::columns::{Columns, column};
+use crate::columns::column;
 use crate::rows::rows;
 use crate::text::significant;
 use funicular::math::Vec3;
@@ -10,25 +10,40 @@ use funicular::simulation::ElementMesh;
 
 rows! {
     /// Bound of the error of one column: its difference from a finer run times a factor of the mesh (97k2).
-    pub struct ColumnError {
-        /// `position_m`, `velocity_m_s`, `clearance_margin_m`, or `tension_platform_NAME_n` and `tension_anchor_NAME_n`.
-        pub column: String;
-        pub largest: f64;
-        pub root_mean_square: f64;
-        /// Root mean square over that of the column; absent for positions and distances.
-        pub relative: Option<f64>;
+    pub struct ColumnError in tables() {
+        /// Column of the result.
+        ///
+        /// `position_m`, `velocity_m_s`, `clearance_margin_m`, or `tension_platform_NAME_n` and
+        /// `tension_anchor_NAME_n`.
+        pub column: String => one.plain("column");
+        /// Bound of the largest error.
+        pub largest: f64 => one.unit("").significant("largest", 2);
+        /// Root mean square.
+        pub root_mean_square: f64 => one.unit("").significant("r.m.s.", 2);
+        /// Root mean square over that of the column.
+        ///
+        /// Absent for positions and distances.
+        pub relative: Option<f64> => one.significant("relative", 2);
     }
 }
 
 rows! {
     /// Largest tension of a cable at either end, and root mean square of that at the platform.
-    pub struct Peak {
-        pub cable: String;
-        pub peak_n: f64;
+    pub struct Peak in tables() {
+        /// Name of the cable.
+        pub cable: String => one.plain("cable");
+        /// Largest tension.
+        pub peak_n: f64 => one.significant("largest tension", 4);
         pub root_mean_square_n: f64;
+        /// Largest tension of the finer run.
+        ///
         /// Value of the finer run.
-        pub finer_peak_n: Option<f64>;
-        pub finer_root_mean_square_n: Option<f64>;
+        pub finer_peak_n: Option<f64>
+            => one.significant("finer run", 4)
+            => column("root_mean_square_n", "N", "root mean square", |row: &Self| row.root_mean_square_n)
+                .significant("r.m.s.", 4);
+        /// Root mean square of the finer run.
+        pub finer_root_mean_square_n: Option<f64> => one.significant("finer run", 4);
     }
 }
 
@@ -127,37 +142,5 @@ impl Simulated {
             significant(1e3 * position.largest, 2),
             significant(100.0 * worst, 2)
         )
-    }
-}
-
-impl ColumnError {
-    /// Columns of the table of errors.
-    pub fn columns() -> Columns<Self> {
-        Columns::new([
-            column("column", "", "column of the result", |row: &Self| row.column.clone()).plain("column"),
-            column("largest", "", "bound of the largest error", |row: &Self| row.largest).significant("largest", 2),
-            column("root_mean_square", "", "root mean square", |row: &Self| row.root_mean_square)
-                .significant("r.m.s.", 2),
-            column("relative", "1", "root mean square over that of the column", |row: &Self| row.relative)
-                .significant("relative", 2),
-        ])
-    }
-}
-
-impl Peak {
-    /// Columns of the table of peaks.
-    pub fn columns() -> Columns<Self> {
-        Columns::new([
-            column("cable", "", "name of the cable", |row: &Self| row.cable.clone()).plain("cable"),
-            column("peak_n", "N", "largest tension", |row: &Self| row.peak_n).significant("largest tension", 4),
-            column("finer_peak_n", "N", "largest tension of the finer run", |row: &Self| row.finer_peak_n)
-                .significant("finer run", 4),
-            column("root_mean_square_n", "N", "root mean square", |row: &Self| row.root_mean_square_n)
-                .significant("r.m.s.", 4),
-            column("finer_root_mean_square_n", "N", "root mean square of the finer run", |row: &Self| {
-                row.finer_root_mean_square_n
-            })
-            .significant("finer run", 4),
-        ])
     }
 }

@@ -48,17 +48,31 @@ rows! {
 rows! {
     /// Number of the robot file that deviates.
     #[derive(Debug, Clone)]
-    pub struct UncertainInput {
-        pub path: String;
-        pub unit: &'static str;
+    pub struct UncertainInput in tables(groups: &[InputGroup]) with {
+        let names: Vec<String> = groups.iter().map(|group| group.name.clone()).collect();
+    } rows {
+        /// Path of the number.
+        pub path: String => one.plain("number");
+        /// Unit of the number.
+        pub unit: &'static str => one.plain("unit");
+        /// Value; empty if it changes from pose to pose.
+        ///
         /// Value; absent if it changes from pose to pose.
-        pub value: Option<f64>;
+        pub value: Option<f64> => one.unit("").short("value", 6);
+        /// Distribution.
+        ///
         /// Distribution: `normal` or `uniform`.
-        pub distribution: &'static str;
-        /// Standard deviation; absent if it changes from pose to pose.
-        pub deviation: Option<f64>;
-        /// Half width of the tolerance; absent for a normal distribution.
-        pub tolerance: Option<f64>;
+        pub distribution: &'static str => one.plain("distribution");
+        /// Standard deviation.
+        ///
+        /// Absent if it changes from pose to pose.
+        pub deviation: Option<f64> => one.unit("").short("deviation", 6);
+        /// Half width of the tolerance.
+        ///
+        /// Absent for a normal distribution.
+        pub tolerance: Option<f64>
+            => one.unit("").short("tolerance", 6)
+            => column("group", "", "group of the number", move |of: &Self| names[of.group].clone()).plain("group");
         /// Index of its group, from 0.
         pub group: usize;
     }
@@ -259,21 +273,5 @@ impl Tabled for Uncertainties {
 
     fn table(&self) -> ResultTable<'_> {
         ResultTable::new(ResultAtPose::columns(&self.groups, true), ResultAtPose::all(self, 0, usize::MAX))
-    }
-}
-
-impl UncertainInput {
-    /// Columns of the numbers that deviate in these groups.
-    pub fn columns(groups: &[InputGroup]) -> Columns<Self> {
-        let names: Vec<String> = groups.iter().map(|group| group.name.clone()).collect();
-        Columns::new([
-            column("path", "", "path of the number", |of: &Self| of.path.clone()).plain("number"),
-            column("unit", "", "unit of the number", |of: &Self| of.unit).plain("unit"),
-            column("value", "", "value; empty if it changes from pose to pose", |of: &Self| of.value).short("value", 6),
-            column("distribution", "", "distribution", |of: &Self| of.distribution).plain("distribution"),
-            column("deviation", "", "standard deviation", |of: &Self| of.deviation).short("deviation", 6),
-            column("tolerance", "", "half width of the tolerance", |of: &Self| of.tolerance).short("tolerance", 6),
-            column("group", "", "group of the number", move |of: &Self| names[of.group].clone()).plain("group"),
-        ])
     }
 }

@@ -4,7 +4,7 @@ use super::conditions::ConditionRow;
 use super::places::{PlaneOfMotion, THICKNESS};
 use crate::analyses::fields::AXES;
 use crate::analyses::found;
-use crate::columns::{Columns, ResultTable, Tabled, column, parts};
+use crate::columns::{ResultTable, Tabled, parts};
 use crate::rows::rows;
 use crate::table::Column;
 use crate::text::{counted, significant};
@@ -105,21 +105,40 @@ rows! {
 
 rows! {
     /// Volume of the set with what it was found with.
-    pub struct VolumeRow {
+    pub struct VolumeRow in tables() {
+        /// Grid, rays, or hull of rays.
+        ///
         /// `grid`, `rays` (all intervals of all rays) or `hull of rays` (triangles between their first ends).
-        pub by: &'static str;
+        pub by: &'static str => one.plain("by");
+        /// Largest step of the grid, or between points of a ray.
+        ///
         /// Largest step of the grid, or between the points of a ray.
-        pub step_m: f64;
-        pub rays: Option<usize>;
-        pub volume_m3: f64;
-        /// Largest error that the volume is expected to have, by what the steps and points between the nodes leave open.
-        pub volume_error_m3: Option<f64>;
-        pub area_m2: Option<f64>;
+        pub step_m: f64 => one.short("step", 4);
+        /// Number of rays.
+        pub rays: Option<usize> => one.plain("rays");
+        /// Volume of the set.
+        pub volume_m3: f64 => one.significant("volume", 6);
+        /// Largest expected error of the volume.
+        ///
+        /// Largest error that the volume is expected to have, by what the steps and points between the nodes leave
+        /// open.
+        pub volume_error_m3: Option<f64> => one.significant("error", 2);
+        /// Area of its surface.
+        pub area_m2: Option<f64>
+            => one.significant("area", 6)
+            => parts("centroid_{}_m", AXES, "m", "centroid of its volume, {}", |row: &Self| {
+                row.centroid_m.map_or([None; 3], |centroid| centroid.map(Some))
+            })
+            .decimals("centroid", 3);
         pub centroid_m: Option<[f64; 3]>;
-        pub parts: Option<usize>;
-        pub holes: Option<usize>;
+        /// Number of parts that do not touch each other.
+        pub parts: Option<usize> => one.plain("parts");
+        /// Number of holes that the outside does not reach.
+        pub holes: Option<usize> => one.plain("holes");
+        /// Number of handles of all surfaces, 1 for a ring.
+        ///
         /// Number of handles of all surfaces: 0 for balls, 1 for a ring.
-        pub handles: Option<usize>;
+        pub handles: Option<usize> => one.plain("handles");
     }
 }
 
@@ -397,29 +416,6 @@ impl VolumeRow {
             holes: None,
             handles: None,
         }
-    }
-
-    /// Columns of the volumes.
-    pub fn columns() -> Columns<Self> {
-        Columns::new([
-            column("by", "", "grid, rays, or hull of rays", |row: &Self| row.by).plain("by"),
-            column("step_m", "m", "largest step of the grid, or between points of a ray", |row: &Self| row.step_m)
-                .short("step", 4),
-            column("rays", "1", "number of rays", |row: &Self| row.rays).plain("rays"),
-            column("volume_m3", "m³", "volume of the set", |row: &Self| row.volume_m3).significant("volume", 6),
-            column("volume_error_m3", "m³", "largest expected error of the volume", |row: &Self| row.volume_error_m3)
-                .significant("error", 2),
-            column("area_m2", "m²", "area of its surface", |row: &Self| row.area_m2).significant("area", 6),
-            parts("centroid_{}_m", AXES, "m", "centroid of its volume, {}", |row: &Self| {
-                row.centroid_m.map_or([None; 3], |centroid| centroid.map(Some))
-            })
-            .decimals("centroid", 3),
-            column("parts", "1", "number of parts that do not touch each other", |row: &Self| row.parts).plain("parts"),
-            column("holes", "1", "number of holes that the outside does not reach", |row: &Self| row.holes)
-                .plain("holes"),
-            column("handles", "1", "number of handles of all surfaces, 1 for a ring", |row: &Self| row.handles)
-                .plain("handles"),
-        ])
     }
 }
 
