@@ -22,6 +22,10 @@ int32_t fn_flat_reset(void *session);
 int32_t fn_flat_status_text(int32_t status, char *text, uint32_t bytes);
 int32_t fn_flat_inverse(void *session, const double *input, double *summary, double *length_m, double *length_rate_m_s,
                         double *length_acceleration_m_s2, double *tension_platform_n, double *tension_drum_n);
+/* missing: 8 numbers for the last fn_flat_inverse with a result: wrench in N that no tensions within the limits can
+ * provide (0: not proved that there are none), direction of its force (3) and of its moment (3), and the cables at their
+ * maximum as the sum of 2^i for cable i from 0. */
+int32_t fn_flat_missing(void *session, double *missing);
 /* start: 25 numbers, or NULL for the last pose; without any the search starts from nothing and reserves memory. */
 int32_t fn_flat_forward(void *session, const double *length_m, const double *start, double *summary,
                         double *position_quaternion, double *tension_platform_n, double *tension_drum_n);

@@ -4,7 +4,7 @@
 
 use crate::border::{Checked, check, check_wanted, guarded, read_array, write_array};
 use crate::handles::{Loop, Model};
-use crate::layout::{ForwardResult, InverseResult, PoseInput, WrenchResult};
+use crate::layout::{ForwardResult, InverseResult, PoseInput, Summarised, WrenchResult};
 use crate::loop_calls::{fn_forward, fn_forward_cold, fn_inverse, fn_reset, fn_wrench};
 use crate::model_calls::{fn_loop_end, fn_model_free, fn_model_from_file};
 use crate::status::{BAD_HANDLE, BAD_POINTER, CERTIFIED, PANIC};
@@ -17,9 +17,8 @@ use std::ptr;
 /// force, moment.
 pub const INPUT: usize = 25;
 
-/// Number of numbers of a summary: status, Newton steps, age, cable with the least margin (from zero), its margin,
-/// remaining wrench, error of lengths or pose.
-pub const SUMMARY: usize = 7;
+/// Number of numbers of a missing wrench: size, direction of force and moment, cables at their maximum.
+pub const MISSING: usize = 8;
 
 /// `fn_flat_open`: session of a robot file; null with a message if there is none.
 #[unsafe(no_mangle)]
@@ -39,7 +38,8 @@ pub unsafe extern "C" fn fn_flat_open(
         return status;
     }
     // SAFETY: the model was just made, and the session is the only one to know it.
-    let made = guarded(|| Loop::new(unsafe { &*model }).map(|of| Box::new(Session { model, of })));
+    let made =
+        guarded(|| Loop::new(unsafe { &*model }).map(|of| Box::new(Session { model, of, missing: [0.0; MISSING] })));
     match made {
         Some(Some(new)) => {
             // SAFETY: checked.
@@ -55,6 +55,25 @@ pub unsafe extern "C" fn fn_flat_open(
 pub struct Session {
     model: *mut Model,
     of: Loop,
+    /// Missing wrench of the last `fn_flat_inverse` with a result.
+    missing: [f64; MISSING],
+}
+
+fn missing_of(result: &InverseResult) -> [f64; MISSING] {
+    let [fx, fy, fz] = result.missing_force;
+    let [mx, my, mz] = result.missing_moment;
+    [result.missing_n, fx, fy, fz, mx, my, mz, f64::from(result.missing_at_maximum)]
+}
+
+/// `fn_flat_missing`: proof of the last `fn_flat_inverse` with a result that no tensions within the limits exist.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fn_flat_missing(session: *mut Session, missing: *mut f64) -> i32 {
+    if check(session).is_err() || check(missing).is_err() {
+        return BAD_POINTER;
+    }
+    // SAFETY: promised by the caller, who has room for eight numbers.
+    unsafe { write_array(missing, (*session).missing.into_iter()) };
+    CERTIFIED
 }
 
 /// `fn_flat_close`: ends a session.
@@ -155,9 +174,8 @@ pub unsafe extern "C" fn fn_flat_inverse(
             let input = input_of(input)?;
             let status = fn_inverse(&raw mut (*session).of, &raw const input, &raw mut result);
             if status >= CERTIFIED {
-                let counts = [status, result.iterations, result.age_calls, result.least_margin_cable].map(f64::from);
-                let errors = [result.least_margin_n, result.error_n, result.error_m];
-                write_array(summary, counts.into_iter().chain(errors));
+                write_array(summary, result.summary().into_iter());
+                (*session).missing = missing_of(&result);
             }
             Ok(status)
         }
@@ -204,9 +222,7 @@ pub unsafe extern "C" fn fn_flat_forward(
                 status = fn_forward_cold(handle, lengths.as_ptr(), count, &raw mut result);
             }
             if status >= CERTIFIED {
-                let counts = [status, result.iterations, result.age_calls, result.least_margin_cable].map(f64::from);
-                let errors = [result.least_margin_n, result.error_n, result.error_m];
-                write_array(summary, counts.into_iter().chain(errors));
+                write_array(summary, result.summary().into_iter());
                 let pose = result.position_m.into_iter().chain(result.quaternion_wxyz);
                 write_array(position_quaternion, pose);
             }

@@ -1,6 +1,10 @@
 //! Structs of the header, member by member. Members are only ever appended.
 
-use std::ptr;
+use crate::status::of_status;
+use funicular::control_loop::LoopState;
+
+/// Number of numbers of a summary.
+pub const SUMMARY: usize = 7;
 
 /// `fn_pose_input`: motion of the platform and external load on it.
 #[repr(C)]
@@ -64,6 +68,16 @@ pub struct InverseResult {
     pub tension_drum_n: *mut f64,
     /// Distances of the tensions from the nearer limit [N].
     pub margin_n: *mut f64,
+    /// Wrench that no tensions within the limits can provide [N]: positive if it is proved that there are none.
+    pub missing_n: f64,
+    /// Direction of the missing force; with that of the moment of length 1.
+    pub missing_force: [f64; 3],
+    /// Direction of the missing moment, over the mean distance of the attachments.
+    pub missing_moment: [f64; 3],
+    /// Cables that reach farthest along the direction at their maximum, one bit each.
+    pub missing_at_maximum: u32,
+    /// Zero.
+    pub reserved: u32,
 }
 
 /// `fn_forward_result`: pose and tensions.
@@ -118,50 +132,55 @@ pub struct WrenchResult {
     pub payload_kg: f64,
 }
 
-impl Default for InverseResult {
-    fn default() -> Self {
-        Self {
-            struct_size: 0,
-            cables: 0,
-            status: 0,
-            iterations: 0,
-            age_calls: 0,
-            least_margin_cable: 0,
-            least_margin_n: 0.0,
-            error_n: 0.0,
-            error_m: 0.0,
-            length_m: ptr::null_mut(),
-            length_rate_m_s: ptr::null_mut(),
-            length_acceleration_m_s2: ptr::null_mut(),
-            free_length_m: ptr::null_mut(),
-            tension_platform_n: ptr::null_mut(),
-            tension_drum_n: ptr::null_mut(),
-            margin_n: ptr::null_mut(),
-        }
-    }
+/// Structs with pointers whose members are all zero by default.
+macro_rules! zero_by_default {
+    ($($of:ident)*) => {
+        $(
+            impl Default for $of {
+                fn default() -> Self {
+                    // SAFETY: every pattern of bits is a value, see `Sized32`.
+                    unsafe { std::mem::zeroed() }
+                }
+            }
+        )*
+    };
 }
 
-impl Default for ForwardResult {
-    fn default() -> Self {
-        Self {
-            struct_size: 0,
-            cables: 0,
-            status: 0,
-            iterations: 0,
-            age_calls: 0,
-            least_margin_cable: 0,
-            least_margin_n: 0.0,
-            error_n: 0.0,
-            error_m: 0.0,
-            position_m: [0.0; 3],
-            quaternion_wxyz: [0.0; 4],
-            free_length_m: ptr::null_mut(),
-            tension_platform_n: ptr::null_mut(),
-            tension_drum_n: ptr::null_mut(),
-            margin_n: ptr::null_mut(),
-        }
-    }
+zero_by_default! { InverseResult ForwardResult }
+
+/// Result with a summary of its state.
+pub(crate) trait Summarised {
+    /// Writes status, steps, age, margin and errors.
+    fn summarise(&mut self, found: &LoopState);
+
+    /// Status, Newton steps, age, cable with the least margin, its margin, remaining wrench, error.
+    fn summary(&self) -> [f64; SUMMARY];
 }
+
+macro_rules! summarised {
+    ($($of:ident)*) => {
+        $(
+            impl Summarised for $of {
+                fn summarise(&mut self, found: &LoopState) {
+                    self.status = of_status(found.status);
+                    self.iterations = found.iterations as i32;
+                    self.age_calls = i32::try_from(found.age).unwrap_or(i32::MAX);
+                    self.least_margin_cable = found.least_margin_cable as i32;
+                    self.least_margin_n = found.least_margin;
+                    (self.error_n, self.error_m) = (found.error_force, found.error_length);
+                }
+
+                fn summary(&self) -> [f64; SUMMARY] {
+                    let [status, steps, age, cable] =
+                        [self.status, self.iterations, self.age_calls, self.least_margin_cable].map(f64::from);
+                    [status, steps, age, cable, self.least_margin_n, self.error_n, self.error_m]
+                }
+            }
+        )*
+    };
+}
+
+summarised! { InverseResult ForwardResult }
 
 /// Struct that begins with its size in bytes.
 ///

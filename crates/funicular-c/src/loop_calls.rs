@@ -2,9 +2,9 @@
 
 use crate::border::{Checked, check_wanted, loop_input, read_array, read_struct, write_array, write_struct};
 use crate::handles::Loop;
-use crate::layout::{ForwardResult, InverseResult, PoseInput, WrenchResult};
+use crate::layout::{ForwardResult, InverseResult, PoseInput, Summarised, WrenchResult};
 use crate::status::{BAD_STRUCT, CERTIFIED, NO_START, of_fault, of_status};
-use funicular::control_loop::{ControlLoop, LoopInput, LoopModel, LoopState, MAX_CABLES};
+use funicular::control_loop::{ControlLoop, LoopCable, LoopInput, LoopModel, LoopState, MAX_CABLES};
 use funicular::math::{Vec3, Vec6};
 use funicular::path::PathPoint;
 
@@ -15,11 +15,11 @@ pub unsafe extern "C" fn fn_inverse(handle: *mut Loop, input: *const PoseInput, 
     unsafe {
         Loop::call(handle, |model, state| {
             let (input, mut of) = (loop_input(&read_struct(input)?)?, read_struct(result.cast_const())?);
-            of.check(model)?;
+            check_rows(&of.rows(), of.cables, model)?;
             let with_rates = !of.length_rate_m_s.is_null() || !of.length_acceleration_m_s2.is_null();
             let found = state.inverse(model, &input, with_rates).map_err(of_fault)?;
             of.fill(&found);
-            of.write_arrays(&found, model.cables());
+            write_rows(&of.rows(), &found, model.cables());
             write_struct(result, &of, of.struct_size);
             Ok(of.status)
         })
@@ -75,12 +75,12 @@ unsafe fn forward(
     }
     // SAFETY: promised by the caller.
     let (lengths, mut of) = unsafe { (read_array(length_m, model.cables())?, read_struct(result.cast_const())?) };
-    of.check(model)?;
+    check_rows(&of.rows(), of.cables, model)?;
     let found = find(&lengths[..model.cables()])?;
     of.fill(&found);
     // SAFETY: the arrays were checked, and the struct has its size.
     unsafe {
-        of.write_arrays(&found, model.cables());
+        write_rows(&of.rows(), &found, model.cables());
         write_struct(result, &of, of.struct_size);
     }
     Ok(of.status)
@@ -156,79 +156,65 @@ fn warm_up(model: &LoopModel) -> Checked<i32> {
     Ok(status)
 }
 
+/// Array of a result, and its number for a cable.
+type Row = (*mut f64, fn(&LoopCable) -> f64);
+
 impl InverseResult {
-    fn check(&self, model: &LoopModel) -> Checked<()> {
-        let arrays = [
-            self.length_m,
-            self.length_rate_m_s,
-            self.length_acceleration_m_s2,
-            self.free_length_m,
-            self.tension_platform_n,
-            self.tension_drum_n,
-            self.margin_n,
-        ];
-        check_arrays(&arrays, self.cables, model)
+    fn rows(&self) -> [Row; 7] {
+        [
+            (self.length_m, |cable| cable.length),
+            (self.length_rate_m_s, |cable| cable.length_rate),
+            (self.length_acceleration_m_s2, |cable| cable.length_acceleration),
+            (self.free_length_m, |cable| cable.free_length),
+            (self.tension_platform_n, |cable| cable.tension_platform),
+            (self.tension_drum_n, |cable| cable.tension_drum),
+            (self.margin_n, |cable| cable.margin),
+        ]
     }
 
     fn fill(&mut self, found: &LoopState) {
-        self.status = of_status(found.status);
-        self.iterations = found.iterations as i32;
-        self.age_calls = i32::try_from(found.age).unwrap_or(i32::MAX);
-        self.least_margin_cable = found.least_margin_cable as i32;
-        self.least_margin_n = found.least_margin;
-        (self.error_n, self.error_m) = (found.error_force, found.error_length);
-    }
-
-    unsafe fn write_arrays(&self, found: &LoopState, count: usize) {
-        let cables = || found.cables.iter().take(count);
-        // SAFETY: the arrays were checked and have room for all cables.
-        unsafe {
-            write_array(self.length_m, cables().map(|cable| cable.length));
-            write_array(self.length_rate_m_s, cables().map(|cable| cable.length_rate));
-            write_array(self.length_acceleration_m_s2, cables().map(|cable| cable.length_acceleration));
-            write_array(self.free_length_m, cables().map(|cable| cable.free_length));
-            write_array(self.tension_platform_n, cables().map(|cable| cable.tension_platform));
-            write_array(self.tension_drum_n, cables().map(|cable| cable.tension_drum));
-            write_array(self.margin_n, cables().map(|cable| cable.margin));
-        }
+        self.summarise(found);
+        self.reserved = 0;
+        (self.missing_n, self.missing_at_maximum) = found.missing.map_or((0.0, 0), |of| (of.size, of.at_maximum));
+        self.missing_force = found.missing.map_or([0.0; 3], |of| of.force_w.into());
+        self.missing_moment = found.missing.map_or([0.0; 3], |of| of.moment_w.into());
     }
 }
 
 impl ForwardResult {
-    fn check(&self, model: &LoopModel) -> Checked<()> {
-        let arrays = [self.free_length_m, self.tension_platform_n, self.tension_drum_n, self.margin_n];
-        check_arrays(&arrays, self.cables, model)
+    fn rows(&self) -> [Row; 4] {
+        [
+            (self.free_length_m, |cable| cable.free_length),
+            (self.tension_platform_n, |cable| cable.tension_platform),
+            (self.tension_drum_n, |cable| cable.tension_drum),
+            (self.margin_n, |cable| cable.margin),
+        ]
     }
 
     fn fill(&mut self, found: &LoopState) {
-        self.status = of_status(found.status);
-        self.iterations = found.iterations as i32;
-        self.age_calls = i32::try_from(found.age).unwrap_or(i32::MAX);
-        self.least_margin_cable = found.least_margin_cable as i32;
-        self.least_margin_n = found.least_margin;
-        (self.error_n, self.error_m) = (found.error_force, found.error_length);
+        self.summarise(found);
         self.position_m = found.pose.position_w.into();
         let q = found.pose.rot_wp.quaternion();
         self.quaternion_wxyz = [q.w, q.i, q.j, q.k];
     }
+}
 
-    unsafe fn write_arrays(&self, found: &LoopState, count: usize) {
-        let cables = || found.cables.iter().take(count);
-        // SAFETY: the arrays were checked and have room for all cables.
-        unsafe {
-            write_array(self.free_length_m, cables().map(|cable| cable.free_length));
-            write_array(self.tension_platform_n, cables().map(|cable| cable.tension_platform));
-            write_array(self.tension_drum_n, cables().map(|cable| cable.tension_drum));
-            write_array(self.margin_n, cables().map(|cable| cable.margin));
-        }
+/// Writes the arrays of a result that are wanted.
+///
+/// # Safety
+/// They were checked by [`check_rows`].
+unsafe fn write_rows(rows: &[Row], found: &LoopState, count: usize) {
+    for (array, number) in rows {
+        // SAFETY: the array is aligned and has room for all cables.
+        unsafe { write_array(*array, found.cables.iter().take(count).map(number)) };
     }
 }
 
 /// Refuses arrays that are wanted and not aligned, or have no room for all cables.
-fn check_arrays(arrays: &[*mut f64], room: u32, model: &LoopModel) -> Checked<()> {
-    let is_wanted = arrays.iter().any(|array| !array.is_null());
+fn check_rows(rows: &[Row], room: u32, model: &LoopModel) -> Checked<()> {
+    let is_wanted = rows.iter().any(|(array, _)| !array.is_null());
     if is_wanted && (room as usize) < model.cables() {
         return Err(BAD_STRUCT);
     }
-    arrays.iter().try_for_each(|array| check_wanted(*array))
+    rows.iter().try_for_each(|(array, _)| check_wanted(*array))
 }

@@ -251,6 +251,96 @@ fn difference_to_program(robot: &Robot, input: &PoseInput, numbers: &Numbers) ->
     pairs.map(|(a, b)| (a - b).abs() / b.abs()).fold(0.0, f64::max)
 }
 
+/// Poses beyond the limits have a proof, which random tensions within the limits confirm: the load that they hold lacks
+/// what the proof says, by `fn_wrench`, over pulleys and without.
+#[test]
+fn poses_beyond_the_limits_have_a_proof_that_random_tensions_confirm() {
+    for toml in [funicular_robots::COGIRO, funicular_robots::COGIRO_WINCHES] {
+        let session = TestSession::new(toml);
+        let robot = Robot::from_toml(toml).unwrap();
+        let (mut random, mut rows) = (Random(11), Rows::new());
+        let (mut beyond, mut proved, mut least) = (0, 0, f64::INFINITY);
+        while beyond < 400 {
+            let mut input = random.pose();
+            input.position_m.iter_mut().take(2).for_each(|place| *place *= 1.6);
+            if session.inverse(&input, &mut rows) != BEYOND_LIMITS {
+                assert!(rows.summary.missing_n.to_bits() == 0, "{}", rows.summary.missing_n);
+                continue;
+            }
+            beyond += 1;
+            let InverseResult { missing_n, missing_force, missing_moment, missing_at_maximum, .. } = rows.summary;
+            if missing_n == 0.0 {
+                continue;
+            }
+            proved += 1;
+            assert!(missing_at_maximum < 1 << 8, "{missing_at_maximum:b}");
+            for k in 0..20 {
+                let tensions: [f64; 8] = std::array::from_fn(|i| {
+                    let limits = robot.cables[i].limits();
+                    let (low, high) = (1.05 * limits.minimum.unwrap(), 0.98 * limits.maximum.unwrap());
+                    match k {
+                        0 if missing_at_maximum >> i & 1 == 1 => high,
+                        0 => low,
+                        _ => random.between(low, high),
+                    }
+                });
+                let mut load = WrenchResult { struct_size: size::<WrenchResult>(), ..WrenchResult::default() };
+                let status =
+                    unsafe { fn_wrench(session.handle, &raw const input, tensions.as_ptr(), 8, &raw mut load) };
+                assert_eq!(status, CERTIFIED);
+                let along = |a: [f64; 3], b: [f64; 3]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+                let external = along(missing_force, input.force_n);
+                let found = along(missing_force, load.force_n)
+                    + along(missing_moment, load.moment_n_m) / robot.platform_length();
+                least = least.min(found - external - missing_n);
+                assert!(found - external >= missing_n, "{k}: {found} {external} {missing_n}");
+            }
+        }
+        println!("{proved} of {beyond} proved, {least} N beyond the bound");
+        assert!(proved * 10 >= beyond * 9, "{proved} of {beyond}");
+    }
+}
+
+/// Times of the calls 1 mm on per call, which docs/speed.md has, and the counts that bound them.
+#[test]
+fn calls_along_a_line_take_few_steps() {
+    for (name, toml) in [("cogiro", funicular_robots::COGIRO), ("winches", funicular_robots::COGIRO_WINCHES)] {
+        let session = TestSession::new(toml);
+        let mut rows = Rows::new();
+        let calls = 4000_u32;
+        let along = |k: u32| {
+            let part = 1e-3 * (f64::from(k) - 2000.0);
+            PoseInput { velocity_m_s: [1.0, 0.5, 0.2], ..at([part, 0.5 * part, 1.6 + 0.2 * part]) }
+        };
+        let mut timed = |what: &str, most: i32, is_cold: bool, with_rates: bool| {
+            let mut times = Vec::with_capacity(calls as usize);
+            for k in 0..calls {
+                if is_cold {
+                    assert_eq!(unsafe { fn_reset(session.handle) }, CERTIFIED);
+                }
+                let input = along(k);
+                let mut result = rows.result(8);
+                if !with_rates {
+                    (result.length_rate_m_s, result.length_acceleration_m_s2) = (null_mut(), null_mut());
+                }
+                let begin = Instant::now();
+                let status = unsafe { fn_inverse(session.handle, &raw const input, &raw mut result) };
+                times.push(begin.elapsed().as_secs_f64() * 1e6);
+                assert!(
+                    status == CERTIFIED && (k == 0 || result.iterations <= most),
+                    "{what} {k}: {status} {}",
+                    result.iterations
+                );
+            }
+            times.sort_by(f64::total_cmp);
+            println!("{name}, {what}: fastest {:.1} µs, median {:.1} µs", times[0], times[times.len() / 2]);
+        };
+        timed("cold", 12, true, false);
+        timed("warm", 4, false, false);
+        timed("warm with rates", 4, false, true);
+    }
+}
+
 #[test]
 fn no_function_of_the_loop_reserves_memory() {
     let session = TestSession::new(funicular_robots::COGIRO_WINCHES);
@@ -487,7 +577,8 @@ fn structs_have_the_places_of_the_header() {
             acceleration_m_s2 angular_acceleration_rad_s2 force_n moment_n_m;
         "fn_inverse_result" InverseResult: struct_size cables status iterations age_calls least_margin_cable
             least_margin_n error_n error_m length_m length_rate_m_s length_acceleration_m_s2 free_length_m
-            tension_platform_n tension_drum_n margin_n;
+            tension_platform_n tension_drum_n margin_n missing_n missing_force missing_moment missing_at_maximum
+            reserved;
         "fn_forward_result" ForwardResult: struct_size cables status iterations age_calls least_margin_cable
             least_margin_n error_n error_m position_m quaternion_wxyz free_length_m tension_platform_n tension_drum_n
             margin_n;

@@ -98,7 +98,7 @@ fn at_poses(case: &Case, all: &[Found]) -> Vec<Comparison> {
     ];
     let mut rows: Vec<Comparison> =
         quantities.iter().filter_map(|(name, pair)| compared(case, name, all.iter().map(pair), SAME)).collect();
-    let proved = all.iter().filter(|found| found.centre.unique).count();
+    let proved = all.iter().filter(|found| found.centre.certificate.is_unique()).count();
     rows.push(case.count("poses at which the centre is proved to be the only one", all.len(), proved));
     rows
 }

@@ -49,7 +49,7 @@ mod wrench;
 
 pub use input::{LoopInput, MAX_INPUT, MAX_QUATERNION_ERROR, pose_from_quaternion};
 pub use model::{LoopModel, MAX_CABLES, NotForLoop};
-pub use state::{LoopCable, LoopFault, LoopState, LoopStatus};
+pub use state::{LoopCable, LoopFault, LoopMissing, LoopState, LoopStatus};
 pub use wrench::LoadOnPlatform;
 
 use crate::robot::Pose;

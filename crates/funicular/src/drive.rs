@@ -12,6 +12,7 @@
 
 mod anchor_end;
 mod arc;
+pub(crate) mod at_tension;
 mod balance;
 mod chain;
 pub(crate) mod derivatives;

@@ -9,6 +9,7 @@ pub(crate) mod complex_symmetric;
 pub(crate) mod dual;
 pub(crate) mod eigenvectors;
 pub mod generalized_eigen;
+pub(crate) mod jet;
 pub mod least_squares;
 pub mod legendre;
 pub mod max_min;

@@ -306,6 +306,47 @@ impl PathPoint {
         }
     }
 
+    /// Coefficients of t and t² of [`Self::inertia`] at a time t after this one, velocity, acceleration and jerk at their
+    /// derivatives here.
+    pub(crate) fn inertia_along(&self, robot: &Robot) -> [Vec6; 2] {
+        let (mass, rot) = (robot.platform.mass, self.pose.rot_wp);
+        let ([_, turn], [linear, angular], [jerk, angular_jerk]) =
+            (self.twist(), parts(&self.acceleration_w), parts(&self.jerk_w));
+        // The rotation of a vector that is fixed to the platform, and the inverse of it, up to t².
+        let turned = |vector_p: &Vec3| {
+            let vector_w = rot * vector_p;
+            let rate = turn.cross(&vector_w);
+            [vector_w, rate, (angular.cross(&vector_w) + turn.cross(&rate)) * 0.5]
+        };
+        let axes: [[Vec3; 3]; 3] = std::array::from_fn(|k| turned(&Vec3::from_fn(|i, _| f64::from(u8::from(i == k)))));
+        let into_platform = |of: &Along| {
+            Along(std::array::from_fn(|order| {
+                Vec3::from_fn(|k, _| (0..=order).map(|part| axes[k][part].dot(&of.0[order - part])).sum())
+            }))
+        };
+        let into_world = |of: &Along| {
+            Along(std::array::from_fn(|order| {
+                (0..=order).map(|part| (0..3).map(|k| axes[k][part] * of.0[order - part][k]).sum::<Vec3>()).sum()
+            }))
+        };
+        let spun = |of: &Along| {
+            let inside = into_platform(of);
+            into_world(&Along(inside.0.map(|coefficient| robot.platform.inertia_p * coefficient)))
+        };
+
+        let arm = Along(turned(&robot.platform.center_of_mass_p));
+        let omega = Along([turn, angular, angular_jerk * 0.5]);
+        let alpha = Along([angular, angular_jerk, Vec3::zeros()]);
+        let own = Along([linear, jerk, Vec3::zeros()]);
+        let at_center = own + alpha.cross(&arm) + omega.cross(&omega.cross(&arm));
+        let force = Along(at_center.0.map(|coefficient| coefficient * -mass));
+        let moment = arm.cross(&force) - spun(&alpha) - omega.cross(&spun(&omega));
+        [1, 2].map(|k| {
+            let (force, moment) = (force.0[k], moment.0[k]);
+            Vec6::new(force.x, force.y, force.z, moment.x, moment.y, moment.z)
+        })
+    }
+
     /// Rates of [`Self::inertia`] [N/s, N m/s].
     pub fn inertia_rate(&self, robot: &Robot) -> [Vec3; 2] {
         PlatformInertia::of(robot, self).rate(self)
@@ -353,6 +394,32 @@ impl PlatformInertia {
         let momentum_rate = tensor * alpha + omega.cross(&(tensor * omega));
         let spin = of_alpha + alpha.cross(&(tensor * omega)) + omega.cross(&momentum_rate);
         [force, arm_rate.cross(&self.force_w) + arm.cross(&force) - spin]
+    }
+}
+
+/// Vector along a motion: coefficients of 1, t and t².
+#[derive(Clone, Copy)]
+struct Along([Vec3; 3]);
+
+impl Along {
+    fn cross(&self, other: &Self) -> Self {
+        Self(std::array::from_fn(|order| (0..=order).map(|part| self.0[part].cross(&other.0[order - part])).sum()))
+    }
+}
+
+impl std::ops::Add for Along {
+    type Output = Self;
+
+    fn add(self, other: Self) -> Self {
+        Self(std::array::from_fn(|k| self.0[k] + other.0[k]))
+    }
+}
+
+impl std::ops::Sub for Along {
+    type Output = Self;
+
+    fn sub(self, other: Self) -> Self {
+        Self(std::array::from_fn(|k| self.0[k] - other.0[k]))
     }
 }
 

@@ -25,6 +25,7 @@
 mod equilibrium; // pose, cables, residual, stability; the limits of the residual
 mod error; // reasons for the lack of an equilibrium, with their messages
 mod limits; // tension limits, their defaults, distance from them
+mod missing_wrench; // wrench that cables within their limits cannot apply
 mod model; // ideal, spring, catenary
 mod obstacle; // direction in which no cable can pull, whatever the limits
 
@@ -79,6 +80,7 @@ pub use friction::{
 pub(crate) use limits::MinimumTension;
 pub use limits::{Limit, LimitViolation, TensionMargin, TensionRange};
 pub(crate) use loaded_cable::LoadedCable;
+pub use missing_wrench::MissingWrench;
 pub use model::StaticModel;
 pub use nearest_pose::{NearestEquilibrium, nearest_equilibrium, pose_distance};
 pub(crate) use obstacle::spread;
@@ -88,12 +90,13 @@ pub use solve::{Solution, inverse, solve, solve_at, solve_held, solve_held_at};
 pub(crate) use stiffness::assembled;
 pub use stiffness::tangent_stiffness;
 pub(crate) use supports::{SupportSide, on_support, support_side};
-pub(crate) use tension::{
-    CentreCable, CentreLoad, CentreRow, CentreSearch, Potential, TauLimit, TauLimitKind, TensionCurve,
-};
 pub use tension::{
-    LimitAtCable, PayloadBound, PayloadSide, RequestedPayload, TensionCentre, TensionRule, distribute_tensions,
-    payload_bound, tension_centre,
+    CableRates, CentreCertificate, CentreMotion, LimitAtCable, PayloadBound, PayloadSide, RequestedPayload,
+    TensionCentre, TensionRule, centre_rates, distribute_tensions, payload_bound, tension_centre,
+};
+pub(crate) use tension::{
+    CentreCable, CentreLoad, CentreRow, CentreSearch, PlatformAlong, Potential, RatesRow, TauLimit, TauLimitKind,
+    TensionCurve,
 };
 pub(crate) use tension_gain::tension_gain_exceeds;
 pub use tension_gain::{inverse_condition, tension_gain};

@@ -36,6 +36,11 @@ int main(void) {
   AT(fn_inverse_result, tension_platform_n);
   AT(fn_inverse_result, tension_drum_n);
   AT(fn_inverse_result, margin_n);
+  AT(fn_inverse_result, missing_n);
+  AT(fn_inverse_result, missing_force);
+  AT(fn_inverse_result, missing_moment);
+  AT(fn_inverse_result, missing_at_maximum);
+  AT(fn_inverse_result, reserved);
   SIZE(fn_forward_result);
   AT(fn_forward_result, struct_size);
   AT(fn_forward_result, cables);

@@ -34,6 +34,7 @@ impl Printed for Statics {
             format!("  nearest pose that the cables can hold, {} m from the requested pose\n", short(distance, 4))
         });
 
+        let centre = self.centre.as_ref().map_or_else(String::new, |proof| format!("Tensions: {}.\n", proof.text()));
         let others = match (&self.another_stable_equilibrium, equilibria_table(self)) {
             (_, Some(table)) => format!("\n{table}"),
             (Some(other), None) => other_text(other),
@@ -48,7 +49,7 @@ impl Printed for Statics {
         format!(
             "{}: equilibrium with {} cables, {} kg{load}{wind}{rule}\n\n  position         ({}) m\n  roll, pitch, yaw \
              ({})°\n{nearest}{held}{balanced}\n\
-             {cables}\n{drives}{stability}. {balance} after {}.\n{others}{friction}",
+             {cables}\n{drives}{stability}. {balance} after {}.\n{centre}{others}{friction}",
             self.robot,
             self.static_model,
             short(self.mass_kg, 6),

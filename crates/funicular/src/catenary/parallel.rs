@@ -3,6 +3,9 @@
 use super::{Catenary, Hyperbolic, Rope, Slope};
 use std::ops::{Add, Div, Mul, Sub};
 
+/// Step over the length that is the last one of the search for it.
+const LAST_STEP: f64 = 1e-8;
+
 impl Catenary {
     /// Cable from the origin to `(span, rise)` [m], not both zero, whose [`parallel_tension`](Self::parallel_tension)
     /// is `tension` [N]. `rope` gives weight and stiffness; its length is the start of the search and does not change
@@ -27,21 +30,24 @@ impl Catenary {
         let straight = chord / (1.0 + tension / ea);
         let mut length = if unstrained_length < limit { unstrained_length.max(straight) } else { straight };
 
-        // Nearly linear: 2 passes from a neighbouring tension, 4 from far away. The limit is a guard.
+        // Nearly linear: 1 or 2 passes from a neighbouring tension, 4 from far away. The limit is a guard.
+        let mut near: Option<Hyperbolic> = None;
         for _ in 0..50 {
             let at = LengthOf::of(span, rise, across, k_by_length * length);
             let step = (at.length - length) / (1.0 - k_by_length * at.by_k);
-            let next = length + step;
+            let (before, next) = (length, length + step);
             length = if next < limit { next.max(0.5 * length) } else { 0.5 * (length + limit) };
-            // Newton's method squares the error: after a step below 1e-9 no further step counts.
-            if step.abs() <= 1e-9 * length {
+            // Newton's method squares the error: after a step below 1e-8 no further step counts.
+            if step.abs() <= LAST_STEP * length {
+                let change = k_by_length * (before - length);
+                near = Some(at.hyperbolic.moved(across - k_by_length * before, change));
                 break;
             }
         }
 
         let k = k_by_length * length;
         let v = (across - k).max(f64::MIN_POSITIVE);
-        let Hyperbolic { sinh, cosh, v_cosh_minus_sinh, .. } = Hyperbolic::of(v);
+        let Hyperbolic { sinh, cosh, v_cosh_minus_sinh, .. } = near.unwrap_or_else(|| Hyperbolic::of(v));
         let tanh_v = sinh / cosh;
         Self {
             rope: Rope { unstrained_length: length, ..rope },
@@ -185,6 +191,7 @@ impl Div for Taylor {
 struct LengthOf {
     length: f64,
     by_k: f64,
+    hyperbolic: Hyperbolic,
 }
 
 impl LengthOf {
@@ -197,7 +204,7 @@ impl LengthOf {
         let length = super::hypot(xa, zb);
         let xa_by_k = -x * h.cosh / across;
         let zb_by_k = -z * (sech2 * k + tanh) / (along * along);
-        Self { length, by_k: (xa * xa_by_k + zb * zb_by_k) / length }
+        Self { length, by_k: (xa * xa_by_k + zb * zb_by_k) / length, hyperbolic: h }
     }
 }
 

@@ -46,6 +46,19 @@ impl Hyperbolic {
     }
 }
 
+impl Hyperbolic {
+    /// Values after a change of v so small that its square is rounding.
+    #[inline]
+    pub(super) fn moved(&self, v: f64, change: f64) -> Self {
+        Self {
+            sinh: self.sinh + change * self.cosh,
+            cosh: self.cosh + change * self.sinh,
+            sinh_minus_v: self.sinh_minus_v + change * (self.sinh * self.sinh / (1.0 + self.cosh)),
+            v_cosh_minus_sinh: self.v_cosh_minus_sinh + change * v * self.sinh,
+        }
+    }
+}
+
 /// Solution of F(v) = 0.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Root {

@@ -211,6 +211,7 @@ impl WantedLengths<'_> {
             error_length: error.unwrap_or(LAST_STEP * self.mean_length()),
             least_margin: 0.0,
             least_margin_cable: 0,
+            missing: None,
             cables,
         };
         let mut state = state.with_margins(self.model.cables());

@@ -1,14 +1,14 @@
 //! Pose to lengths in a control loop.
 
+use super::ControlLoop;
 use super::input::LoopInput;
 use super::model::LoopModel;
-use super::solved::{SearchStart, solve};
+use super::solved::solve;
 use super::state::{LoopFault, LoopState, LoopStatus};
-use super::{ControlLoop, rates};
 
 impl ControlLoop {
     /// Unstrained lengths and tensions that hold the platform in its motion. `with_rates` adds rates and accelerations
-    /// of the lengths, which takes twice as long again.
+    /// of the lengths, exact derivatives along the motion.
     ///
     /// The external load stays while lengths change with the motion, and so does its jerk.
     ///
@@ -17,16 +17,13 @@ impl ControlLoop {
     pub fn inverse(&mut self, model: &LoopModel, input: &LoopInput, with_rates: bool) -> Result<LoopState, LoopFault> {
         input.check(model.robot())?;
         let near = self.near_inverse.as_ref();
-        let mut solved = match solve(model, &input.motion, &input.wrench(), SearchStart::Best(near)) {
+        let solved = match solve(model, input, near, with_rates) {
             Ok(solved) => solved,
             Err(fault @ (LoopFault::Singular | LoopFault::NotFound)) => {
                 return Self::held(&mut self.last_inverse, fault);
             }
             Err(fault) => return Err(fault),
         };
-        if with_rates && !rates::add(model, input, &mut solved) {
-            solved.state.status = solved.state.status.max(LoopStatus::Accepted);
-        }
 
         self.near_inverse = Some(solved.near);
         self.last_pose = Some(input.motion.pose);

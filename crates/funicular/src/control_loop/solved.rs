@@ -1,7 +1,9 @@
 //! Tensions and lengths at one time of a motion, in a control loop.
 
+use super::input::LoopInput;
 use super::model::{LoopModel, MAX_CABLES};
-use super::state::{LoopCable, LoopFault, LoopState, LoopStatus};
+use super::rates;
+use super::state::{LoopCable, LoopFault, LoopMissing, LoopState, LoopStatus};
 use crate::math::Vec6;
 use crate::path::PathPoint;
 use crate::platform::{load_size, load_wrench};
@@ -36,32 +38,21 @@ pub(super) struct SolvedState {
     least_room: f64,
 }
 
-/// Ways in which tensions are searched, each with its largest number of steps.
-#[derive(Debug, Clone, Copy)]
-pub(super) enum SearchStart<'a> {
-    /// From a state nearby, for the minimum of the same function.
-    Near(&'a NearInverse),
-    /// From a state nearby or from the middle of the limits, for the best that there is.
-    Best(Option<&'a NearInverse>),
-}
-
-/// Tensions and lengths at one time of a motion.
+/// Tensions and lengths at one time of a motion, from a state nearby or from the middle of the limits. `with_rates` adds
+/// rates and accelerations of the lengths.
 pub(super) fn solve(
     model: &LoopModel,
-    motion: &PathPoint,
-    external: &Vec6,
-    search: SearchStart<'_>,
+    input: &LoopInput,
+    near: Option<&NearInverse>,
+    with_rates: bool,
 ) -> Result<SolvedState, LoopFault> {
-    let (robot, coordinates, pose) = (model.robot(), model.coordinates(), &motion.pose);
-    let near = match search {
-        SearchStart::Near(near) => Some(near),
-        SearchStart::Best(near) => near,
-    };
+    let (robot, coordinates, motion) = (model.robot(), model.coordinates(), &input.motion);
+    let pose = &motion.pose;
 
     // The inertia is a load. Its size belongs to the sum of the forces.
     let [force_w, moment_w] = motion.inertia(robot);
     let inertia = Vec6::new(force_w.x, force_w.y, force_w.z, moment_w.x, moment_w.y, moment_w.z);
-    let added = external + inertia;
+    let added = input.wrench() + inertia;
     let load = CentreLoad {
         wrench: coordinates.reduce(&(load_wrench(robot, pose) + added)),
         size: load_size(robot) + coordinates.wrench_size(&added),
@@ -84,19 +75,16 @@ pub(super) fn solve(
     let mut rows = [CentreRow::default(); MAX_CABLES];
     let count = cables.len();
     let mut search_for = CentreSearch::new(coordinates, &mut cables, &mut rows[..count], load);
-    match search {
-        SearchStart::Near(near) => from_near(&mut search_for, near, MAX_WARM_STEPS)?,
-        SearchStart::Best(near) if model.has_choice() => best(&mut search_for, near)?,
-        SearchStart::Best(near) => the_only(&mut search_for, near)?,
+    if model.has_choice() {
+        best(&mut search_for, near)?
+    } else {
+        the_only(&mut search_for, near)?
     }
-    Ok(collected(model, motion, &search_for))
-}
-
-/// Searches from a state nearby for the minimum of the same function.
-fn from_near(search: &mut CentreSearch<'_, '_>, near: &NearInverse, steps: usize) -> Result<(), LoopFault> {
-    search.potential = near.potential;
-    search.start_at(|i| near.tau[i], near.multipliers);
-    if search.newton(steps) { Ok(()) } else { Err(LoopFault::NotFound) }
+    let mut solved = collected(model, motion, &search_for);
+    if with_rates && !rates::add(model, input, &search_for, &mut solved) {
+        solved.state.status = solved.state.status.max(LoopStatus::Accepted);
+    }
+    Ok(solved)
 }
 
 /// Searches for the centre, or where there is none for tensions beyond the limits.
@@ -183,7 +171,7 @@ fn collected(model: &LoopModel, motion: &PathPoint, search: &CentreSearch<'_, '_
 
     let [unbalanced, size] = search.unbalanced();
     let is_balanced = unbalanced <= RESIDUAL_LIMIT * size;
-    let is_proved = is_balanced && (search.potential == Potential::None || search.is_unique());
+    let is_proved = is_balanced && (search.potential == Potential::None || search.certificate().is_unique());
     let state = LoopState {
         status: LoopStatus::Certified,
         age: 0,
@@ -193,12 +181,28 @@ fn collected(model: &LoopModel, motion: &PathPoint, search: &CentreSearch<'_, '_
         error_length,
         least_margin: 0.0,
         least_margin_cable: 0,
+        missing: None,
         cables,
     };
     let near = NearInverse { tau, limits, multipliers: search.multipliers, potential: search.potential };
     let mut solved = SolvedState { near, state: state.with_margins(count), is_proved, least_room };
     solved.state.status = solved.status();
+    if solved.state.status == LoopStatus::BeyondLimits && model.has_choice() {
+        solved.state.missing = missing(model, search);
+    }
     solved
+}
+
+/// Proof that no tensions within the limits exist.
+fn missing(model: &LoopModel, search: &CentreSearch<'_, '_>) -> Option<LoopMissing> {
+    let found = search.missing()?;
+    let expanded = model.coordinates().expand(&found.direction);
+    Some(LoopMissing {
+        force_w: expanded.fixed_rows::<3>(0).into(),
+        moment_w: expanded.fixed_rows::<3>(3).into(),
+        size: found.size,
+        at_maximum: found.at_maximum,
+    })
 }
 
 impl SolvedState {

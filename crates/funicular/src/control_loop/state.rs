@@ -1,6 +1,7 @@
 //! Results of a control loop: state, status, fault.
 
 use super::model::MAX_CABLES;
+use crate::math::Vec3;
 use crate::robot::Pose;
 use thiserror::Error;
 
@@ -94,8 +95,26 @@ pub struct LoopState {
     pub least_margin: f64,
     /// Index of that cable.
     pub least_margin_cable: usize,
+    /// Proof that no tensions within the limits balance the load; `None` without one, and with as many cables as degrees
+    /// of freedom, which have no choice.
+    pub missing: Option<LoopMissing>,
     /// Cables in file order; zeros beyond their number.
     pub cables: [LoopCable; MAX_CABLES],
+}
+
+/// Part of the balance that no tensions within the limits can provide, as
+/// [`MissingWrench`](crate::statics::MissingWrench), the exit points of pulleys held.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LoopMissing {
+    /// Direction of the missing force, world axes. Together with the moment of length 1.
+    pub force_w: Vec3,
+    /// Direction of the missing moment, world axes, over [`Robot::platform_length`](crate::robot::Robot).
+    pub moment_w: Vec3,
+    /// Least size of the missing wrench along that direction [N].
+    pub size: f64,
+    /// Cables that reach farthest along the direction at their maximum: bit i for cable number i, from zero. The others
+    /// do at their minimum.
+    pub at_maximum: u32,
 }
 
 impl LoopState {

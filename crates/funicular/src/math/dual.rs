@@ -29,6 +29,9 @@ pub(crate) trait Real:
 
     /// Angle whose sine this is; beyond ±1 that of the limit.
     fn arcsin(self) -> Self;
+
+    /// Hyperbolic sine and cosine.
+    fn sinh_cosh(self) -> (Self, Self);
 }
 
 impl Real for f64 {
@@ -50,6 +53,11 @@ impl Real for f64 {
 
     fn arcsin(self) -> Self {
         self.clamp(-1.0, 1.0).asin()
+    }
+
+    fn sinh_cosh(self) -> (Self, Self) {
+        let sinh = self.sinh();
+        (sinh, (1.0 + sinh * sinh).sqrt())
     }
 }
 
@@ -154,6 +162,11 @@ impl<const N: usize> Real for Dual<N> {
         let slope = if sine.abs() < 1.0 { (1.0 - sine * sine).sqrt().recip() } else { 0.0 };
         self.function(sine.asin(), slope)
     }
+
+    fn sinh_cosh(self) -> (Self, Self) {
+        let (sinh, cosh) = self.value.sinh_cosh();
+        (self.function(sinh, cosh), self.function(cosh, sinh))
+    }
 }
 
 /// Derivatives `a x + b y` of a product or a quotient.
@@ -179,7 +192,8 @@ mod tests {
 
     fn formula<T: Real>(x: T, y: T) -> T {
         let (sin, cos) = (x * y).sin_cos();
-        (sin * 2.0 - cos / y + (x * x + y).sqrt() * x.tan()) * (x * 0.3).arcsin() - x
+        let (sinh, cosh) = (x - y).sinh_cosh();
+        (sin * 2.0 - cos / y + (x * x + y).sqrt() * x.tan()) * (x * 0.3).arcsin() - x * sinh / cosh
     }
 
     #[test]

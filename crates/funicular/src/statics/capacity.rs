@@ -257,7 +257,8 @@ fn keeps_limits(robot: &Robot, rest: &Equilibrium) -> bool {
 /// # Errors
 /// [`StaticsError::BeyondLimits`].
 fn within_limits(robot: &Robot, rest: Equilibrium) -> Result<Equilibrium, StaticsError> {
-    let mut miss = LimitViolation { by: 0.0, minimum_of: Vec::new(), maximum_of: Vec::new(), obstacle: None };
+    let none = Vec::new;
+    let mut miss = LimitViolation { by: 0.0, minimum_of: none(), maximum_of: none(), obstacle: None, missing: None };
     for (i, cable) in rest.cables.iter().enumerate() {
         let margin = TensionRange::of(robot, i, &cable.chord_w()).margin(cable);
         let distance = margin.distance();

@@ -1,6 +1,7 @@
 //! Limits of a cable's tension: their defaults, and the distance of a state from them.
 
 use super::equilibrium::CableState;
+use super::missing_wrench::MissingWrench;
 use super::obstacle::Obstacle;
 use crate::catenary::space::HangingCable;
 use crate::math::Vec3;
@@ -183,6 +184,8 @@ pub struct LimitViolation {
     pub maximum_of: Vec<String>,
     /// Reason why no tensions of straight cables balance the platform even without limits, if there is one.
     pub obstacle: Option<Box<Obstacle>>,
+    /// Proof that no tensions within the limits balance the platform: the wrench that they leave; `None` without one.
+    pub missing: Option<Box<MissingWrench>>,
 }
 
 impl fmt::Display for LimitViolation {
@@ -199,7 +202,10 @@ impl fmt::Display for LimitViolation {
         let limits = [list("minimum", &self.minimum_of), list("maximum", &self.maximum_of)];
         let limits: Vec<String> = limits.into_iter().flatten().collect();
         write!(f, "by {:.4} N", self.by)?;
-        if limits.is_empty() { Ok(()) } else { write!(f, ", because of {}", limits.join(" and ")) }
+        if !limits.is_empty() {
+            write!(f, ", because of {}", limits.join(" and "))?;
+        }
+        self.missing.as_ref().map_or(Ok(()), |missing| write!(f, "; {missing}"))
     }
 }
 

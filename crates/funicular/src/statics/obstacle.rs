@@ -254,7 +254,7 @@ impl fmt::Display for Obstacle {
 }
 
 /// Vector for a message, with the axes that it is near to: `(-0.443, 0.012, 0.101) (mostly -x)`.
-fn in_words(vector: &Vec3) -> String {
+pub(super) fn in_words(vector: &Vec3) -> String {
     let size = vector.norm();
     let largest = vector.amax();
     let mut axes: Vec<(f64, String)> = vector

@@ -24,7 +24,7 @@ use super::error::StaticsError;
 use super::exit_points;
 use super::free_motion::{has_choice, independent_directions};
 use super::ideal;
-use super::limits::TensionRange;
+use super::limits::{LimitViolation, TensionRange};
 use super::model::StaticModel;
 pub(super) use super::obstacle::Obstacle;
 use super::wrench_set::CableAtPose;
@@ -32,9 +32,12 @@ use crate::drive::CableAtRest;
 use crate::platform::Coordinates;
 use crate::robot::{Cable, Pose, Robot};
 pub(super) use balanced_pull::balanced_pull;
+pub(crate) use centre::along::PlatformAlong;
 pub(crate) use centre::curve::{TauLimit, TauLimitKind, TensionCurve};
+pub(crate) use centre::rates::RatesRow;
+pub use centre::rates::{CableRates, CentreMotion, centre_rates};
 pub(crate) use centre::{CentreCable, CentreLoad, CentreRow, CentreSearch, Potential};
-pub use centre::{TensionCentre, tension_centre};
+pub use centre::{CentreCertificate, TensionCentre, tension_centre};
 pub use payload::{PayloadBound, PayloadSide, RequestedPayload, payload_bound};
 pub(super) use payload::{with_weight, with_wrench};
 pub use ray::LimitAtCable;
@@ -134,7 +137,15 @@ pub fn distribute_tensions(
         }
         exit_points::equilibrium_from(robot, pose, model, solve, start).ok()
     });
-    at_limit.map_or(found, Ok)
+    at_limit.map_or_else(|| found.map_err(with_held_exits), Ok)
+}
+
+/// Error of a search that held the exit points of the pulleys and says so in its proof.
+fn with_held_exits(mut error: StaticsError) -> StaticsError {
+    if let StaticsError::BeyondLimits(LimitViolation { missing: Some(missing), .. }) = &mut error {
+        missing.holds_exits = true;
+    }
+    error
 }
 
 /// Tensions by [`distribute_tensions`] of cables that end at fixed points. `last` is the result for points nearby, from

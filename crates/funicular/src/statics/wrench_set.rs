@@ -11,4 +11,4 @@ mod reach;
 pub use cable_at_pose::TensionPlace;
 pub(super) use cable_at_pose::{CableAtPose, Rates, TensionByTau};
 pub(super) use chords::{AvailableWrenches, BulgeSearch, Facet};
-pub(super) use reach::{ReachableTensions, WrenchSet, spread_start};
+pub(super) use reach::{CurveBetween, CurvePoint, ReachableTensions, WrenchSet, spread_start};

@@ -6,9 +6,12 @@
 //! the start. A bound on the curvature of the balance, evaluated with the result, proves that there is no other centre
 //! (docs/theory.md, (40b1) to (40b7)).
 
+pub(crate) mod along;
 pub(crate) mod corners;
 pub(crate) mod curve;
+mod missing;
 mod potential;
+pub(crate) mod rates;
 
 use super::{TensionRule, cables_at, distribute_tensions};
 use crate::drive::CableAtRest;
@@ -37,7 +40,7 @@ const MIN_FRACTION: f64 = 1e-9;
 
 /// Change of a tension over its distance from the nearer limit, and over the size of the tensions, that ends the
 /// search: Newton's method squares the first, and the second is rounding.
-const LAST_STEP: f64 = 1e-8;
+const LAST_STEP: f64 = 3e-7;
 const ROUNDING: f64 = 1e-13;
 
 /// Maximum change of a tension over its distance from the nearer limit with which a derivative that holds the exit
@@ -57,12 +60,11 @@ const BALANCED_ALONG_FREE: f64 = 1e-12;
 /// Least distance of a start from a limit over the distance between the limits.
 const MIN_START: f64 = 1e-3;
 
-/// Left side of (40b5) below which the centre is proved to be the only one: one half, and the other half for the orders
-/// that (36a) leaves out.
-const UNIQUE: f64 = 0.5;
-
 /// Places between the limits at which the curvature is looked at where (40b5) proves nothing.
 const PLACES: usize = 16;
+
+/// Maximum number of cables whose tensions are proved not to exist without memory from the heap: that of a control loop.
+const MAX_INLINE: usize = 16;
 
 /// Centre of the tensions at a pose.
 #[derive(Debug, Clone, PartialEq)]
@@ -77,8 +79,32 @@ pub struct TensionCentre {
     /// Multipliers of the balance [1/N]: those of the force, then those of the moment over
     /// [`Robot::platform_length`], in the coordinates of the degrees of freedom.
     pub multipliers: Vec<f64>,
-    /// True if it is proved that no other tensions are a centre.
-    pub unique: bool,
+    /// Proof that no other tensions are a centre.
+    pub certificate: CentreCertificate,
+}
+
+/// Proof that the tensions of a centre are the only ones, by the curvature of the balance over that of the logarithms.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CentreCertificate {
+    /// Largest left side of (40b5) over all cables [-]: a bound of the curvature of the balance over that of the
+    /// logarithms, without higher orders. Zero for straight cables.
+    pub curvature: f64,
+    /// Index of the cable with this value.
+    pub cable: usize,
+    /// Least left side of (40b4) over φ'' [-], at sixteen places between the limits of each cable for which (40b5)
+    /// fails; `None` if it holds for all cables.
+    pub convexity: Option<f64>,
+}
+
+impl CentreCertificate {
+    /// Maximum of [`Self::curvature`] that proves it: one half, and the other half is for the orders that (36a) leaves
+    /// out.
+    pub const MAX_CURVATURE: f64 = 0.5;
+
+    /// True if no other tensions are a centre: proved by the bound, or seen at the places.
+    pub fn is_unique(&self) -> bool {
+        self.curvature < Self::MAX_CURVATURE || self.convexity.is_some_and(|least| least > 0.0)
+    }
 }
 
 /// Centre of the tensions that hold the platform at a pose within their limits: the rule [`TensionRule::Centre`], with
@@ -98,7 +124,8 @@ pub struct TensionCentre {
 /// let at = |x: f64| Pose::new([x, -2.0, 1.5], [0.0, 0.0, 5.0]);
 /// let first = statics::tension_centre(&robot, &at(1.0), StaticModel::Catenary, None)?;
 /// let next = statics::tension_centre(&robot, &at(1.004), StaticModel::Catenary, Some(&first))?;
-/// assert!(first.unique && next.unique && next.equilibrium.iterations < first.equilibrium.iterations);
+/// assert!(first.certificate.is_unique() && next.certificate.is_unique());
+/// assert!(next.equilibrium.iterations < first.equilibrium.iterations);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///
@@ -438,30 +465,44 @@ impl<'a, 's> CentreSearch<'a, 's> {
         self.rows[i].step
     }
 
-    /// True if (40b5), or the curvature at some places between the limits, shows that the centre is the only one.
-    pub(crate) fn is_unique(&self) -> bool {
-        self.cables.iter().all(|cable| {
+    /// Proof that the centre is the only one, by (40b5) or by the curvature at some places between the limits.
+    pub(crate) fn certificate(&self) -> CentreCertificate {
+        let mut found = CentreCertificate { curvature: 0.0, cable: 0, convexity: None };
+        for (i, cable) in self.cables.iter().enumerate() {
             let up = self.multipliers.dot(&self.wrench(cable, &cable.curve.span.axes_w().1)).abs();
             let catenary = &cable.curve.span.catenary;
             let [cos, sin] = catenary.chord_direction();
             let weight = catenary.rope().weight_per_length * cable.curve.span.chord_w().norm();
+            if weight == 0.0 {
+                continue;
+            }
             let inclined = weight * weight * sin.abs() / (6.0 * cable.lower);
             let level = weight.powi(3) * cos * cos / (8.0 * cable.lower * cable.lower);
-            weight == 0.0 || up * (inclined + level) < UNIQUE || self.is_convex(cable)
-        })
+            let curvature = up * (inclined + level);
+            if curvature > found.curvature {
+                (found.curvature, found.cable) = (curvature, i);
+            }
+            if curvature.is_nan() || curvature >= CentreCertificate::MAX_CURVATURE {
+                let least = self.least_convexity(cable);
+                found.convexity = Some(found.convexity.map_or(least, |other| other.min(least)));
+            }
+        }
+        found
     }
 
-    /// True if the Lagrangian is convex in the tension of a cable at [`PLACES`] places between its limits, (40b4).
-    fn is_convex(&self, cable: &CentreCable<'_>) -> bool {
+    /// Least curvature of the Lagrangian in the tension of a cable over that of the logarithms, at [`PLACES`] places
+    /// between its limits, (40b4).
+    fn least_convexity(&self, cable: &CentreCable<'_>) -> f64 {
         let ratio = cable.upper / cable.lower;
-        (0..PLACES).all(|place| {
+        let at = |place: usize| {
             let tau = cable.lower * ratio.powf((place as f64 + 0.5) / PLACES as f64);
             let mut there = cable.curve.clone();
             there.set(tau);
             let [_, curvature] = potential::logarithms([tau - cable.lower, cable.upper - tau]);
             let bend = self.multipliers.dot(&self.wrench(cable, &there.span.axes_w().1));
-            curvature > bend * there.force_by_tau(false).second_up
-        })
+            1.0 - bend * there.force_by_tau(false).second_up / curvature
+        };
+        (0..PLACES).map(at).fold(f64::INFINITY, f64::min)
     }
 
     /// Error of a pose whose tensions have no room between their limits. `tau` are the tensions farthest from them.
@@ -473,7 +514,7 @@ impl<'a, 's> CentreSearch<'a, 's> {
     }
 
     fn collected(self, robot: &Robot, pose: &Pose, model: StaticModel) -> TensionCentre {
-        let unique = self.is_unique();
+        let certificate = self.certificate();
         let tensions: Vec<f64> = self.cables.iter().map(|cable| cable.curve.tau()).collect();
         let limits = self.cables.iter().map(|cable| [cable.lower, cable.upper]).collect();
         let multipliers = self.multipliers.iter().copied().take(self.coordinates.count()).collect();
@@ -485,7 +526,7 @@ impl<'a, 's> CentreSearch<'a, 's> {
             let lengths: Vec<f64> = at_rest.iter().map(CableAtRest::unstrained_length).collect();
             without_stability(robot, *pose, model, at_rest, &lengths, iterations)
         };
-        TensionCentre { equilibrium, tensions, limits, multipliers, unique }
+        TensionCentre { equilibrium, tensions, limits, multipliers, certificate }
     }
 }
 

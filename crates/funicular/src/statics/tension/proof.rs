@@ -8,6 +8,9 @@
 
 use crate::math::Vec6;
 use crate::math::active_set::Polyhedron;
+use crate::platform::Coordinates;
+use crate::robot::Robot;
+use crate::statics::missing_wrench::MissingWrench;
 use crate::statics::wrench_set::WrenchSet;
 
 /// Maximum number of directions tried after the first.
@@ -22,8 +25,9 @@ const SAME_DIRECTION: f64 = 1e-12;
 
 /// Result of the directions tried.
 pub(super) struct ProofResult {
-    /// True if it is proved that no tensions within the limits balance the platform.
-    pub proved: bool,
+    /// Direction that proves that no tensions within the limits balance the platform, of length 1, reduced; `None`
+    /// without a proof.
+    pub direction: Option<Vec6>,
     /// Tensions with the maximum contributions in the first direction [N].
     pub max_shares: Vec<f64>,
 }
@@ -45,7 +49,7 @@ impl Infeasibility<'_> {
         let n = self.set.motion.count();
         let mut seen: Vec<[f64; 6]> = Vec::new();
         let mut y = *first;
-        let mut verdict = ProofResult { proved: false, max_shares: Vec::new() };
+        let mut verdict = ProofResult { direction: None, max_shares: Vec::new() };
 
         for _ in 0..=MAX_CUTS {
             let (proved, max_shares) = self.set.separates(&y, &self.load);
@@ -53,7 +57,7 @@ impl Infeasibility<'_> {
                 verdict.max_shares = max_shares.iter().map(|point| point.tau).collect();
             }
             if proved {
-                verdict.proved = true;
+                verdict.direction = y.try_normalize(0.0);
                 break;
             }
 
@@ -78,5 +82,27 @@ impl Infeasibility<'_> {
             y = next;
         }
         verdict
+    }
+
+    /// Wrench that is missing in a direction that proves it.
+    pub(super) fn missing(&self, robot: &Robot, direction: &Vec6) -> MissingWrench {
+        let coordinates = Coordinates::of(robot);
+        let (reach, tensions) = self.set.reach(direction);
+        let (mut minimum_of, mut maximum_of) = (Vec::new(), Vec::new());
+        for ((cable, reach), tau) in robot.cables.iter().zip(self.set.reaches).zip(&tensions) {
+            let [low, high] = reach.limits();
+            let names = if tau - low < high - tau { &mut minimum_of } else { &mut maximum_of };
+            names.push(cable.name.clone());
+        }
+        let expanded = self.set.motion.expanded(direction);
+        MissingWrench {
+            force_w: expanded.fixed_rows::<3>(0).into(),
+            moment_w: expanded.fixed_rows::<3>(3).into(),
+            size: -(direction.dot(&self.load) + reach),
+            length: coordinates.ell(),
+            minimum_of,
+            maximum_of,
+            holds_exits: false,
+        }
     }
 }

@@ -164,13 +164,8 @@ impl ReachableTensions {
         let cable = &self.ends[0];
         let in_direction = |force_w: &Vec3| y.dot(&motion.reduced(&cable.wrench(force_w)));
         let upward = in_direction(&cable.hanging.axes_w().1);
-        let sin = cable.sin();
-        DirectionalShare {
-            along: in_direction(&cable.hanging.chord_w().normalize()),
-            of_length: -0.5 * upward * cable.weight_per_length(),
-            convex_bend: upward * sin >= 0.0,
-            steep: sin.abs() > STEEP,
-        }
+        let along = in_direction(&cable.hanging.chord_w().normalize());
+        DirectionalShare::new(along, upward, cable.weight_per_length(), cable.sin())
     }
 
     /// Wrenches at the minimum and at the maximum, reduced [N].
@@ -226,14 +221,71 @@ pub(in crate::statics) struct SharePoint {
     length: [f64; 2],
 }
 
+impl DirectionalShare {
+    /// Contribution of a cable whose chord has this inclination; a unit force along the chord and one upwards contribute
+    /// `along` and `upward`.
+    fn new(along: f64, upward: f64, weight_per_length: f64, sin: f64) -> Self {
+        Self {
+            along,
+            of_length: -0.5 * upward * weight_per_length,
+            convex_bend: upward * sin >= 0.0,
+            steep: sin.abs() > STEEP,
+        }
+    }
+}
+
+/// Cable at one τ.
+#[derive(Debug, Clone, Copy)]
+pub(in crate::statics) struct CurvePoint {
+    /// Tension τ [N].
+    pub tau: f64,
+    /// Wrench and its derivative by τ, reduced.
+    pub wrench: Vec6,
+    pub by_tau: Vec6,
+    /// Unstrained length and its derivative by τ.
+    pub length: [f64; 2],
+}
+
+/// Cable whose exit point is held, between two τ.
+#[derive(Debug, Clone, Copy)]
+pub(in crate::statics) struct CurveBetween {
+    /// Wrench of a unit force along the chord, and of one upwards, reduced.
+    pub chord: Vec6,
+    pub up: Vec6,
+    pub weight_per_length: f64,
+    /// Sine of the inclination of the chord.
+    pub sin: f64,
+    pub ends: [CurvePoint; 2],
+}
+
+impl CurveBetween {
+    /// Upper bound of the contribution in the direction `y` at any τ between the ends, (39b).
+    pub(in crate::statics) fn bound(&self, y: &Vec6) -> f64 {
+        let seen = DirectionalShare::new(y.dot(&self.chord), y.dot(&self.up), self.weight_per_length, self.sin);
+        let ends = [0, 1].map(|k| SharePoint::at(&self.ends[k], y, &seen));
+        let interval = TauInterval { cable: 0, ends };
+        interval.bound(&seen).max(interval.best().share())
+    }
+}
+
 impl SharePoint {
     fn of(cable: &CableAtPose, y: &Vec6, seen: &DirectionalShare, motion: &PlatformMotion) -> Self {
-        let wrench = motion.reduced(&cable.wrench(&cable.force().0));
-        let straight = seen.along * cable.tau();
-        let length = cable.length().map(|value| seen.of_length * value);
-        let slope = y.dot(&motion.reduced(&cable.column()));
+        let point = CurvePoint {
+            tau: cable.tau(),
+            wrench: motion.reduced(&cable.wrench(&cable.force().0)),
+            by_tau: motion.reduced(&cable.column()),
+            length: cable.length(),
+        };
+        Self::at(&point, y, seen)
+    }
+
+    fn at(point: &CurvePoint, y: &Vec6, seen: &DirectionalShare) -> Self {
+        let CurvePoint { tau, wrench, .. } = *point;
+        let straight = seen.along * tau;
+        let length = point.length.map(|value| seen.of_length * value);
+        let slope = y.dot(&point.by_tau);
         let bend = [y.dot(&wrench) - straight - length[0], slope - seen.along - length[1]];
-        Self { tau: cable.tau(), wrench, straight, bend, length }
+        Self { tau, wrench, straight, bend, length }
     }
 
     fn share(&self) -> f64 {

@@ -1,6 +1,7 @@
 //! Tension distribution: robots, poses and checks shared by the files of this folder.
 
 mod centre;
+mod centre_rates;
 mod continuity;
 mod lengths;
 mod limits;

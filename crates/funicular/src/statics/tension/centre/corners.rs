@@ -4,6 +4,8 @@
 //! where the lowest point reaches an end. Absolute value and maximum are rounded over a hundredth of the weight, so
 //! that the limits of τ are smooth functions of pose and numbers (docs/theory.md, (40b2) and (40b3)).
 
+use crate::math::dual::{Dual, Real};
+
 /// Width over which corners are rounded, as a part of the weight of the span.
 const ROUNDED: f64 = 0.01;
 
@@ -38,66 +40,71 @@ pub(crate) struct SpanForces {
 impl SpanForces {
     /// Lowest tension anywhere in the cable: at the lower end, or at the lowest point, or at the drum.
     pub(crate) fn lowest(&self) -> RoundedTension {
-        let Self { horizontal: h, weight, .. } = *self;
-        let [size, by_vertical, size_by_weight] = self.rounded_vertical();
-        let width = ROUNDED * weight;
-
-        // Vertical force at the lower end where that is below the lowest point of the curve; zero beyond.
-        let q = size - 0.5 * weight;
-        let root = (q * q + width * width).sqrt();
-        let low = if q > 0.0 { 0.5 * (q + root) } else { 0.5 * width * width / (root - q) };
-        let (by_q, by_width) = (low / root, 0.5 * width / root);
-
-        let value = h.hypot(low);
-        self.with_drum(
-            -1.0,
-            RoundedTension {
-                value,
-                by_horizontal: h / value,
-                by_vertical: low / value * by_q * by_vertical,
-                by_weight: low / value * (by_q * (size_by_weight - 0.5) + by_width * ROUNDED),
-                by_drum: 0.0,
-            },
-        )
+        self.with_derivatives(|forces| forces.lowest())
     }
 
     /// Highest tension anywhere in the cable: at the upper end, or at the drum.
     pub(crate) fn highest(&self) -> RoundedTension {
-        let [size, by_vertical, size_by_weight] = self.rounded_vertical();
-        let high = size + 0.5 * self.weight;
-        let value = self.horizontal.hypot(high);
-        self.with_drum(
-            1.0,
-            RoundedTension {
-                value,
-                by_horizontal: self.horizontal / value,
-                by_vertical: high / value * by_vertical,
-                by_weight: high / value * (size_by_weight + 0.5),
-                by_drum: 0.0,
-            },
-        )
+        self.with_derivatives(|forces| forces.highest())
     }
 
-    /// Rounded size of the mean vertical force, and its derivatives by that force and by the weight.
-    fn rounded_vertical(&self) -> [f64; 3] {
-        let width = ROUNDED * self.weight;
-        let size = self.vertical.hypot(width);
-        [size, self.vertical / size, ROUNDED * width / size]
+    fn with_derivatives(&self, of: impl Fn(&RoundedForces<Dual<4>>) -> Dual<4>) -> RoundedTension {
+        let horizontal = Dual::variable(self.horizontal, 0);
+        let found = of(&RoundedForces {
+            horizontal_squared: horizontal * horizontal,
+            vertical: Dual::variable(self.vertical, 1),
+            weight: Dual::variable(self.weight, 2),
+            drum: self.drum.map(|drum| Dual::variable(drum, 3)),
+        });
+        let [by_horizontal, by_vertical, by_weight, by_drum] = found.by;
+        RoundedTension { value: found.value, by_horizontal, by_vertical, by_weight, by_drum }
+    }
+}
+
+/// Forces of a span with weight, as [`SpanForces`], in numbers with derivatives.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct RoundedForces<T> {
+    /// Square of the horizontal force [N²].
+    pub(crate) horizontal_squared: T,
+    /// Mean of the vertical end forces.
+    pub(crate) vertical: T,
+    /// Weight of the free span, positive.
+    pub(crate) weight: T,
+    /// Tension at the drum of a cable over a pulley; `None` without one.
+    pub(crate) drum: Option<T>,
+}
+
+impl<T: Real> RoundedForces<T> {
+    /// Lowest tension, as [`SpanForces::lowest`].
+    pub(crate) fn lowest(&self) -> T {
+        let width = self.weight * ROUNDED;
+        let squared = width * width;
+
+        // Vertical force at the lower end where that is below the lowest point of the curve; zero beyond.
+        let q = self.rounded_vertical() - self.weight * 0.5;
+        let root = (q * q + squared).sqrt();
+        let low = if q.value() > 0.0 { (q + root) * 0.5 } else { squared * 0.5 / (root - q) };
+        self.with_drum(-1.0, (self.horizontal_squared + low * low).sqrt())
+    }
+
+    /// Highest tension, as [`SpanForces::highest`].
+    pub(crate) fn highest(&self) -> T {
+        let high = self.rounded_vertical() + self.weight * 0.5;
+        self.with_drum(1.0, (self.horizontal_squared + high * high).sqrt())
+    }
+
+    /// Rounded size of the mean vertical force.
+    fn rounded_vertical(&self) -> T {
+        let width = self.weight * ROUNDED;
+        (self.vertical * self.vertical + width * width).sqrt()
     }
 
     /// Rounded maximum (`side` 1) or minimum (−1) of a tension of the span and of that at the drum.
-    fn with_drum(&self, side: f64, span: RoundedTension) -> RoundedTension {
+    fn with_drum(&self, side: f64, span: T) -> T {
         let Some(drum) = self.drum else { return span };
-        let (width, apart) = (ROUNDED * self.weight, span.value - drum);
-        let root = apart.hypot(width);
-        let of_span = 0.5 * (1.0 + side * apart / root);
-        RoundedTension {
-            value: 0.5 * (span.value + drum + side * root),
-            by_horizontal: of_span * span.by_horizontal,
-            by_vertical: of_span * span.by_vertical,
-            by_weight: of_span * span.by_weight + side * 0.5 * width / root * ROUNDED,
-            by_drum: 1.0 - of_span,
-        }
+        let (width, apart) = (self.weight * ROUNDED, span - drum);
+        let root = (apart * apart + width * width).sqrt();
+        (span + drum + root * side) * 0.5
     }
 }
 

@@ -3,9 +3,10 @@
 use super::corners::{RoundedTension, SpanForces};
 use crate::catenary::space::HangingCable;
 use crate::catenary::{Catenary, Rope};
-use crate::drive::derivatives::{DriveDerivatives, OuterRow, VARIABLES, place};
+use crate::drive::at_tension::AtTension;
+use crate::drive::derivatives::{OuterRow, VARIABLES, place};
 use crate::drive::{BeyondExit, CableAtRest, tension_at_drum};
-use crate::math::{Rotation, Vec3};
+use crate::math::{Mat3, Rotation, Vec3};
 use crate::robot::{Cable, Pose, PulleyContact, Robot};
 use crate::statics::equilibrium::CableState;
 use crate::statics::error::StaticsError;
@@ -21,15 +22,31 @@ const MAX_STEPS: usize = 30;
 /// thousandth a step.
 const LAST_STEP: f64 = 1e-11;
 
-/// Last step of a search that begins at the limit of a pose nearby: a step this small leaves less than [`LAST_STEP`].
-const LAST_STEP_NEAR: f64 = 1e-8;
+/// Last step of a search that begins at the limit of a pose nearby: a step this small leaves less than [`LAST_STEP`],
+/// because tensions are nearly straight lines over τ.
+const LAST_STEP_NEAR: f64 = 3e-7;
+
+/// Maximum number of steps for a place on a pulley; 1 to 4 are usual.
+const MAX_PLACE_STEPS: usize = 12;
+
+/// Maximum step of wrap and swivel angle [rad] and of the free length over itself; beyond it the place is searched by
+/// rounds.
+const MAX_PLACE_STEP: f64 = 0.3;
+
+/// Next step of a place that is rounding.
+const LAST_PLACE_STEP: f64 = 1e-15;
+
+/// Ratio of two steps above which the derivatives are computed again.
+const SLOW: f64 = 0.02;
+
+/// Minimum wrap angle [rad]: near zero the swivel angle has hardly an effect.
+const MIN_WRAP: f64 = 1e-3;
+
+/// Part of the last step that a step by a slope with a held exit point may have: such a slope is a thousandth off.
+const HELD_SLOPE: f64 = 1e-3;
 
 /// Minimum slope of a tension by τ; see `MIN_SLOPE` in `tension/search.rs`.
 const MIN_SLOPE: f64 = 1e-3;
-
-/// Minimum ratio of span to chord from which on the derivative by τ counts the motion of the exit point. A vertical
-/// cable has no direction in which its horizontal force acts.
-const MIN_COSINE: f64 = 1e-6;
 
 /// Step of differences over the size of what changes. They are of the fourth order: the step leaves 1e-12 of a second
 /// derivative, and rounding leaves 1e-12.
@@ -44,6 +61,8 @@ pub(crate) struct TensionCurve<'a> {
     /// Place on the pulley; `None` without one.
     contact: Option<PulleyContact>,
     tau: f64,
+    /// Inverse derivatives of the conditions for the place on the pulley, at some place nearby.
+    place: Option<Mat3>,
 }
 
 /// Limit of τ that a limit of the tensions sets.
@@ -92,7 +111,7 @@ impl<'a> TensionCurve<'a> {
         let weight = loaded.load.size * loaded.chord_w(pose).norm();
         let tau = 6.0 * Catenary::MIN_TENSION_TO_WEIGHT * weight;
         let span = loaded.hang_with_tension(pose, tau);
-        Self { robot, i, span, contact, tau }
+        Self { robot, i, span, contact, tau, place: None }
     }
 
     /// Cable `i` of an equilibrium.
@@ -100,11 +119,24 @@ impl<'a> TensionCurve<'a> {
         let span = state.hanging.clone()?;
         let contact = state.drive.as_ref().and_then(|drive| drive.contact);
         let tau = span.catenary.parallel_tension();
-        Some(Self { robot, i, span, contact, tau })
+        Some(Self { robot, i, span, contact, tau, place: None })
     }
 
     pub(crate) fn cable(&self) -> &'a Cable {
         &self.robot.cables[self.i]
+    }
+
+    pub(super) fn robot(&self) -> &'a Robot {
+        self.robot
+    }
+
+    pub(super) fn index(&self) -> usize {
+        self.i
+    }
+
+    /// Cable in the form in which its tension is given.
+    pub(super) fn at_tension(&self) -> AtTension<'a, f64> {
+        at_tension(self.cable(), &self.span, self.contact)
     }
 
     /// Parallel tension τ [N].
@@ -125,12 +157,55 @@ impl<'a> TensionCurve<'a> {
     pub(crate) fn set(&mut self, tau: f64) {
         match self.contact.filter(|_| self.has_moving_exit()) {
             Some(contact) => {
-                let (span, contact) = exit_points::at_own_exit_point(self.cable(), &self.span, contact, tau);
+                let (span, contact) = self
+                    .at_place(contact, tau)
+                    .unwrap_or_else(|| exit_points::at_own_exit_point(self.cable(), &self.span, contact, tau));
                 (self.span, self.contact) = (span, Some(contact));
             }
             None => self.span = self.span.at_parallel_tension(tau),
         }
         self.tau = tau;
+    }
+
+    /// Span with another τ [N] and its place on the pulley, by Newton's method from the present place with derivatives
+    /// that are computed again only if they are too far away. `None` if it does not converge there.
+    fn at_place(&mut self, mut contact: PulleyContact, tau: f64) -> Option<(HangingCable, PulleyContact)> {
+        let mut rope = self.span.catenary.rope();
+        let mut given = self.at_tension();
+        let mut last = f64::INFINITY;
+        for _ in 0..MAX_PLACE_STEPS {
+            given.contact = Some(contact);
+            let (inverse, conditions, is_fresh) = match self.place {
+                Some(inverse) => (inverse, given.span(tau, &[0.0, 0.0, rope.unstrained_length]).conditions, false),
+                None => {
+                    let (inverse, conditions) = given.place_by(tau, rope.unstrained_length)?;
+                    (inverse, conditions, true)
+                }
+            };
+            self.place = Some(inverse);
+            let step = -inverse * Vec3::from(conditions);
+            let size = step[0].abs().max(step[1].abs()).max(step[2].abs() / rope.unstrained_length);
+            contact = contact.turned(step[0], step[1]);
+            rope.unstrained_length += step[2];
+            if size.is_nan() || size > MAX_PLACE_STEP || contact.wrap < MIN_WRAP {
+                self.place = None;
+                return None;
+            }
+
+            // The size of the next step, by the square or by the ratio of the last two.
+            let next = if is_fresh { size * size } else { size * (size / last).min(SLOW) };
+            if next <= LAST_PLACE_STEP {
+                let (end_w, up_w) = (self.cable().anchor.point_w + contact.exit_offset_w(), self.span.axes_w().1);
+                let span = HangingCable::with_parallel_tension(self.span.start_w, end_w, up_w, rope, tau);
+                return Some((span, contact));
+            }
+            if !is_fresh && size > SLOW * last {
+                self.place = None;
+            }
+            last = size;
+        }
+        self.place = None;
+        None
     }
 
     /// Slackest τ that is considered, (37) [N].
@@ -149,8 +224,13 @@ impl<'a> TensionCurve<'a> {
         }
     }
 
+    /// Source of the minimum tension at the present chord.
+    pub(super) fn minimum_kind(&self) -> MinimumTension {
+        MinimumTension::of(self.robot, self.i, &self.span.chord_w())
+    }
+
     /// Minimum tension of the cable [N], which by default depends on its chord.
-    fn minimum(&self, kind: MinimumTension) -> f64 {
+    pub(super) fn minimum(&self, kind: MinimumTension) -> f64 {
         match kind {
             MinimumTension::Given(value) => value,
             MinimumTension::OfCable { factor } => {
@@ -173,28 +253,29 @@ impl<'a> TensionCurve<'a> {
     /// Limits of τ by [`Self::limits`], searched from values near them.
     pub(super) fn limits_near(&self, near: Option<[f64; 2]>) -> [TauLimit<'a>; 2] {
         let near = near.filter(|_| self.weight_per_length() > 0.0);
-        let last_step = if near.is_some() { LAST_STEP_NEAR } else { LAST_STEP };
-        let chord_w = self.span.chord_w();
-        let minimum = MinimumTension::of(self.robot, self.i, &chord_w);
+        let is_near = near.is_some();
+        let last_step = if is_near { LAST_STEP_NEAR } else { LAST_STEP };
+        let minimum = self.minimum_kind();
         let maximum = self.cable().limits().maximum.unwrap_or(f64::INFINITY);
 
         let mut lower = self.clone();
         let start = near.map_or_else(|| lower.minimum(minimum), |[lower, _]| lower);
-        let is_slackest = lower.search((start, last_step), SpanForces::lowest, |curve| curve.minimum(minimum));
+        let is_slackest = lower.search((start, last_step, is_near), SpanForces::lowest, |curve| curve.minimum(minimum));
         let kind = if is_slackest { TauLimitKind::Slackest } else { TauLimitKind::Minimum(minimum) };
         let lower = TauLimit { curve: lower, kind };
 
         let mut upper = self.clone();
         let start = near.map_or(maximum, |[_, upper]| upper);
-        upper.search((start, last_step), SpanForces::highest, |_| maximum);
+        upper.search((start, last_step, is_near), SpanForces::highest, |_| maximum);
         [lower, TauLimit { curve: upper, kind: TauLimitKind::Maximum }]
     }
 
     /// Hangs the cable with the τ at which a tension has this value, or with the slackest τ if that is higher; true in
-    /// the latter case. The search has a start, and a relative step that is its last.
+    /// the latter case. The search has a start, and a relative step that is its last. `is_near` leaves the cable where it
+    /// was before that step, and changes τ alone.
     fn search(
         &mut self,
-        (start, last_step): (f64, f64),
+        (start, last_step, is_near): (f64, f64, bool),
         tension: impl Fn(&SpanForces) -> RoundedTension,
         wanted: impl Fn(&Self) -> f64,
     ) -> bool {
@@ -204,13 +285,28 @@ impl<'a> TensionCurve<'a> {
         }
         let mut is_slackest = false;
         self.set(start.max(self.slackest()));
+        let mut last: Option<[f64; 2]> = None;
         for _ in 0..MAX_STEPS {
-            let found = tension(&self.forces());
-            let next = self.tau + (wanted(self) - found.value) / self.slope(&found).max(MIN_SLOPE);
+            // The exit point follows in the slope between two places, and is held in the first one.
+            let (found, wanted) = (tension(&self.forces()), wanted(self));
+            let missing = wanted - found.value;
+            let slope = match last {
+                Some([tau, before]) if (self.tau - tau).abs() > 0.0 && self.has_moving_exit() => {
+                    (before - missing) / (self.tau - tau)
+                }
+                _ => self.slope(&found),
+            };
+            let trusted = if last.is_none() && self.has_moving_exit() { HELD_SLOPE * last_step } else { last_step };
+            last = Some([self.tau, missing]);
+            let next = self.tau + missing / slope.max(MIN_SLOPE);
             let slackest = self.slackest();
             is_slackest = next < slackest;
             let next = next.max(slackest);
-            let is_last = (next - self.tau).abs() <= last_step * next;
+            let is_last = (next - self.tau).abs() <= trusted * next;
+            if is_last && is_near {
+                self.tau = next;
+                break;
+            }
             self.set(next);
             if is_last {
                 break;
@@ -221,10 +317,11 @@ impl<'a> TensionCurve<'a> {
 
     /// Derivative of a tension by τ, the exit point held; that at the drum grows like that of the span.
     fn slope(&self, tension: &RoundedTension) -> f64 {
-        let by_tau = self.span.catenary.by_parallel_tension();
-        let [cos, _] = self.span.catenary.chord_direction();
-        let weight = self.weight_per_length() * by_tau.length[0];
-        let vertical = by_tau.vertical_at_start[0] + 0.5 * weight;
+        let catenary = &self.span.catenary;
+        let [cos, _] = catenary.chord_direction();
+        let by_tau = catenary.parallel_tension_by_length().recip();
+        let weight = self.weight_per_length() * by_tau;
+        let vertical = catenary.start_force_by_length()[1] * by_tau + 0.5 * weight;
         tension.by_horizontal * cos + tension.by_vertical * vertical + tension.by_weight * weight + tension.by_drum
     }
 
@@ -241,10 +338,10 @@ impl<'a> TensionCurve<'a> {
     }
 
     /// Derivative of the force on the platform along the curve, whose exit point follows: (60t2). `None` for a fixed
-    /// exit point and for a cable that is vertical.
+    /// exit point.
     fn force_by_tau_with_exit(&self) -> Option<Vec3> {
         let contact = self.contact.filter(|_| self.has_moving_exit())?;
-        force_by_tau_over_pulley(self.cable(), &self.span, contact)
+        force_by_tau_over_pulley(self.cable(), &self.span, contact, self.tau)
     }
 
     /// Second derivatives of the force on the platform, as far as it acts along a vector: of [`Self::force_by_tau`] by
@@ -300,7 +397,7 @@ impl<'a> TensionCurve<'a> {
         let up_w = -load_w / rope.weight_per_length;
         let span = HangingCable::with_parallel_tension(self.span.start_w, self.span.end_w, up_w, rope, tau);
         let (span, contact) = exit_points::at_own_exit_point(&cable, &span, contact, tau);
-        force_by_tau_over_pulley(&cable, &span, contact)
+        force_by_tau_over_pulley(&cable, &span, contact, tau)
     }
 
     /// Cable beyond the free span with its present tension.
@@ -346,21 +443,21 @@ impl<'a> TensionCurve<'a> {
 }
 
 /// Derivative of the force on the platform by τ for a cable with weight over a pulley, the exit point following; `None`
-/// for a vertical one.
-fn force_by_tau_over_pulley(cable: &Cable, span: &HangingCable, contact: PulleyContact) -> Option<Vec3> {
-    let derivatives = DriveDerivatives::of(span, &cable.anchor, Some(&contact))?;
-    let column = |rows: &[OuterRow; 3]| Vec3::from_fn(|k, _| rows[k][place::LENGTH]);
-    let (force, chord) = (column(&derivatives.force_w), column(&derivatives.chord_w));
+/// if the conditions do not determine the exit point.
+fn force_by_tau_over_pulley(cable: &Cable, span: &HangingCable, contact: PulleyContact, tau: f64) -> Option<Vec3> {
+    let length = span.catenary.rope().unstrained_length;
+    Some(at_tension(cable, span, Some(contact)).by_tension(tau, length)?.force_w)
+}
 
-    // τ = H l/x, with horizontal force H, chord l and span x.
-    let (along_w, _) = span.axes_w();
-    let (chord_w, x) = (span.chord_w(), span.catenary.span());
-    let square = chord_w.norm_squared();
-    if x * x < MIN_COSINE * MIN_COSINE * square {
-        return None;
+/// Cable of a span whose tension is given.
+fn at_tension<'a>(cable: &'a Cable, span: &HangingCable, contact: Option<PulleyContact>) -> AtTension<'a, f64> {
+    let rope = span.catenary.rope();
+    AtTension {
+        start_w: span.start_w.into(),
+        load: rope.weight_per_length,
+        up_w: span.axes_w().1.into(),
+        axial_stiffness: rope.axial_stiffness,
+        anchor: &cable.anchor,
+        contact,
     }
-    let by_length = span.catenary.parallel_tension()
-        * (along_w.dot(&force) / span.catenary.horizontal_force() + chord_w.dot(&chord) / square
-            - along_w.dot(&chord) / x);
-    Some(force / by_length)
 }

@@ -2,6 +2,7 @@
 //! limits, or none.
 
 use super::CentreCable;
+use crate::math::dual::Real;
 
 /// Distance from a limit, over the distance between the limits, below which a relaxed logarithm is a parabola. With a
 /// smaller one the tensions beyond the limits are nearer to the least possible, and Newton's method takes 40 to 60
@@ -33,6 +34,23 @@ impl Potential {
                 [below - above, bent_below + bent_above]
             }
             Self::None => [0.0, 1.0],
+        }
+    }
+
+    /// Slope by τ, between limits and at a tension in numbers with derivatives.
+    pub(super) fn slope<T: Real>(self, [lower, upper]: &[T; 2], tau: T) -> T {
+        let (below, above) = (tau - *lower, *upper - tau);
+        let inverse = |room: T| T::from(1.0) / room;
+        match self {
+            Self::Logarithms => inverse(above) - inverse(below),
+            Self::Relaxed => {
+                let width = (*upper - *lower) * RELAXED;
+                let relaxed = |room: T| {
+                    if room.value() >= width.value() { -inverse(room) } else { (room - width * 2.0) / (width * width) }
+                };
+                relaxed(below) - relaxed(above)
+            }
+            Self::None => T::from(0.0),
         }
     }
 

@@ -56,8 +56,10 @@ impl TensionSearch<'_> {
         let load = Coordinates::of(self.robot).reduce(&load_wrench(self.robot, self.pose));
         let claim = Infeasibility { set: WrenchSet { reaches: &reaches, motion }, load };
         let verdict = claim.prove(&optimum.multipliers);
-        if verdict.proved {
-            return Err(StaticsError::BeyondLimits(self.miss(&optimum)));
+        if let Some(direction) = verdict.direction {
+            let mut miss = self.miss(&optimum);
+            miss.missing = Some(Box::new(claim.missing(self.robot, &direction)));
+            return Err(StaticsError::BeyondLimits(miss));
         }
 
         // Other starts: the tensions with the maximum contributions in that direction, and others between the limits.
@@ -127,6 +129,7 @@ impl TensionSearch<'_> {
             minimum_of: names(Limit::Minimum),
             maximum_of: names(Limit::Maximum),
             obstacle: Obstacle::at(self.robot, self.pose, self.model).map(Box::new),
+            missing: None,
         }
     }
 

@@ -3,6 +3,7 @@
 use super::{COGIRO, cogiro, cogiro_pose, spread};
 use crate::random::Draw;
 use funicular::catenary::{Catenary, Rope};
+use funicular::control_loop::{ControlLoop, LoopInput, LoopModel};
 use funicular::math::{DMat, Vec3, Vec6};
 use funicular::robot::{Pose, Robot};
 use funicular::statics::{
@@ -209,7 +210,8 @@ fn a_miss_always_says_which_limits_are_in_the_way() {
         // Outside the anchors no limits help, and the message says in which direction no cable pulls.
         assert!(error.obstacle().is_some() && error.to_string().contains("no cable "), "{far:?}: {error}");
     }
-    let silent = LimitViolation { by: 1.0, minimum_of: Vec::new(), maximum_of: Vec::new(), obstacle: None };
+    let none = Vec::new;
+    let silent = LimitViolation { by: 1.0, minimum_of: none(), maximum_of: none(), obstacle: None, missing: None };
     assert_eq!(silent.to_string(), "by 1.0000 N");
 }
 
@@ -367,4 +369,44 @@ fn cables_that_all_pull_down_are_told_with_their_cause() {
         cable.attachment_p = anchor;
     }
     assert_eq!(said(&robot, 1.5).0, OneSidedCause::EndsSwapped);
+}
+
+/// Proof of a pose beyond the limits, confirmed by the loads of random tensions within them, which a control loop computes
+/// with the true curves: along the direction each of these loads lacks at least what the proof says.
+#[test]
+fn a_proof_holds_for_random_tensions_within_the_limits() {
+    let robot = cogiro(0.064, 100.0, 2000.0);
+    let model = LoopModel::new(robot.clone()).unwrap();
+    let (mut proved, mut closest) = (0, f64::INFINITY);
+    for i in 0..120 {
+        let pose = cogiro_pose(i);
+        for rule in [TensionRule::Centre, TensionRule::Lowest] {
+            let found = statics::distribute_tensions(&robot, &pose, StaticModel::Catenary, &rule);
+            let Err(StaticsError::BeyondLimits(miss)) = found else { continue };
+            let missing = miss.missing.as_ref().expect("proved");
+            assert!(missing.size > 0.0 && !missing.holds_exits, "{missing:?}");
+            assert!((missing.force_w.norm_squared() + missing.moment_w.norm_squared() - 1.0).abs() < 1e-12);
+            assert_eq!(missing.minimum_of.len() + missing.maximum_of.len(), 8);
+            assert!(miss.obstacle.is_some() || miss.to_string().contains("proof: even with cable"), "{miss}");
+            proved += 1;
+            for k in 0..12 {
+                let tensions: Vec<f64> = robot
+                    .cables
+                    .iter()
+                    .enumerate()
+                    .map(|(c, cable)| match k {
+                        0 if missing.maximum_of.contains(&cable.name) => 1980.0,
+                        0 => 105.0,
+                        _ => 105.0 + 1875.0 * spread(17 * i + k, c),
+                    })
+                    .collect();
+                let load = ControlLoop::new().load(&model, &LoopInput::at_rest(&pose), &tensions).unwrap();
+                let lacks = missing.force_w.dot(&load.force_w) + missing.moment_w.dot(&load.moment_w) / missing.length;
+                assert!(lacks >= missing.size, "{i}, {k}: {lacks} {missing:?}");
+                closest = closest.min(lacks / missing.size);
+            }
+        }
+    }
+    println!("{proved} proved, closest {closest}");
+    assert!(proved > 20 && closest < 1.5, "{proved} {closest}");
 }
