@@ -8,6 +8,7 @@ mod arc;
 mod between;
 mod bounded;
 mod cable_pair;
+mod convex_overlap;
 mod depth;
 mod free_way;
 mod moves;

@@ -284,7 +284,10 @@ fn ctrl_c_during_the_first_steps_keeps_what_was_found() {
     let few = stopped(227);
     assert_eq!(few.status.code(), Some(130), "{}", stderr(&few));
     let says = stderr(&few);
-    assert!(says.contains("asked so far, which are spread over the box") && says.contains("meet the conditions"), "{says}");
+    assert!(
+        says.contains("asked so far, which are spread over the box") && says.contains("meet the conditions"),
+        "{says}"
+    );
 
     // 256 steps: 16, 8 and 4 cells along each axis are ready after some thousand positions.
     let coarse = stopped(257);

@@ -1,6 +1,6 @@
 //! Bodies at their places: distances from segments, points and each other.
 
-use super::{BODY_TOLERANCE, depth};
+use super::{BODY_TOLERANCE, convex_overlap, depth};
 use crate::math::Vec3;
 use crate::robot::{Body, Pose, Solid, from_vector, vector};
 use parry3d_f64::bounding_volume::BoundingVolume;
@@ -162,12 +162,8 @@ impl PlacedBody {
     /// the other.
     fn overlap(&self, obstacle: &Self, [one, two]: [&SharedShape; 2]) -> (f64, [Vec3; 2]) {
         let (own, other) = (self.placement(), obstacle.placement());
-        if one.as_trimesh().is_none()
-            && two.as_trimesh().is_none()
-            && let Ok(Some(contact)) = query::contact(&own, &*one.0, &other, &*two.0, 0.0)
-            && contact.dist < 0.0
-        {
-            return (contact.dist, [from_vector(contact.point1), from_vector(contact.point2)]);
+        if let Some(found) = convex_overlap::depth([one, two], [&own, &other]) {
+            return found;
         }
 
         let [own_box, other_box] = [one.compute_aabb(&own), two.compute_aabb(&other)];

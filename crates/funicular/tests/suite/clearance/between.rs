@@ -124,3 +124,49 @@ fn a_rope_without_a_radius_does_not_pass_a_plate_unseen() {
         .unwrap();
     assert!(matches!(found, BetweenPlaces::TooNear { .. }), "{found:?}");
 }
+
+/// Cylinders in symmetric places, in which libraries miss contacts, overlap by the shortest way out.
+#[test]
+fn cylinders_in_symmetric_places_have_the_depth_of_the_way_out() {
+    let cylinder = |radius: f64, half_length: f64| Solid::Cylinder { radius, half_length };
+    let upright = |at: [f64; 3]| Pose::new(at, [0.0; 3]);
+    let lying = |at: [f64; 3]| Pose::new(at, [90.0, 0.0, 0.0]);
+    let cases = [
+        // One of them along y ends at the far side of an upright one.
+        (cylinder(0.05, 0.25), lying([0.0, -0.2, -0.1]), cylinder(0.05, 0.5), upright([0.0; 3]), 0.1),
+        // Both upright, side by side, one within the other, and one above the other.
+        (cylinder(0.2, 0.5), upright([0.3, 0.0, 0.0]), cylinder(0.2, 0.5), upright([0.0; 3]), 0.1),
+        (cylinder(0.1, 0.1), upright([0.0; 3]), cylinder(0.3, 2.0), upright([0.0; 3]), 0.4),
+        (cylinder(0.2, 0.5), upright([0.0, 0.0, 0.9]), cylinder(0.2, 0.5), upright([0.0; 3]), 0.1),
+        // In boxes: through a plate, and in the middle of a cube.
+        (
+            cylinder(0.05, 1.0),
+            upright([0.0; 3]),
+            Solid::Box { half: Vec3::new(1.0, 1.0, 0.02) },
+            upright([0.0; 3]),
+            1.02,
+        ),
+        (
+            cylinder(0.05, 1.0),
+            upright([0.98, 0.0, 0.0]),
+            Solid::Box { half: Vec3::repeat(1.0) },
+            upright([0.0; 3]),
+            0.07,
+        ),
+        (cylinder(0.2, 0.3), lying([0.0; 3]), Solid::Box { half: Vec3::repeat(0.5) }, upright([0.0; 3]), 0.7),
+        (Solid::Box { half: Vec3::repeat(0.1) }, upright([0.0; 3]), cylinder(0.1, 0.1), upright([0.0; 3]), 0.2),
+    ];
+    for (own, place, other, at, expected) in cases {
+        let mut robot = without_diameter();
+        let pose = Pose::new([0.5, -0.3, 1.5], [0.0; 3]);
+        let at = Pose { position_w: at.position_w + pose.position_w, ..at };
+        robot.platform.bodies = vec![column("case", place, own.clone())];
+        robot.obstacles = vec![column("post", at, other.clone())];
+        let (robot, rest) = at_rest(&robot, pose, 100.0);
+        let pair = ClearancePair::PlatformAndObstacle { body: 0, obstacle: 0 };
+        let found = of_pair(&Surroundings::of(&robot).clearances(&rest, None), pair);
+        assert!((found.distance + expected).abs() < 2e-5, "{own:?} {other:?}: {found:?} {expected}");
+        let between = found.points_w[0].metric_distance(&found.points_w[1]);
+        assert!((between - expected).abs() < 2e-5, "{own:?} {other:?}: {found:?}");
+    }
+}
