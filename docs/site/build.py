@@ -49,6 +49,25 @@ def copied(target: Path, site: Path) -> None:
         shutil.copytree(target / "doc", site / "_static/rust", ignore=shutil.ignore_patterns("src", ".lock"), dirs_exist_ok=True)
 
 
+# What the theme leaves to readers with a keyboard or a screen reader.
+FOR_ALL = [
+    ('class="caption" role="heading"', 'class="caption" role="heading" aria-level="2"'),
+    ('<div class="highlight"><pre>', '<div class="highlight"><pre tabindex="0">'),
+    ('<div class="table-wrapper', '<div tabindex="0" class="table-wrapper'),
+]
+
+
+def made_reachable(site: Path) -> None:
+    """Gives headings their level, and lets keys scroll wide code and tables."""
+    for page in site.rglob("*.html"):
+        if "_static" in page.relative_to(site).parts:
+            continue
+        text = page.read_text(encoding="utf-8")
+        for before, after in FOR_ALL:
+            text = text.replace(before, after)
+        page.write_text(text, encoding="utf-8")
+
+
 def main() -> int:
     """Builds the site; returns 1 if anything is wrong."""
     started = time.perf_counter()
@@ -74,6 +93,7 @@ def main() -> int:
     print(f"sources of the site after {time.perf_counter() - started:.0f} s", flush=True)
     if sphinx(["-q", "-W", "--keep-going", "-c", str(HERE), "-b", "html", str(sources), str(site)]) != 0:
         return 1
+    made_reachable(site)
     copied(target, site)
     dead = links.dead(site)
     for line in dead:

@@ -3,22 +3,15 @@
 
 use anyhow::{Context, Result, bail};
 use funicular::robot::Robot;
-use funicular_files::{Begin, UncertaintyOutcome, UncertaintyRun, WorkspaceRun};
+use funicular_files::{Begin, UncertaintyOutcome, UncertaintyRun, WorkspaceOutcome, WorkspaceRun};
 use funicular_study::analyses::simulate::{self, BegunRun, RowKeeper};
 use funicular_study::analyses::uncertainty::UncertaintyStudy;
-use funicular_study::analyses::workspace::WorkspaceStudy;
+use funicular_study::analyses::workspace::{FoundSoFar, WorkspaceStudy};
 use funicular_study::request::Request;
-use funicular_study::text::counted;
-use funicular_study::{Cancelled, Results, Watch, run_on};
+use funicular_study::{Cancelled, Results, Stopped, Watch, run_on};
 use std::num::NonZeroUsize;
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
-use thiserror::Error;
-
-/// Work that was stopped from outside, with what remains of it.
-#[derive(Debug, Error)]
-#[error("{0}")]
-pub struct Stopped(pub String);
 
 /// Way of running a request.
 pub struct Running<'a> {
@@ -84,22 +77,17 @@ pub fn run(request: &Request, robot: Option<Robot>, how: Running<'_>) -> Result<
 
 fn workspace(study: &WorkspaceStudy, mut how: Running<'_>) -> Result<Answer> {
     let (threads, cancel) = (how.threads, how.cancel);
-    let mut positions = 0;
-    let mut report = |done: usize, total: usize, what: &'static str| {
-        positions = done;
-        how.report(done, total, what);
+    let mut report = |done: usize, total: usize, so_far: &FoundSoFar| {
+        how.watch.note(&so_far.note());
+        how.report(done, total, "positions");
     };
-    let found = WorkspaceRun { threads, cancel }.run(study, &mut report)?;
-    let found = found.ok_or_else(|| {
-        Stopped(format!(
-            "stopped after {}, before the first steps of the grid were done: there is no set yet; give a ⟪grid⟫ with \
-             fewer values",
-            counted(positions, "position")
-        ))
-    })?;
+    let found = match (WorkspaceRun { threads, cancel }).run(study, &mut report)? {
+        WorkspaceOutcome::Found(found) => found,
+        WorkspaceOutcome::Stopped(so_far) => return Err(Stopped(so_far.stopped()).into()),
+    };
     let is_stopped = cancel.load(Ordering::Relaxed);
     let stopped = is_stopped.then(|| Stopped("stopped: the result is what was found until then".to_owned()).into());
-    Ok(Answer { results: Results::Workspace(Box::new(found)), stopped })
+    Ok(Answer { results: Results::Workspace(found), stopped })
 }
 
 fn uncertainty(study: &UncertaintyStudy, mut how: Running<'_>) -> Result<Answer> {

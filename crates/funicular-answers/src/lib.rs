@@ -11,6 +11,7 @@ pub mod inputs;
 mod matrices;
 pub mod outputs;
 
-pub use answer::{Running, Stopped};
+pub use answer::Running;
 pub use destination::{Content, Destination};
+pub use funicular_study::Stopped;
 pub use outputs::{FigureOptions, Output, Written};

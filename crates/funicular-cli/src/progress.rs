@@ -20,6 +20,9 @@ const BETWEEN_LINES: Duration = Duration::from_secs(10);
 /// Items that are done, of those known to be needed, for the next line.
 static SHOWN: Mutex<Option<(usize, usize, &'static str)>> = Mutex::new(None);
 
+/// What was found so far, for the next line.
+static NOTED: Mutex<String> = Mutex::new(String::new());
+
 /// Flag that is set while a thread writes lines.
 static WRITES_LINES: AtomicBool = AtomicBool::new(false);
 
@@ -35,12 +38,14 @@ impl ProgressLines {
             return Self { thread: None };
         }
         show(None);
+        note("");
         let (done, is_done) = mpsc::channel();
         let started = Instant::now();
         let thread = thread::spawn(move || {
             while is_done.recv_timeout(BETWEEN_LINES) == Err(RecvTimeoutError::Timeout) {
                 let shown = *SHOWN.lock().unwrap_or_else(PoisonError::into_inner);
-                errors::to_stderr(&line(shown, started.elapsed()));
+                let noted = NOTED.lock().unwrap_or_else(PoisonError::into_inner).clone();
+                errors::to_stderr(&line(shown, &noted, started.elapsed()));
             }
         });
         Self { thread: Some((done, thread)) }
@@ -58,21 +63,26 @@ impl Drop for ProgressLines {
     }
 }
 
+fn note(so_far: &str) {
+    so_far.clone_into(&mut NOTED.lock().unwrap_or_else(PoisonError::into_inner));
+}
+
 fn show(items: Option<(usize, usize, &'static str)>) {
     *SHOWN.lock().unwrap_or_else(PoisonError::into_inner) = items;
 }
 
-/// Line about items that are done, of those known to be needed, after a time.
-fn line(shown: Option<(usize, usize, &'static str)>, after: Duration) -> String {
+/// Line about items that are done, of those known to be needed, after a time, and about what was found so far.
+fn line(shown: Option<(usize, usize, &'static str)>, noted: &str, after: Duration) -> String {
     let seconds = after.as_secs();
-    match shown {
+    let line = match shown {
         Some((done, total, what)) if done > 0 && total > done => {
             let left = after.as_secs_f64() * (total - done) as f64 / done as f64;
             format!("{done} of {total} {what} after {seconds} s, about {left:.0} s left for these")
         }
         Some((done, _, what)) => format!("{done} {what} after {seconds} s"),
         None => format!("computing for {seconds} s"),
-    }
+    };
+    if noted.is_empty() { line } else { format!("{line}; {noted}") }
 }
 
 /// Counts finished items up to `total`.
@@ -157,6 +167,10 @@ impl Watch for TerminalProgress {
         interrupt::STOPPED.load(Ordering::Relaxed)
     }
 
+    fn note(&mut self, so_far: &str) {
+        note(so_far);
+    }
+
     fn progress(&mut self, done: usize, total: usize, what: &'static str) {
         // Another kind of work has a bar of its own.
         if self.bar.as_ref().is_some_and(|(_, shown)| *shown != what) {
@@ -207,11 +221,14 @@ mod tests {
     fn lines_say_what_is_done_and_what_is_left() {
         let after = Duration::from_secs(20);
         assert_eq!(
-            line(Some((50, 200, "positions")), after),
+            line(Some((50, 200, "positions")), "", after),
             "50 of 200 positions after 20 s, about 60 s left for these"
         );
-        assert_eq!(line(Some((200, 200, "positions")), after), "200 positions after 20 s");
-        assert_eq!(line(Some((0, 200, "rows")), after), "0 rows after 20 s");
-        assert_eq!(line(None, after), "computing for 20 s");
+        assert_eq!(
+            line(Some((200, 200, "positions")), "7 of 9 meet them", after),
+            "200 positions after 20 s; 7 of 9 meet them"
+        );
+        assert_eq!(line(Some((0, 200, "rows")), "", after), "0 rows after 20 s");
+        assert_eq!(line(None, "", after), "computing for 20 s");
     }
 }

@@ -46,7 +46,7 @@ pub use resumable_writer::{Begin, Job, Opened};
 pub use table::Table;
 pub use threads::Outcome;
 pub use uncertainty::{UncertaintyOutcome, UncertaintyRun};
-pub use workspace::WorkspaceRun;
+pub use workspace::{WorkspaceOutcome, WorkspaceRun};
 
 use endings::Kind;
 use funicular_study::columns::ResultTable;

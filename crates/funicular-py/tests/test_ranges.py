@@ -14,26 +14,34 @@ from funicular._declared import COMMANDS
 
 MOVE = {"move_to": [0.1, 0, 0.5, 0, 0, 0], "speed_m_s": 1.0}
 # Keys that the keys of a command need besides.
-BESIDE = {"trajectory": MOVE, "pose-error": {"mass_kg": (10, 20, 3)}, "speeds": {}, "settle": {}, "gust": {}}
+LENGTHS = {f"length_{i}_m": [6.8, 6.9, 6.7] for i in range(1, 7)}
+BESIDE: dict[str, dict[str, Any]] = {
+    "trajectory": MOVE,
+    "pose-error": {"mass_kg": (10, 20, 3)},
+    "design": {"change": {"platform.mass_kg": [5, 20]}},
+    "calibrate": {"readings": LENGTHS},
+    "reduce": {"below_hz": 5},
+}
 
 
 def numeric(command: str) -> list[str]:
     return [key["name"] for key in COMMANDS[command] if key["type"] == "SupportsFloat | SupportsIndex" and not key["required"]]
 
 
-@pytest.mark.parametrize("command", ["simulate", "trajectory", "pose-error", "statics", "modes", "settle", "gust", "loads"])
+@pytest.mark.parametrize("command", ["simulate", "trajectory", "pose-error", "statics", "modes", "settle", "gust", "loads", "design", "calibrate", "uncertainty", "workspace", "reduce", "frf"])
 def test_a_number_out_of_its_range_is_refused_before_any_work(robot: funicular.Robot, command: str) -> None:
     tried = 0
+    beside = BESIDE.get(command, {})
+    # The whole request, as one that is not refused writes it.
+    whole = funicular.Robot.request(robot, command, **beside)
     for key in numeric(command):
         for value in (-1e13, 1e13, -1.0):
-            given = {**BESIDE.get(command, {}), key: value}
-            text = json.dumps({"command": command, "robot": {"text": robot.to_toml()}, **given})
             try:
-                funicular.Robot.request(robot, command, **given)
+                funicular.Robot.request(robot, command, **{**beside, key: value})
             except InputError as error:
                 assert f"`{key}`" in str(error), error
                 with pytest.raises(InputError, match=f"`{key}`"):
-                    funicular.run(text)
+                    funicular.run(json.dumps({**whole, key: value}))
                 tried += 1
     assert tried >= 2
 

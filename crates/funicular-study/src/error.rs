@@ -39,6 +39,11 @@ pub struct NoSolution(pub String);
 #[error("stopped before the end")]
 pub struct Cancelled;
 
+/// Error of work that was stopped from outside, with what remains of it.
+#[derive(Debug, thiserror::Error)]
+#[error("{0}")]
+pub struct Stopped(pub String);
+
 /// Error of statics together with the warnings about the robot, which may be its cause; without warnings, and for a
 /// request that is wrong itself, the error alone. Its type stays known.
 pub(crate) fn with_warnings(error: StaticsError, robot: &Robot) -> anyhow::Error {
@@ -70,7 +75,7 @@ impl Error {
 impl ErrorKind {
     /// Kind of an error of any analysis.
     pub fn of(error: &anyhow::Error) -> Self {
-        if error.is::<Cancelled>() {
+        if error.is::<Cancelled>() || error.is::<Stopped>() {
             return Self::Cancelled;
         }
         let no_solution = match error.downcast_ref::<StaticsError>() {

@@ -60,7 +60,7 @@ mod watch;
 pub mod wording;
 pub mod written;
 
-pub use error::{Cancelled, Error, ErrorKind, NoSolution};
+pub use error::{Cancelled, Error, ErrorKind, NoSolution, Stopped};
 pub use request::Request;
 pub use run::{Results, run, run_at, run_on};
 pub use table_fault::TableFault;

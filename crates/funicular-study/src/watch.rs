@@ -8,6 +8,11 @@ pub trait Watch {
         let _ = (done, total, what);
     }
 
+    /// Notes what was found so far, which the next report shows.
+    fn note(&mut self, so_far: &str) {
+        let _ = so_far;
+    }
+
     /// True if the work shall stop at its next step.
     fn is_cancelled(&self) -> bool {
         false

@@ -5,8 +5,10 @@
 //! Every distance is certified: no other pair of points is nearer by more than [`TOLERANCE`].
 
 mod arc;
+mod between;
 mod bounded;
 mod cable_pair;
+mod convex_overlap;
 mod depth;
 mod free_way;
 mod moves;
@@ -22,6 +24,7 @@ use solid::PlacedBody;
 use span::{FreeSpan, SpanEnd};
 use std::sync::Arc;
 
+pub use between::{BetweenPlaces, WayBetween};
 pub use free_way::FreeWay;
 pub use moves::{Crossing, OnTheWay, WAY_TOLERANCE, straight_crossings};
 
@@ -88,6 +91,15 @@ impl ClearanceKind {
 }
 
 impl ClearancePair {
+    /// Sum of a number over the cables of the pair, by their indices.
+    fn of_cables(self, number: impl Fn(usize) -> f64) -> f64 {
+        match self {
+            Self::Cables(i, j) => number(i) + number(j),
+            Self::CableAndPlatform { cable, .. } | Self::CableAndObstacle { cable, .. } => number(cable),
+            Self::PlatformAndObstacle { .. } => 0.0,
+        }
+    }
+
     /// Kind of the pair.
     pub fn kind(self) -> ClearanceKind {
         match self {
@@ -376,7 +388,11 @@ impl Placed<'_> {
                 self.spans[cable].nearest_on(&self.of.obstacles[obstacle], SpanEnd::Anchor, enough + required)?
             }
             ClearancePair::PlatformAndObstacle { body, obstacle } => {
-                self.platform[body].nearest_to(&self.of.obstacles[obstacle])
+                let (own, other) = (&self.platform[body], &self.of.obstacles[obstacle]);
+                if own.lower_bound_to(other) > enough + required {
+                    return None;
+                }
+                own.nearest_to(other)
             }
         };
         Some(Clearance { pair, distance, required, points_w })

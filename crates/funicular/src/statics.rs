@@ -60,7 +60,7 @@ mod stiffness; // tangent stiffness and stability
 mod tension_gain; // nearness to a singular pose
 
 pub use capacity::{
-    LoadCapacity, LoadFactor, WrenchClosure, load_factor_bounds, load_factor_bounds_in_wind, wrench_closure,
+    LoadCapacity, LoadFactor, WrenchClosure, load_factor_bounds, load_factor_verdict_in_wind, wrench_closure,
 };
 pub(crate) use capacity::{LoadCoefficients, required_wrench, robots_under_required_loads};
 pub use closed_form::closed_form_margin;

@@ -386,3 +386,42 @@ fn a_rule_that_jumps_has_no_rate_across_the_jump() {
         assert_eq!(warnings.contains("the rule `middle` jumps to other tensions at 1 time"), jumps > 0, "{warnings}");
     }
 }
+
+/// A thin plate that the platform passes between two rows: no row is near it, and still it is told with its time.
+#[test]
+fn what_is_passed_between_two_rows_is_told_with_its_time() {
+    let folder = tempfile::tempdir().unwrap();
+    let with_plate = |x: f64| {
+        let path = folder.path().join("plate.toml");
+        let plate = format!(
+            "[obstacles.plate]\nshape = \"box\"\nposition_m = [{x}, 0.0, 1.9]\nsize_m = [0.0004, 0.4, 0.2]\n\
+             [platform_bodies.sign]\nposition_m = [0.0, 0.0, 0.4]\nsize_m = [0.0004, 0.4, 0.2]\n"
+        );
+        fs::write(&path, format!("{}\n{plate}", fs::read_to_string(robot("cogiro.toml")).unwrap())).unwrap();
+        path.display().to_string()
+    };
+    let moved = |x: f64, more: &[&str]| {
+        let course = ["--pose", "-2,0,1.5", "--move-to", "2,0,1.5", "--speed-m-s", "2", "--acceleration-m-s2", "2"];
+        json(&[&["trajectory", &with_plate(x)], &course[..], more].concat())
+    };
+    for (x, step) in [(0.3137, "0.5"), (-0.711, "0.25"), (0.3137, "0.05")] {
+        let found = moved(x, &["--sample-time-s", step]);
+        let rows = found["rows"].as_array().unwrap();
+        let margin = |row: &serde_json::Value| number(&row["clearance_margin_m"]);
+        assert!(rows.iter().all(|row| margin(row) > 0.0), "{step}");
+        assert_eq!(found["within_limits"], false, "{step}");
+        assert_eq!(found["most_used"]["limit"], "clearance", "{}", found["most_used"]);
+        let (nearest, time) = (&found["nearest"], number(&found["nearest"]["t_s"]));
+        assert!(nearest["pair"].as_str().unwrap().contains("plate"), "{nearest}");
+        assert!(number(&nearest["distance_m"]) <= 1e-8, "{nearest}");
+        // The platform is at the plate then.
+        let before = rows.iter().rev().find(|row| number(&row["t_s"]) <= time).unwrap();
+        let after = rows.iter().find(|row| number(&row["t_s"]) >= time).unwrap();
+        let place = |row: &serde_json::Value| number(&row["position_m"][0]);
+        assert!(place(before) <= x && x <= place(after), "{time}");
+    }
+
+    // Beside the way nothing is told.
+    let free = moved(3.5, &["--sample-time-s", "0.5"]);
+    assert_eq!(free["within_limits"], true, "{}", free["most_used"]);
+}

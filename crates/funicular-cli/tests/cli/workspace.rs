@@ -262,3 +262,35 @@ fn a_limit_that_is_met_exactly_over_a_region_loses_nothing() {
         stderr(&refused)
     );
 }
+
+/// Ctrl-C keeps what was found: a set of larger steps where they divide the grid, and otherwise what the positions say
+/// that were asked so far.
+#[cfg(unix)]
+#[test]
+fn ctrl_c_during_the_first_steps_keeps_what_was_found() {
+    let stopped = |values: usize| {
+        let grid: Vec<String> = ["x=-7:7", "y=-5:5", "z=0:5"].iter().map(|axis| format!("{axis}:{values}")).collect();
+        let mut long = std::process::Command::new(env!("CARGO_BIN_EXE_funicular"));
+        long.args(["workspace", &robot("cogiro.toml"), "--required-force-n", "50,50,50"]);
+        for axis in &grid {
+            long.args(["--grid", axis]);
+        }
+        let child = long.stdout(std::process::Stdio::piped()).stderr(std::process::Stdio::piped()).spawn().unwrap();
+        std::thread::sleep(std::time::Duration::from_secs(4));
+        std::process::Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap();
+        child.wait_with_output().unwrap()
+    };
+    // 226 steps have no larger ones but two at once: some 1.5 million positions come first.
+    let few = stopped(227);
+    assert_eq!(few.status.code(), Some(130), "{}", stderr(&few));
+    let says = stderr(&few);
+    assert!(
+        says.contains("asked so far, which are spread over the box") && says.contains("meet the conditions"),
+        "{says}"
+    );
+
+    // 256 steps: 16, 8 and 4 cells along each axis are ready after some thousand positions.
+    let coarse = stopped(257);
+    assert_eq!(coarse.status.code(), Some(130), "{}", stderr(&coarse));
+    assert!(stdout(&coarse).contains("volume") && stderr(&coarse).contains("stopped"), "{}", stderr(&coarse));
+}

@@ -34,7 +34,7 @@ use funicular::dynamics::{Dynamics, Linearisation};
 use funicular::math::Vec3;
 use funicular::modes::damped::DampedModes;
 use funicular::modes::{self, CommandedMotions, Decay, DecayingMotion, LengthCommand, Modes, Release};
-use funicular::robot::Robot;
+use funicular::robot::{Cable, Robot};
 use funicular::statics::{Equilibrium, Stability, StaticModel};
 use history::SwingHistory;
 use motion::MotionKind;
@@ -213,7 +213,35 @@ const FREQUENCIES_DIFFER: f64 = 0.1;
 pub fn run(robot: Robot, request: &SettleRequest) -> Result<Settled> {
     checked(request)?;
     let state = trajectory::state(&robot, request)?;
-    about(&at_rest::equilibrium(robot, &request.robot, &state, &request.tensions)?, request)
+    let at_rest = |robot: Robot| at_rest::equilibrium(robot, &request.robot, &state, &request.tensions);
+    let light = CommandKind::of(request).and_then(|_| with_light_ropes(&robot));
+    let Some(light) = light else { return about(&at_rest(robot)?, request) };
+
+    // What is unusual about the light ropes is none of the user's values.
+    let (given, light) = (at_rest(robot)?, at_rest(light)?);
+    let known: Vec<String> = given.implausible().collect();
+    let added: Vec<String> = light.implausible().filter(|warning| !known.contains(warning)).collect();
+    let mut found = about(&light, request)?;
+    found.warnings.retain(|warning| !added.contains(warning));
+    Ok(found)
+}
+
+/// Mass of a rope without mass while its length is commanded, per metre and over the mass of the platform: its own
+/// vibration is far above that of the platform, and its weight is below the digits of a tension.
+const LIGHT: f64 = 1e-9;
+
+/// Robot whose ropes without mass have a negligible one, because only a rope with mass has a commanded length; `None`
+/// if all ropes have mass.
+fn with_light_ropes(robot: &Robot) -> Option<Robot> {
+    let is_massless = |cable: &Cable| cable.material.mass_per_length == 0.0;
+    if !robot.cables.iter().any(is_massless) {
+        return None;
+    }
+    let mut light = robot.clone();
+    for cable in light.cables.iter_mut().filter(|cable| is_massless(cable)) {
+        cable.material.mass_per_length = LIGHT * robot.platform.mass;
+    }
+    Some(light)
 }
 
 /// Computes the decay of a robot at equilibrium. The state of the request is not used.

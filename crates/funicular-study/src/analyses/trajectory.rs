@@ -4,6 +4,7 @@ mod at_time;
 mod fastest;
 mod instants;
 mod jumps;
+mod passing;
 mod planned;
 mod rounded;
 mod rows;
@@ -65,7 +66,7 @@ rows! {
         pub static_model: &'static str;
         pub origin: Origin = spread;
         pub duration_s: f64;
-        /// True if every limit of tensions and winches is kept on the whole path, and that of distances at all rows.
+        /// True if every limit of tensions, winches and distances is kept on the whole path.
         pub within_limits: bool;
         /// Limit of which the largest part is used; absent if the robot file has none. All of a minimum tension is used
         /// where the rule holds a cable there by its choice.
@@ -311,7 +312,8 @@ fn found(
         static_model: planned.model.name(),
         origin: Origin::of(at_rest),
         duration_s: planned.path.duration(),
-        within_limits: used.iter().flatten().all(|(_, part)| *part <= 1.0 + ROUNDING),
+        within_limits: used.iter().flatten().all(|(_, part)| *part <= 1.0 + ROUNDING)
+            && samples.passing.as_ref().is_none_or(|passing| passing.too_near().is_none()),
         most_used: most_used(robot, samples, &used),
         used: largest_used(robot, samples, &parts),
         inertia_factor: used::part_of_inertia(planned, &samples.motions)
@@ -345,15 +347,17 @@ fn frames(samples: &MotionSamples) -> Vec<(f64, Equilibrium)> {
 }
 
 fn most_used(robot: &Robot, samples: &MotionSamples, used: &[Option<(UsedLimit, f64)>]) -> Option<MostUsed> {
-    let each = used.iter().enumerate().filter_map(|(k, used)| used.map(|used| (k, used)));
-    let (k, used) = each.max_by(|a, b| a.1.1.total_cmp(&b.1.1)).filter(|(_, (_, part))| *part > 0.0)?;
-    Some(MostUsed::of(robot, samples.times[k], used))
+    let each = samples.times.iter().zip(used).filter_map(|(time, used)| used.map(|used| (*time, used)));
+    let each = each.chain(used::between_rows(samples));
+    let (time, used) = each.max_by(|a, b| a.1.1.total_cmp(&b.1.1)).filter(|(_, (_, part))| *part > 0.0)?;
+    Some(MostUsed::of(robot, time, used))
 }
 
 /// Largest used part of every kind of limit, the largest first.
 fn largest_used(robot: &Robot, samples: &MotionSamples, parts: &[Vec<(UsedLimit, f64)>]) -> Vec<MostUsed> {
     let mut found: Vec<(f64, MostUsed)> = Vec::new();
     let each = parts.iter().zip(&samples.times).flat_map(|(parts, time)| parts.iter().map(move |of| (*time, *of)));
+    let each = each.chain(used::between_rows(samples));
     for (time, (limit, part)) in each.filter(|(_, (_, part))| *part > 0.0) {
         let of = || MostUsed::of(robot, time, (limit, part));
         match found.iter_mut().find(|(_, of)| of.limit == limit.name()) {
@@ -429,14 +433,16 @@ fn power_sums(robot: &Robot, samples: &MotionSamples) -> Option<PowerSums> {
 
 /// Pair with the least margin.
 fn nearest(robot: &Robot, samples: &MotionSamples) -> Option<Nearest> {
-    let times = samples.rows.iter().map(|k| &samples.times[*k]);
+    let times = samples.rows.iter().map(|k| samples.times[*k]);
     let each = samples.nearest.iter().zip(times).filter_map(|(pair, t_s)| Some((pair.as_ref()?, t_s)));
-    let (pair, t_s) = each.min_by(|a, b| a.0.margin().total_cmp(&b.0.margin()))?;
+    let between = samples.passing.as_ref().and_then(|passing| passing.too_near());
+    let (pair, t_s) =
+        each.chain(between.map(|(t_s, pair)| (pair, t_s))).min_by(|a, b| a.0.margin().total_cmp(&b.0.margin()))?;
     Some(Nearest {
         pair: Surroundings::of(robot).pair_text(pair.pair),
         distance_m: pair.distance,
         required_m: pair.required,
-        t_s: *t_s,
+        t_s,
     })
 }
 
@@ -515,6 +521,13 @@ fn warnings(
              cables do not hang as at rest: repeat it with `simulate`",
             significant(*motion_hz, 3),
             significant(*cable_hz, 3)
+        ));
+    }
+    if let Some(passing::Passing::Undecided { time }) = samples.passing {
+        found.push(format!(
+            "at {} s and elsewhere a pair stays so near to its required distance that the verdict between the rows is \
+             open: require a little less, or more, in [clearance]",
+            significant(time, 4)
         ));
     }
     let by_differences = samples.motions.iter().filter_map(|motion| motion.no_exact_rates.as_ref());

@@ -4,6 +4,7 @@ mod conditions;
 mod places;
 mod reach;
 mod rows;
+mod so_far;
 mod study;
 
 pub use conditions::ConditionRow;
@@ -12,10 +13,11 @@ pub use rows::{
     AreaOfWorkspace, ComparedSets, GridOfWorkspace, InnerBox, PartOfWorkspace, RaysOfWorkspace, SectionOfWorkspace,
     VolumeRow, Workspace,
 };
+pub use so_far::FoundSoFar;
 pub use study::{EvaluateSet, SearchedSet, WorkspaceStudy};
 
 use crate::Watch;
-use crate::error::Cancelled;
+use crate::error::Stopped;
 use crate::request::WorkspaceRequest;
 use anyhow::Result;
 use funicular::math::Vec3;
@@ -31,7 +33,7 @@ const POSES_AT_ONCE: usize = 64;
 /// before anything was found.
 pub fn run(robot: Robot, request: &WorkspaceRequest, watch: &mut dyn Watch) -> Result<Workspace> {
     let study = WorkspaceStudy::new(robot, request)?;
-    let mut done = 0;
+    let (mut done, mut so_far) = (0, FoundSoFar::default());
     let mut evaluate = |set: SearchedSet, positions: &[Vec3]| {
         let total = done + positions.len();
         let mut values = Vec::with_capacity(positions.len());
@@ -39,11 +41,15 @@ pub fn run(robot: Robot, request: &WorkspaceRequest, watch: &mut dyn Watch) -> R
             if watch.is_cancelled() {
                 return None;
             }
-            values.extend(chunk.iter().map(|position| study.value(set, position)));
+            let found: Vec<Option<f64>> = chunk.iter().map(|position| study.value(set, position)).collect();
+            so_far.add(set, chunk, &found);
+            values.extend(found);
             done += chunk.len();
-            watch.progress(done, total, "poses");
+            watch.note(&so_far.note());
+            watch.progress(done, total, "positions");
         }
         Some(values)
     };
-    study.find(&mut evaluate)?.ok_or_else(|| Cancelled.into())
+    let found = study.find(&mut evaluate)?;
+    found.ok_or_else(|| Stopped(so_far.stopped()).into())
 }

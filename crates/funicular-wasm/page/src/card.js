@@ -64,6 +64,18 @@ function drawLegend(pen, x, y) {
   write(pen, `Tension: ${numbers}`, { x: x + 236, y, width: WIDTH, size: 17, color: "--soft" });
 }
 
+/** Pose of the platform in words. */
+function poseText() {
+  const number = (value, digits) => value.toFixed(digits).replace(/^-(0\.?0*)$/, "$1");
+  if (!page.pose) {
+    return "";
+  }
+  const [x, y, z, ...turn] = page.pose;
+  const place = [x, y, z].map((value) => number(value, 3)).join(", ");
+  const turned = turn.some((angle) => Math.abs(angle) >= 0.005);
+  return `Platform at ${place} m${turned ? `, turned by ${turn.map((angle) => number(angle, 2)).join(", ")}°` : ""}`;
+}
+
 /**
  * Picture of the present state.
  * @param {string} link address with the state
@@ -74,11 +86,12 @@ export async function card(link) {
   const inside = WIDTH - 2 * MARGIN;
   const high = Math.round((inside * view.height) / view.width);
   const canvas = document.createElement("canvas");
-  [canvas.width, canvas.height] = [WIDTH, high + CODE + 270];
+  [canvas.width, canvas.height] = [WIDTH, high + CODE + 315];
   const pen = canvas.getContext("2d");
   pen.fillStyle = style("--paper");
   pen.fillRect(0, 0, canvas.width, canvas.height);
-  const top = write(pen, page.about.name, { x: MARGIN, y: 52, width: inside, size: 32, weight: 600 });
+  const name = write(pen, page.about.name, { x: MARGIN, y: 52, width: inside, size: 32, weight: 600 });
+  const top = write(pen, poseText(), { x: MARGIN, y: name + 8, width: inside, size: 17, color: "--soft" }) + 14;
   pen.drawImage(view, MARGIN, top - 10, inside, high);
   drawLegend(pen, MARGIN, top + high + 20);
 

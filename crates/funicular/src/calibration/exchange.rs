@@ -1,12 +1,16 @@
 //! Cables whose readings are exchanged.
 
 use super::ITERATIONS_OF_START;
+use super::fit::MAX_ITERATIONS;
 use super::frame::CalibrationFrame;
 use super::{Calibration, CalibrationFit, CalibrationUnknown, MeasuredRow};
 use crate::robot::Pose;
 
 /// χ² of an exchange, relative to that before, below which rows look for better poses.
 const WORTH_POLISHING: f64 = 1.0;
+
+/// Maximum number of pairs of elastic cables whose readings are exchanged: their fits take a hundred times longer.
+const MAX_ELASTIC_PAIRS: usize = 6;
 
 /// Exchange of two cables.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -32,10 +36,7 @@ fn exchanged(row: &MeasuredRow, [a, b]: [usize; 2]) -> MeasuredRow {
 /// points, whose readings only rename anchors, by a figure that is nearer to the file by a factor of 4.
 pub fn cable_exchange(of: &Calibration, fit: &CalibrationFit, frame: &CalibrationFrame) -> Option<CableExchange> {
     let count = of.robot.cables.len();
-    if of.is_elastic() {
-        return None;
-    }
-    if of.is_point() {
+    if of.is_point() && !of.is_elastic() {
         return renamed_anchors(of, fit);
     }
     let start = of.start();
@@ -47,6 +48,9 @@ pub fn cable_exchange(of: &Calibration, fit: &CalibrationFit, frame: &Calibratio
     let mut ranked: Vec<CableExchange> =
         pairs(count).map(|cables| CableExchange { cables, chi2: by_poses(cables) }).collect();
     ranked.sort_by(|a, b| a.chi2.total_cmp(&b.chi2));
+    if of.is_elastic() {
+        ranked.truncate(MAX_ELASTIC_PAIRS);
+    }
 
     // From rough values of the file the poses alone mislead: every pair is fitted, until one fits as noise.
     let noise = of.largest_of_noise(frame);
@@ -74,9 +78,6 @@ pub fn cable_exchange(of: &Calibration, fit: &CalibrationFit, frame: &Calibratio
 /// Cable whose readings fall while it pays out, with χ² after a change of their sign: it falls by a factor of 10. The
 /// search needs unknown offsets, because a length is positive.
 pub fn encoder_of_other_sign(of: &Calibration, fit: &CalibrationFit, frame: &CalibrationFrame) -> Option<(usize, f64)> {
-    if of.is_elastic() {
-        return None;
-    }
     let flipped = |cable: usize| {
         let offset = of.position_of(&CalibrationUnknown::Offset { cable })?;
         let readings: Vec<f64> = of.rows.iter().filter_map(|row| row.readings[cable]).collect();
@@ -88,7 +89,13 @@ pub fn encoder_of_other_sign(of: &Calibration, fit: &CalibrationFit, frame: &Cal
         // The mean length stays that of the readings as they were.
         let mut start = of.start();
         start[offset] = 2.0 * mean;
-        let found = other.fit(&start, &of.start_poses(), &frame.free);
+        let states = other.states(&start, &of.start_poses());
+        let found = other.fit_within(
+            if of.is_elastic() { ITERATIONS_OF_START } else { MAX_ITERATIONS },
+            &start,
+            states,
+            &frame.free,
+        );
         Some((cable, found.chi2))
     };
     let best = (0..of.robot.cables.len()).filter_map(flipped).min_by(|a, b| a.1.total_cmp(&b.1))?;

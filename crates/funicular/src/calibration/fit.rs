@@ -219,7 +219,7 @@ impl Calibration {
 }
 
 /// States of the rows of a fit.
-fn states_of(fit: &CalibrationFit) -> Vec<RowState> {
+pub(super) fn states_of(fit: &CalibrationFit) -> Vec<RowState> {
     let states = fit.poses.iter().enumerate();
     states.map(|(j, pose)| RowState { pose: *pose, lengths: fit.lengths.get(j).cloned().unwrap_or_default() }).collect()
 }

@@ -1,15 +1,23 @@
 //! Mirror images of single anchors. If all points of the platform from which a cable was read lie in a plane, or on a
 //! line of a planar robot, its anchor may as well stand on the other side of it.
 
+use super::elastic::RowState;
 use super::frame::CalibrationFrame;
 use super::{Calibration, CalibrationFit, CalibrationUnknown, ITERATIONS_OF_START, MeasuredRow};
 use crate::math::{DMat, DVec, Vec3};
 use crate::platform::StraightCable;
 use crate::robot::Pose;
+use crate::statics::StaticModel;
 
 /// Maximum number of fits that look for mirror images. Waypoints on one line with four cables have eight minima, which
 /// need some thirty.
 const MAX_FITS: usize = 48;
+
+/// Maximum number of images that are fitted with elastic cables, whose fits take a hundred times longer.
+const MAX_ELASTIC_FITS: usize = 8;
+
+/// Excess of χ² over the largest one up to which an image of straight rigid cables is fitted with elastic ones.
+const WORTH_FITTING: f64 = 100.0;
 
 /// Iterations of a fit after which it has to be near noise: the readings of a true mirror image fit at once.
 const ITERATIONS_OF_IMAGE: usize = 25;
@@ -53,7 +61,7 @@ impl Calibration {
         largest_chi2: f64,
     ) -> Vec<OtherMinimum> {
         if self.is_elastic() {
-            return Vec::new();
+            return self.elastic_images(from, frame, largest_chi2);
         }
         let count = self.robot.cables.len();
         let mut found = vec![OtherMinimum { fit: from.clone(), mirrored: Vec::new() }];
@@ -83,6 +91,38 @@ impl Calibration {
         }
         found.remove(0);
         found
+    }
+
+    /// Mirror images of elastic cables: found with straight rigid ones between the same points, and then fitted.
+    fn elastic_images(&self, from: &CalibrationFit, frame: &CalibrationFrame, largest_chi2: f64) -> Vec<OtherMinimum> {
+        let rigid = self.rigid_at(from);
+        let straight = CalibrationFit { lengths: vec![Vec::new(); from.poses.len()], chi2: 0.0, ..from.clone() };
+        let largest = WORTH_FITTING * (largest_chi2 - from.chi2).max(1.0);
+        let images = rigid.mirror_images(&straight, frame, largest);
+        let fitted = images.into_iter().take(MAX_ELASTIC_FITS).map(|OtherMinimum { fit: image, mirrored }| {
+            // The true lengths are those of the minimum.
+            let lengths = image.poses.iter().zip(&from.lengths);
+            let states = lengths.map(|(pose, lengths)| RowState { pose: *pose, lengths: lengths.clone() }).collect();
+            let fit = self.fit_within(ITERATIONS_OF_START, &image.values, states, &frame.free);
+            OtherMinimum { fit, mirrored }
+        });
+        let is_other =
+            |of: &OtherMinimum| of.fit.converged && of.fit.chi2 <= largest_chi2 && !self.is_same(&of.fit, from);
+        fitted.filter(is_other).collect()
+    }
+
+    /// Calibration of straight rigid cables whose readings are the distances of a fit.
+    fn rigid_at(&self, fit: &CalibrationFit) -> Self {
+        let at = self.robot_at(&fit.values);
+        let row = |(row, pose): (&MeasuredRow, &Pose)| {
+            let read = row.readings.iter().enumerate();
+            let readings = read.map(|(i, reading)| {
+                reading.map(|_| (at.robot.cables[i].straight_length(pose) - at.offsets[i]) / at.scale)
+            });
+            MeasuredRow { readings: readings.collect(), tensions: Vec::new(), ..row.clone() }
+        };
+        let rows = self.rows.iter().zip(&fit.poses).map(row).collect();
+        Self { rows, model: StaticModel::Ideal, ..self.clone() }
     }
 
     /// Values and poses with one anchor on the other side of its rows, placed by the frame; `None` where it has no such
@@ -135,11 +175,8 @@ impl Calibration {
     }
 
     /// Row off the plane or line of the rows of a fit that tells it from another one; `None` if no pose that was tried
-    /// does so by more than the noise of the readings.
+    /// does so by more than the noise of the readings. Elastic cables are straight and rigid for it.
     pub fn telling_row(&self, fit: &CalibrationFit, other: &CalibrationFit) -> Option<TellingRow> {
-        if self.is_elastic() {
-            return None;
-        }
         let robot = self.robot_at(&fit.values);
         let middle = fit.poses.iter().map(|pose| pose.position_w).sum::<Vec3>() / fit.poses.len().max(1) as f64;
         let first = fit.poses.first()?;

@@ -3,12 +3,16 @@
 
 use super::ITERATIONS_OF_START;
 use super::exchange::{CableExchange, row_exchange};
+use super::fit::states_of;
 use super::frame::CalibrationFrame;
 use super::{Calibration, CalibrationFit, CalibrationUnknown, MeasuredRow};
 use crate::robot::Pose;
 
 /// Largest number of rows of which each is left out in turn; of longer tables the most suspicious ones.
 const MAX_TRIED: usize = 40;
+
+/// Largest number of rows of elastic cables of which each is left out in turn: their fits take a hundred times longer.
+const MAX_TRIED_ELASTIC: usize = 10;
 
 /// Largest part of the rows that can be wrong.
 const MAX_PART: usize = 5;
@@ -52,9 +56,6 @@ pub fn wrong_rows(
     beyond: &dyn Fn(&WrongRow) -> bool,
 ) -> Vec<WrongRow> {
     let mut wrong = Vec::new();
-    if of.is_elastic() {
-        return wrong;
-    }
     let mut rest = Rest { of: of.clone(), rows: (0..of.rows.len()).collect(), fit: fit.clone() };
     while wrong.len() * MAX_PART < of.rows.len() {
         let Some((place, next)) = rest.without_worst(frame, least_variance) else { break };
@@ -129,26 +130,28 @@ impl Rest {
                 }
             }
         }
-        order.truncate(MAX_TRIED);
+        order.truncate(if of.is_elastic() { MAX_TRIED_ELASTIC } else { MAX_TRIED });
         order
     }
 
     /// The others, fitted again from the values of the file and from this fit; `None` for a row that they need.
     fn without(&self, place: usize, frame: &CalibrationFrame) -> Option<Self> {
-        let (mut of, mut rows, mut poses) = (self.of.clone(), self.rows.clone(), self.fit.poses.clone());
+        let (mut of, mut rows, mut fit) = (self.of.clone(), self.rows.clone(), self.fit.clone());
         of.rows.remove(place);
         rows.remove(place);
-        poses.remove(place);
+        fit.poses.remove(place);
+        fit.lengths.remove(place);
         let is_read = |cable: usize| of.rows.iter().any(|row| row.readings[cable].is_some());
         let is_open = |unknown: &CalibrationUnknown| unknown.cable().is_some_and(|cable| !is_read(cable));
         if of.degrees(frame) == 0 || of.unknowns.iter().any(is_open) {
             return None;
         }
-        let from = |values: &[f64], poses: &[Pose]| {
-            of.fit_within(ITERATIONS_OF_START, values, of.states(values, poses), &frame.free)
-        };
-        let here = from(&self.fit.values, &poses);
-        let file = from(&of.start(), &of.poses_first().1);
+        let from = |values: &[f64], states| of.fit_within(ITERATIONS_OF_START, values, states, &frame.free);
+        let here = from(&fit.values, states_of(&fit));
+        if of.is_elastic() && here.chi2 <= of.largest_of_noise(frame) {
+            return Some(Self { of, rows, fit: here });
+        }
+        let file = from(&of.start(), of.states(&of.start(), &of.poses_first().1));
         let best = if here.chi2 <= file.chi2 { here } else { file };
         // A row in another pose of the same lengths spoils a fit that is none of noise.
         let fit = if best.chi2 > of.largest_of_noise(frame) { of.polished(best, frame) } else { best };

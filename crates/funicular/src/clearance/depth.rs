@@ -129,6 +129,14 @@ fn faces(shape: &SharedShape) -> Vec<Face> {
     planes.collect()
 }
 
+/// Normals of the faces of a convex solid, and of a cylinder its axis.
+pub(super) fn normals(shape: &SharedShape) -> Vec<Vec3> {
+    if shape.as_cylinder().is_some() {
+        return vec![Vec3::y()];
+    }
+    faces(shape).into_iter().map(|face| face.normal).collect()
+}
+
 /// Place from 0 to 1 at which a convex function is least, by its slope.
 pub(super) fn lowest_place(slope: impl Fn(f64) -> f64) -> f64 {
     if slope(0.0) >= 0.0 {

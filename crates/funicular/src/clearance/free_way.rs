@@ -1,6 +1,6 @@
 //! Ways on which nothing touches: whether a straight move is one, and a way through other poses where it is not.
 
-use super::moves::{MIN_STEP, Station, least_between};
+use super::moves::{MIN_STEP, OF_SAG, Station, least_between};
 use super::{Clearance, Surroundings};
 use crate::path::StraightMove;
 use crate::robot::Pose;
@@ -28,7 +28,7 @@ impl Surroundings<'_> {
         straight: &StraightMove,
         rest_at: &mut dyn FnMut(&Pose) -> Result<Equilibrium, E>,
     ) -> bool {
-        let mut station = |fraction: f64, of: Option<&[usize]>| {
+        let mut station = |fraction: f64, of: Option<&[usize]>, enough: Option<&[f64]>| {
             let rest = rest_at(&straight.pose(fraction)).ok()?;
             let all: Vec<usize>;
             let of = if let Some(of) = of {
@@ -37,13 +37,15 @@ impl Surroundings<'_> {
                 all = (0..self.at(&rest).pairs().len()).collect();
                 &all
             };
-            let station = self.station(fraction, &rest, of);
+            let exact = vec![f64::INFINITY; self.at(&rest).pairs().len()];
+            let enough = enough.unwrap_or(&exact);
+            let station = self.station(fraction, &rest, of, enough);
             let is_free = station.clearances.iter().flatten().all(Clearance::is_kept);
             is_free.then_some((station, rest))
         };
-        let Some((end, _)) = station(1.0, None) else { return false };
-        let Some((start, rest)) = station(0.0, None) else { return false };
-        let ways: Vec<f64> = self.at(&rest).pairs().iter().map(|pair| self.way_of(*pair, straight)).collect();
+        let Some((end, _)) = station(1.0, None, None) else { return false };
+        let Some((start, rest)) = station(0.0, None, None) else { return false };
+        let ways = self.ways_of(&self.at(&rest).pairs(), straight);
 
         // Parts of the way, the nearest one last. Each is divided for those pairs alone that may be too near in it.
         let mut ahead: Vec<[Rc<Station>; 2]> = vec![[Rc::new(start), Rc::new(end)]];
@@ -56,7 +58,11 @@ impl Surroundings<'_> {
             if to.fraction - from.fraction <= MIN_STEP {
                 return false;
             }
-            let Some((middle, _)) = station(0.5 * (from.fraction + to.fraction), Some(&open)) else { return false };
+            // A pair that keeps more than its way settles both halves.
+            let step = to.fraction - from.fraction;
+            let enough: Vec<f64> = ways.iter().map(|way| way * step + OF_SAG).collect();
+            let at = 0.5 * (from.fraction + to.fraction);
+            let Some((middle, _)) = station(at, Some(&open), Some(&enough)) else { return false };
             let middle = Rc::new(middle);
             ahead.extend([[middle.clone(), to], [from, middle]]);
         }

@@ -11,6 +11,9 @@ use std::rc::Rc;
 /// cables surely, and with sag as far as it changes evenly between two stations.
 pub const WAY_TOLERANCE: f64 = 2e-3;
 
+/// Margin that a pair keeps beyond its way, so that a change of its sag leaves it settled [m].
+pub(super) const OF_SAG: f64 = 0.02;
+
 /// Least part of a move between two stations, a guard.
 pub(super) const MIN_STEP: f64 = 1.0 / 16384.0;
 
@@ -190,8 +193,12 @@ fn bisected([mut low, mut high]: [f64; 2], first: f64, mut value: impl FnMut(f64
 /// Distances of all pairs at one place of a move.
 pub(super) struct Station {
     pub(super) fraction: f64,
-    /// Distances of the pairs, in their order; `None` without one, and for a pair that is not compared there.
+    /// Distances of the pairs, in their order; `None` without one, for a pair that is not compared there, and for one
+    /// whose margin is larger than was asked.
     pub(super) clearances: Vec<Option<Clearance>>,
+    /// Lower bounds of the margins of the pairs [m]; `None` for a pair that is not compared there.
+    margins: Vec<Option<f64>>,
+    pairs: Vec<ClearancePair>,
     /// Signs of the pairs of cables: the side on which the first passes the second.
     sides: Vec<f64>,
     /// Largest distance of each cable from its chord [m].
@@ -216,8 +223,9 @@ impl Surroundings<'_> {
         let start = rest(0.0)?;
         let pairs = self.at(&start).pairs();
         let all: Vec<usize> = (0..pairs.len()).collect();
-        let ends = [self.station(0.0, &start, &all), self.station(1.0, &rest(1.0)?, &all)];
-        let ways: Vec<f64> = pairs.iter().map(|pair| self.way_of(*pair, straight)).collect();
+        let exact = vec![f64::INFINITY; pairs.len()];
+        let ends = [self.station(0.0, &start, &all, &exact), self.station(1.0, &rest(1.0)?, &all, &exact)];
+        let ways = self.ways_of(&pairs, straight);
 
         let mut found: Vec<Option<OnTheWay>> = vec![None; pairs.len()];
         for station in &ends {
@@ -239,7 +247,16 @@ impl Surroundings<'_> {
                 continue;
             }
             let fraction = 0.5 * (one.fraction + other.fraction);
-            let middle = Rc::new(self.station(fraction, &rest(fraction)?, &nearer));
+            // A pair that keeps more than its way beyond the least known margin settles both halves.
+            let enough: Vec<f64> = found
+                .iter()
+                .zip(&ways)
+                .map(|(found, way)| {
+                    let known = found.as_ref().map_or(f64::INFINITY, |found| found.least.margin());
+                    known + way * (other.fraction - one.fraction) + OF_SAG
+                })
+                .collect();
+            let middle = Rc::new(self.station(fraction, &rest(fraction)?, &nearer, &enough));
             keep_least(&mut found, &middle);
             ahead.push(([middle.clone(), other], nearer.clone()));
             ahead.push(([one, middle], nearer));
@@ -267,30 +284,40 @@ impl Surroundings<'_> {
         Ok(found.into_iter().flatten().collect())
     }
 
-    /// Distances of some pairs, by their numbers, at a place of a move.
-    pub(super) fn station(&self, fraction: f64, rest: &Equilibrium, of: &[usize]) -> Station {
+    /// Distances of some pairs, by their numbers, at a place of a move. A margin that is surely larger than its finite
+    /// entry of `enough` is told as that.
+    pub(super) fn station(&self, fraction: f64, rest: &Equilibrium, of: &[usize], enough: &[f64]) -> Station {
         let at = self.at(rest);
         let pairs = at.pairs();
         let mut clearances: Vec<Option<Clearance>> = vec![None; pairs.len()];
+        let mut margins: Vec<Option<f64>> = vec![None; pairs.len()];
         for k in of {
-            clearances[*k] = at.clearance(pairs[*k], f64::INFINITY);
+            clearances[*k] = at.clearance(pairs[*k], enough[*k]);
+            let beyond = Some(enough[*k]).filter(|enough| enough.is_finite());
+            margins[*k] = clearances[*k].map(|found| found.margin()).or(beyond);
         }
         let sides = clearances.iter().map(|found| found.map_or(0.0, |found| at.side(&found))).collect();
-        let sagittas = at.spans.iter().map(|span| span.arc([0.0, span.length]).sagitta).collect();
-        Station { fraction, clearances, sides, sagittas }
+        let sagittas = at.sagittas();
+        Station { fraction, clearances, margins, pairs, sides, sagittas }
     }
 
-    /// Bound of the change of a pair's distance over the fraction of a move, with straight cables [m]: each point of a
-    /// cable moves by its share of the way of the attachment.
-    pub(super) fn way_of(&self, pair: ClearancePair, straight: &StraightMove) -> f64 {
+    /// Bounds of the changes of all distances over the fraction of a move, as [`Self::way_of`].
+    pub(super) fn ways_of(&self, pairs: &[ClearancePair], straight: &StraightMove) -> Vec<f64> {
+        let (translation, turn) = (straight.translation_w.norm(), straight.turn_w.norm());
+        pairs.iter().map(|pair| self.way_of(*pair, translation, turn)).collect()
+    }
+
+    /// Bound of the change of a pair's distance while the origin of the platform moves by a translation [m] and it
+    /// turns [rad], with straight cables [m]: each point of a cable moves by its share of the way of the attachment.
+    pub(super) fn way_of(&self, pair: ClearancePair, translation: f64, turn: f64) -> f64 {
         let lever = |i: usize| self.robot.cables[i].attachment_p.norm();
-        let turn = straight.turn_w.norm();
-        match pair {
-            ClearancePair::Cables(i, j) => straight.translation_w.norm() + turn * (lever(i) + lever(j)),
-            ClearancePair::CableAndPlatform { cable, .. } => straight.way(lever(cable)) + turn * self.platform_reach(),
-            ClearancePair::CableAndObstacle { cable, .. } => straight.way(lever(cable)),
-            ClearancePair::PlatformAndObstacle { .. } => straight.way(self.platform_reach()),
-        }
+        let levers = match pair {
+            ClearancePair::Cables(i, j) => lever(i) + lever(j),
+            ClearancePair::CableAndPlatform { cable, .. } => lever(cable) + self.platform_reach(),
+            ClearancePair::CableAndObstacle { cable, .. } => lever(cable),
+            ClearancePair::PlatformAndObstacle { .. } => self.platform_reach(),
+        };
+        translation + turn * levers
     }
 
     /// Largest distance of a point of the platform from its origin [m].
@@ -325,19 +352,18 @@ fn may_be_nearer(found: &[Option<OnTheWay>], [one, other]: [&Station; 2], ways: 
 pub(super) fn least_between(one: &Station, other: &Station, ways: &[f64]) -> impl Iterator<Item = (usize, f64)> {
     let step = other.fraction - one.fraction;
     let sag = |i: usize| (one.sagittas[i] - other.sagittas[i]).abs();
-    let pairs = one.clearances.iter().zip(&other.clearances).zip(ways).enumerate();
+    let pairs = one.margins.iter().zip(&other.margins).zip(ways).enumerate();
     pairs.filter_map(move |(k, ((a, b), way))| {
-        let (a, b) = ((*a)?, (*b)?);
-        let sag = match a.pair {
-            ClearancePair::Cables(i, j) => sag(i) + sag(j),
-            ClearancePair::CableAndPlatform { cable, .. } | ClearancePair::CableAndObstacle { cable, .. } => sag(cable),
-            ClearancePair::PlatformAndObstacle { .. } => 0.0,
-        };
-        Some((k, 0.5 * (a.margin() + b.margin() - way * step) - sag))
+        Some((k, 0.5 * ((*a)? + (*b)? - way * step) - one.pairs[k].of_cables(sag)))
     })
 }
 
 impl Placed<'_> {
+    /// Largest distance of each cable from its chord [m].
+    pub(super) fn sagittas(&self) -> Vec<f64> {
+        self.spans.iter().map(|span| span.arc([0.0, span.length]).sagitta).collect()
+    }
+
     /// Side on which the first of two cables passes the second at their nearest points; zero for other pairs.
     fn side(&self, found: &Clearance) -> f64 {
         let ClearancePair::Cables(i, j) = found.pair else { return 0.0 };

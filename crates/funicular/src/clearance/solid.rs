@@ -1,6 +1,6 @@
 //! Bodies at their places: distances from segments, points and each other.
 
-use super::{BODY_TOLERANCE, depth};
+use super::{BODY_TOLERANCE, convex_overlap, depth};
 use crate::math::Vec3;
 use crate::robot::{Body, Pose, Solid, from_vector, vector};
 use parry3d_f64::bounding_volume::BoundingVolume;
@@ -15,6 +15,8 @@ pub(super) struct PlacedBody {
     /// Frame of the shapes in the world.
     frame: Pose,
     method: Method,
+    /// Ball around the body: its centre in the world, and its radius [m], infinite for a half space.
+    ball: (Vec3, f64),
 }
 
 /// Method by which the distance from a segment is found.
@@ -51,7 +53,7 @@ impl PlacedBody {
 
     /// Shape in a frame.
     pub(super) fn of_shape(shape: SharedShape, frame: &Pose) -> Self {
-        Self { shapes: vec![shape], frame: *frame, method: Method::Library }
+        Self::new(vec![shape], *frame, Method::Library)
     }
 
     fn of_body(body: &Body, frame: Pose) -> Self {
@@ -61,7 +63,34 @@ impl PlacedBody {
             Solid::Box { .. } | Solid::Mesh(_) => Method::Library,
         };
         let (shapes, turn) = body.solid.shapes();
-        Self { shapes, frame: Pose { rot_wp: frame.rot_wp * turn, ..frame }, method }
+        Self::new(shapes, Pose { rot_wp: frame.rot_wp * turn, ..frame }, method)
+    }
+
+    fn new(shapes: Vec<SharedShape>, frame: Pose, method: Method) -> Self {
+        let boxes = shapes.iter().map(|shape| shape.compute_local_aabb());
+        let ball = match (&method, boxes.reduce(|one, other| one.merged(&other))) {
+            (Method::HalfSpace, _) | (_, None) => (frame.position_w, f64::INFINITY),
+            (_, Some(around)) => (frame.point_w(&from_vector(around.center())), around.half_extents().length()),
+        };
+        Self { shapes, frame, method, ball }
+    }
+
+    /// True if distances are dear: a surface of triangles.
+    pub(super) fn is_mesh(&self) -> bool {
+        self.shapes.iter().any(|shape| shape.as_trimesh().is_some())
+    }
+
+    /// Lower bound of the distance from another body, from the balls around both [m]; negative if they overlap.
+    pub(super) fn lower_bound_to(&self, other: &Self) -> f64 {
+        (self.ball.0 - other.ball.0).norm() - self.ball.1 - other.ball.1
+    }
+
+    /// Lower bound of the distance from a segment in the world, from the ball around the body [m].
+    pub(super) fn lower_bound_to_segment(&self, from_w: &Vec3, to_w: &Vec3) -> f64 {
+        let along = to_w - from_w;
+        let square = along.norm_squared();
+        let fraction = if square > 0.0 { (self.ball.0 - from_w).dot(&along) / square } else { 0.0 };
+        (from_w + along * fraction.clamp(0.0, 1.0) - self.ball.0).norm() - self.ball.1
     }
 
     fn local(&self, point_w: &Vec3) -> Vec3 {
@@ -133,12 +162,8 @@ impl PlacedBody {
     /// the other.
     fn overlap(&self, obstacle: &Self, [one, two]: [&SharedShape; 2]) -> (f64, [Vec3; 2]) {
         let (own, other) = (self.placement(), obstacle.placement());
-        if one.as_trimesh().is_none()
-            && two.as_trimesh().is_none()
-            && let Ok(Some(contact)) = query::contact(&own, &*one.0, &other, &*two.0, 0.0)
-            && contact.dist < 0.0
-        {
-            return (contact.dist, [from_vector(contact.point1), from_vector(contact.point2)]);
+        if let Some(found) = convex_overlap::depth([one, two], [&own, &other]) {
+            return found;
         }
 
         let [own_box, other_box] = [one.compute_aabb(&own), two.compute_aabb(&other)];

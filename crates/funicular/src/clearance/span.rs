@@ -169,7 +169,10 @@ impl<'a> FreeSpan<'a> {
     /// Distance of the surface of the cable from a body, on which one of its ends may be mounted, and the nearest
     /// points; `None` if nothing is compared, or if the distance is surely above `enough`.
     pub(super) fn nearest_on(&self, body: &PlacedBody, mounted: SpanEnd, enough: f64) -> Option<(f64, [Vec3; 2])> {
-        let at = |point_w: &Vec3| body.nearest_to_segment(point_w, point_w).distance;
+        let at = |point_w: &Vec3| {
+            let far = body.lower_bound_to_segment(point_w, point_w);
+            if far >= self.from_end { far } else { body.nearest_to_segment(point_w, point_w).distance }
+        };
         let part = self.part(match mounted {
             SpanEnd::Platform => [at(&self.ends_w[0]), f64::INFINITY],
             SpanEnd::Anchor => [f64::INFINITY, at(&self.ends_w[1])],
@@ -177,7 +180,28 @@ impl<'a> FreeSpan<'a> {
 
         let mut best = (f64::INFINITY, [Vec3::zeros(); 2]);
         let mut queue = BinaryHeap::new();
+        let [from_w, to_w] = part.points_w;
+        if body.lower_bound_to_segment(&from_w, &to_w) - part.sagitta - self.radius > enough {
+            return None;
+        }
+        let is_mesh = body.is_mesh();
         let consider = |arc: Arc, best: &mut (f64, [Vec3; 2]), queue: &mut BinaryHeap<Bounded<Arc>>| {
+            // Between a long segment and many triangles distances are dear, from a point they are not.
+            let half_length = 0.5 * (arc.points_w[1] - arc.points_w[0]).norm();
+            if is_mesh && arc.sagitta > 0.5 * BODY_TOLERANCE {
+                let point_w = self.point(arc.middle);
+                let near = body.nearest_to_segment(&point_w, &point_w);
+                if near.distance < best.0 {
+                    *best = (near.distance, [point_w, near.point_w]);
+                }
+                if 2.0 * half_length > near.distance.abs() {
+                    let chord_w = arc.points_w[1] - arc.points_w[0];
+                    let [before, after] = arc.points_w.map(|end_w| (end_w - point_w).norm());
+                    let reach = before.max(after).max(0.5 * chord_w.norm()) + arc.sagitta;
+                    queue.push(Bounded { lower: near.distance - reach, of: arc });
+                    return;
+                }
+            }
             let near = body.nearest_to_segment(&arc.points_w[0], &arc.points_w[1]);
             let s = arc.s[0] + near.fraction * (arc.s[1] - arc.s[0]);
             let point_w = self.point(s);

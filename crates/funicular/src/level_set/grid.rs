@@ -58,6 +58,16 @@ impl PointGrid {
         stride
     }
 
+    /// Number of steps at whose ends a search looks before those of [`Self::largest_stride`], so that it has a set to
+    /// show if it is stopped early: doubled while every axis keeps two cells.
+    pub(super) fn first_stride(&self) -> usize {
+        let mut stride = self.largest_stride();
+        while self.steps.iter().all(|steps| steps % (2 * stride) == 0 && steps / (2 * stride) >= 2) {
+            stride *= 2;
+        }
+        stride
+    }
+
     /// Number of nodes along each axis.
     pub(super) fn counts(&self) -> [usize; 3] {
         self.steps.map(|steps| steps + 1)

@@ -33,25 +33,22 @@ pub(super) struct GridNodes {
 }
 
 impl GridNodes {
-    /// Nodes of a grid, evaluated with its largest stride and then only near the boundary of the set; `None` if the
-    /// work was stopped before the largest stride was ready. Otherwise [`Self::stride`] says how far it came.
+    /// Nodes of a grid, evaluated up to its largest stride and then only near the boundary of the set; `None` if the
+    /// work was stopped before the first stride was ready. Otherwise [`Self::stride`] says how far it came.
     pub(super) fn find(grid: &PointGrid, evaluate: &mut Evaluate<'_>) -> Option<Self> {
-        let stride = grid.largest_stride();
+        let stride = grid.first_stride();
         let count = grid.nodes();
         let mut nodes =
             Self { knowledge: vec![Knowledge::Nothing; count], values: vec![0.0; count], evaluated: 0, stride };
+        nodes.add_all(grid, stride, evaluate)?;
 
-        let all = (0..count).filter(|index| grid.at(*index).iter().all(|at| at % stride == 0));
-        nodes.add(grid, &all.collect::<Vec<_>>(), evaluate)?;
-
-        // A set that shows no node at the largest stride is looked for with every step of the grid.
-        while nodes.stride > 1 && !(0..count).any(|index| nodes.is_inside(index)) {
-            let stride = nodes.stride / 2;
-            let further = (0..count).filter(|index| {
-                nodes.knowledge[*index] == Knowledge::Nothing && grid.at(*index).iter().all(|at| at % stride == 0)
-            });
-            nodes.add(grid, &further.collect::<Vec<_>>(), evaluate)?;
-            nodes.stride = stride;
+        // Every node up to the largest stride, or while none is inside up to that of the grid.
+        let largest = grid.largest_stride();
+        while nodes.stride > largest || nodes.stride > 1 && !(0..count).any(|index| nodes.is_inside(index)) {
+            if nodes.add_all(grid, nodes.stride / 2, evaluate).is_none() {
+                return Some(nodes);
+            }
+            nodes.stride /= 2;
         }
 
         while nodes.stride > 1 {
@@ -82,6 +79,16 @@ impl GridNodes {
     /// Corners of a cell; bit k of the number of a corner says whether it lies at the greater end of axis k.
     pub(super) fn corners(grid: &PointGrid, cell: [usize; 3], stride: usize) -> [usize; 8] {
         std::array::from_fn(|corner| grid.index(std::array::from_fn(|k| cell[k] + stride * (corner >> k & 1))))
+    }
+
+    /// Evaluates all further nodes of a stride, in an order that spreads them over the box from the first ones on: if
+    /// the work is stopped, those that were asked tell something of all of it.
+    fn add_all(&mut self, grid: &PointGrid, stride: usize, evaluate: &mut Evaluate<'_>) -> Option<()> {
+        let is_further = |index: &usize| {
+            self.knowledge[*index] == Knowledge::Nothing && grid.at(*index).iter().all(|at| at % stride == 0)
+        };
+        let all: Vec<usize> = (0..grid.nodes()).filter(is_further).collect();
+        self.add(grid, &spread(&all), evaluate)
     }
 
     /// Evaluates nodes.
@@ -170,4 +177,20 @@ impl GridNodes {
 fn nodes_of(grid: &PointGrid, cell: [usize; 3], size: usize, stride: usize) -> impl Iterator<Item = usize> + '_ {
     let along = move |k: usize| (cell[k]..=cell[k] + size).step_by(stride);
     along(2).flat_map(move |k| along(1).flat_map(move |j| along(0).map(move |i| grid.index([i, j, k]))))
+}
+
+/// Members of a list in an order in which the first ones are spread over all of it.
+fn spread(all: &[usize]) -> Vec<usize> {
+    const GOLDEN: f64 = 0.618_033_988_749_894_8;
+    let count = all.len();
+    let divisor = |mut a: usize, mut b: usize| {
+        while b > 0 {
+            (a, b) = (b, a % b);
+        }
+        a
+    };
+    // A step that shares no divisor with the length comes to every member once.
+    let near = (GOLDEN * count as f64) as usize;
+    let step = (near.max(1)..).find(|step| divisor(*step, count) == 1).unwrap_or(1);
+    (0..count).map(|k| all[k * step % count]).collect()
 }

@@ -27,7 +27,8 @@ type Edge = (usize, usize);
 
 /// Part of a box in which a function is not negative, found on a grid.
 ///
-/// The grid is evaluated with steps up to four times its own, and with its own only along the boundary that these show.
+/// The grid is evaluated with steps of four times its own, after larger ones that give a set to show early, and with
+/// its own only along the boundary that these show.
 /// A part or a hole that lies between the nodes of the larger steps is therefore not found.
 ///
 /// # Example
@@ -63,7 +64,7 @@ pub struct LevelSet {
 
 impl LevelSet {
     /// Finds the set on a grid, with the vertices of its boundary to a tolerance along the edges [m]. `None` if the
-    /// work was stopped before the largest steps were done.
+    /// work was stopped before the first steps were done.
     pub fn find(grid: PointGrid, tolerance: f64, evaluate: &mut Evaluate<'_>) -> Option<Self> {
         let nodes = GridNodes::find(&grid, evaluate)?;
         let stride = nodes.stride;
@@ -107,7 +108,7 @@ impl LevelSet {
     /// Numbers of steps of the grid that can stand as one in [`Self::boundary`], the finest first. Volumes and parts of
     /// two of them tell how much depends on the steps.
     pub fn strides(&self) -> Vec<usize> {
-        let largest = self.grid.largest_stride();
+        let largest = self.grid.largest_stride().max(self.nodes.stride);
         std::iter::successors(Some(self.nodes.stride), |stride| Some(2 * stride))
             .take_while(|stride| *stride <= largest)
             .collect()

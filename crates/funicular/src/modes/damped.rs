@@ -80,6 +80,11 @@ pub struct DampedModes {
     pub certified: bool,
 }
 
+/// Part of the kinetic energy of a mode up to which platform or cable are at rest in it: the square of the rounding of
+/// their amplitudes. Null vectors of symmetric robots had 1e-27.
+pub(super) const AT_REST: f64 = 1e-20;
+/// Relative distance up to which the zeros of cables in symmetric places are one, but for rounding.
+const SAME_ZERO: f64 = 1e-13;
 /// Maximum error of a certified zero.
 const WANTED_ERROR: f64 = 1e-9;
 /// Maximum relative spread, from the second moment, of zeros that count as one multiple zero.
@@ -250,16 +255,16 @@ impl ZeroSearch<'_> {
     /// Complex frequency of a mode with the platform at rest whose cables have the same damping and no drive with
     /// losses.
     fn of_cables_alone(&self, mode: &Mode) -> Option<Complex> {
-        if mode.platform_energy_fraction > 0.0 {
+        if mode.platform_energy_fraction > AT_REST {
             return None;
         }
-        let moving = mode.cable_energy_fractions.iter().enumerate().filter(|(_, fraction)| **fraction > 0.0);
+        let moving = mode.cable_energy_fractions.iter().enumerate().filter(|(_, fraction)| **fraction > AT_REST);
         if moving.clone().any(|(i, _)| self.dynamics.has_drive_losses(i)) {
             return None;
         }
         let mut damped = moving.map(|(i, _)| self.dynamics.cable_zero(i, mode.frequency_hz * TAU, self.losses));
         let first = damped.next()?;
-        damped.all(|omega| omega == first).then_some(first)
+        damped.all(|omega| (omega - first).norm() <= SAME_ZERO * first.norm()).then_some(first)
     }
 
     /// Moves the zeros from their places with less damping to those with the present damping.

@@ -2,7 +2,7 @@
 //! (docs/theory.md, equations (46f) and (46g)).
 
 use super::Modes;
-use super::damped::DampedModes;
+use super::damped::{AT_REST, DampedModes};
 use crate::dynamics::{DampedMotion, Dynamics};
 use crate::math::{Complex, Vec3, Vec6, order};
 use std::f64::consts::TAU;
@@ -231,7 +231,7 @@ pub(super) fn pole_motions(
     }
     let by_poles = dynamics.terms().iter().all(|term| term.form().by_poles().is_some());
     let partners = damped.modes.iter().enumerate().map(|(i, mode)| (Some(i), mode));
-    let moves = |mode: &Option<usize>| mode.is_none_or(|i: usize| undamped.modes[i].platform_energy_fraction != 0.0);
+    let moves = |mode: &Option<usize>| mode.is_none_or(|i: usize| undamped.modes[i].platform_energy_fraction > AT_REST);
     let all: Vec<(Option<usize>, Complex)> =
         partners.chain(damped.others.iter().map(|mode| (None, mode))).map(|(mode, of)| (mode, of.omega)).collect();
 

@@ -7,7 +7,7 @@ mod wind;
 
 pub use closure::{WrenchClosure, wrench_closure};
 pub use load_factor::{LoadFactor, load_factor_bounds};
-pub use wind::load_factor_bounds_in_wind;
+pub use wind::load_factor_verdict_in_wind;
 pub(crate) use wind::robots_under_required_loads;
 
 use super::equilibrium::Equilibrium;

@@ -1,6 +1,8 @@
 //! Distances between cables, platform and obstacles. Oracles: dense samples of the curves, closed forms, one shape as
 //! another, and the symmetry of hall and robot.
 
+mod between;
+
 use crate::random::Draw;
 use funicular::clearance::{
     BODY_TOLERANCE, Clearance, ClearanceKind, ClearancePair, Surroundings, TOLERANCE, WAY_TOLERANCE, straight_crossings,

@@ -451,3 +451,55 @@ proptest! {
         }
     }
 }
+
+/// A search that is stopped early has a set from larger steps than those of its grid, and asks the same points as one
+/// that is not stopped, if it goes on.
+#[test]
+fn a_stopped_search_has_a_coarse_set_of_all_the_box() {
+    let volume = 4.0 / 3.0 * PI;
+    let mut last = 0.0;
+    // 64 steps: looks at 2, 4, 8 and 16 cells before its own grid.
+    for most in [60, 400, 1200, 6000] {
+        let mut asked = 0;
+        let mut evaluate = |points: &[Vec3]| {
+            asked += points.len();
+            (asked <= most).then(|| points.iter().map(ball).collect())
+        };
+        let set = LevelSet::find(cube(1.2, 64), 1e-9, &mut evaluate).unwrap();
+        assert_ne!(set.end(), SearchEnd::Complete);
+        let mesh = set.boundary(1);
+        assert!(is_closed(&mesh) && set.strides()[0] > 1 && set.volume_errors().len() == set.strides().len());
+        let error = (mesh.volume() / volume - 1.0).abs();
+        println!("{most}: strides {:?}, {error}", set.strides());
+        assert!(mesh.volume() > last && error < 0.9, "{most}: {error}");
+        last = mesh.volume();
+    }
+
+    // Nothing before the first eight cells.
+    let mut evaluate = |_: &[Vec3]| None;
+    assert!(LevelSet::find(cube(1.2, 64), 1e-9, &mut evaluate).is_none());
+}
+
+/// Every point of the grid is asked at most once, and the first ones are spread over the box.
+#[test]
+fn the_first_points_are_spread_over_the_box() {
+    // 15 steps have no larger ones: all nodes are asked at once.
+    let mut first: Vec<Vec3> = Vec::new();
+    let mut evaluate = |points: &[Vec3]| {
+        if first.is_empty() {
+            first = points.to_vec();
+        }
+        Some(points.iter().map(ball).collect())
+    };
+    LevelSet::find(cube(1.2, 15), 1e-9, &mut evaluate).unwrap();
+    assert_eq!(first.len(), 16_usize.pow(3));
+    let all: std::collections::HashSet<[u64; 3]> =
+        first.iter().map(|point| [point.x, point.y, point.z].map(f64::to_bits)).collect();
+    assert_eq!(all.len(), first.len());
+    let early = &first[..200];
+    for k in 0..3 {
+        let mean = early.iter().map(|point| point[k]).sum::<f64>() / early.len() as f64;
+        assert!(mean.abs() < 0.15, "axis {k}: {mean}");
+        assert!(early.iter().any(|point| point[k] < -0.9) && early.iter().any(|point| point[k] > 0.9));
+    }
+}

@@ -44,7 +44,7 @@ pub(super) fn found(of: &FoundFit<'_>) -> Wrong {
         row.chi2_drop.is_some_and(|drop| drop / of.variance > limit(of, row.degrees))
             && of.precision.degrees > row.degrees
     });
-    let (is_missed, is_point) = (misses(of), of.of.is_point());
+    let (is_missed, is_point) = (misses(of), of.of.is_point() && !of.of.is_elastic());
     let mut wrong = Wrong::default();
     if is_missed || stands_out {
         let least = if of.is_noise_known { 1.0 } else { 0.0 };

@@ -6,11 +6,11 @@ use crate::at_rest::{AtRest, check_pose};
 use crate::request::SettleRequest;
 use crate::text::significant;
 use anyhow::{Result, bail};
-use funicular::math::Vec3;
+use funicular::math::{DMat, Vec3};
 use funicular::modes::LengthCommand;
 use funicular::path::{Profile, Shaper};
-use funicular::robot::{Pose, State};
-use funicular::statics::{self, Equilibrium};
+use funicular::robot::{CableChange, Pose, RobotChange, State};
+use funicular::statics::{self, Equilibrium, derivatives};
 
 /// Kind of the motion that ends at rest.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -35,6 +35,9 @@ pub(super) struct Motion<'a> {
 /// Displacement for the derivative of the lengths, relative to the longest cable: the error of the central difference
 /// is a sixth of its square, that of the equilibria about 1e-12 over it.
 const STEP: f64 = 1e-4;
+
+/// Singular value of the motions by lengths, over their size, below which a motion is none that lengths command.
+const RANK: f64 = 1e-9;
 
 /// Equilibria along a path for its static tensions; between them lie straight lines.
 const ALONG_PATH: usize = 9;
@@ -169,12 +172,37 @@ pub(super) fn tangent(at_rest: &AtRest, motion: &[Vec3; 2]) -> Result<Vec<f64>> 
     if shift + turn == 0.0 {
         return Ok(vec![0.0; cables.len()]);
     }
+    if at_rest.robot.constraint().is_under()
+        && let Some(by) = nearest_rates(at_rest, motion)
+    {
+        return Ok(by);
+    }
     let longest = cables.iter().map(|cable| cable.unstrained_length).fold(0.0, f64::max);
     let reach = cables.iter().map(|cable| cable.lever_w.norm()).fold(0.0, f64::max);
     let step = STEP * longest / (shift + turn * reach.max(f64::MIN_POSITIVE)).max(f64::MIN_POSITIVE);
     let [before, after] = [step, -step].map(|left| on_the_way(at_rest, &before_end(at_rest, motion, left)));
     let (before, after) = (unstrained(&before?), unstrained(&after?));
     Ok(before.iter().zip(after).map(|(before, after)| (after - before) / (2.0 * step)).collect())
+}
+
+/// Rates of the lengths with which the equilibria of a robot with too few cables come nearest to a motion: searches for
+/// the nearest poses beside the rest need not end. `None` without derivatives of the equilibrium.
+fn nearest_rates(AtRest { robot, equilibrium, .. }: &AtRest, motion: &[Vec3; 2]) -> Option<Vec<f64>> {
+    let size = robot.platform_length();
+    let count = robot.cables.len();
+    let as_column = |[shift, turn]: [Vec3; 2]| [shift.x, shift.y, shift.z, turn.x * size, turn.y * size, turn.z * size];
+    let by_length = |cable: usize| {
+        let mut change = RobotChange { cables: vec![CableChange::default(); count], ..RobotChange::default() };
+        change.cables[cable].unstrained_length = 1.0;
+        let found = derivatives::at_held_lengths(robot, equilibrium, &change).ok()?;
+        Some(as_column([found.translation_w, found.rotation_w]))
+    };
+    let columns: Vec<[f64; 6]> = (0..count).map(by_length).collect::<Option<_>>()?;
+    let rates = DMat::from_fn(6, count, |row, column| columns[column][row]);
+    let wanted = DMat::from_column_slice(6, 1, &as_column(*motion));
+    let largest = rates.norm();
+    let found = rates.svd(true, true).solve(&wanted, RANK * largest).ok()?;
+    Some(found.iter().copied().collect())
 }
 
 /// Pose from which the part `left` of a motion leads to the rest.

@@ -4,6 +4,7 @@ use super::Planned;
 use super::at_time::{in_motion, lengths};
 use super::instants::{Instant, instants};
 use super::jumps::{self, LengthJump, MAX_CHANGES, Sample};
+use super::passing::Passing;
 use crate::error::Cancelled;
 use crate::watch::Watch;
 use anyhow::Result;
@@ -24,6 +25,8 @@ pub(super) struct MotionSamples {
     pub(super) rows: Vec<usize>,
     /// Nearest pair at every row, if distances are judged.
     pub(super) nearest: Vec<Option<Clearance>>,
+    /// Pair that comes too near between the times, if distances are judged and kept at all rows.
+    pub(super) passing: Option<Passing>,
     /// Jumps of lengths or of their rates.
     pub(super) jumps: Vec<LengthJump>,
 }
@@ -69,7 +72,11 @@ impl MotionSamples {
             }
             sampled.push((*instant, motion));
         }
-        Ok(Self::of(planned, sampled, jumps))
+        let mut found = Self::of(planned, sampled, jumps);
+        if planned.judged.clearance && found.nearest.iter().flatten().all(Clearance::is_kept) {
+            found.passing = Passing::look(planned, &found, watch)?;
+        }
+        Ok(found)
     }
 
     fn of(planned: &Planned, sampled: Vec<Sample>, jumps: Vec<LengthJump>) -> Self {
@@ -93,7 +100,7 @@ impl MotionSamples {
         let around = planned.judged.clearance.then(|| Surroundings::of(planned.robot));
         let nearest = |k: &usize| around.as_ref().and_then(|around| around.least(&motions[*k].equilibrium, None));
         let nearest = rows.iter().map(nearest).collect();
-        Self { times, motions, accelerations, rows, nearest, jumps }
+        Self { times, motions, accelerations, rows, nearest, passing: None, jumps }
     }
 
     /// Winch of a cable at the time with this index.

@@ -56,6 +56,13 @@ pub(super) fn parts(samples: &MotionSamples, planned: &Planned, k: usize) -> Vec
     found
 }
 
+/// Used part of the distance of a pair that comes too near between the samples, with its time.
+pub(super) fn between_rows(samples: &MotionSamples) -> Option<(f64, (UsedLimit, f64))> {
+    let (time, pair) = samples.passing.as_ref()?.too_near()?;
+    // No distance is required of what touches, and still it is beyond its limit.
+    Some((time, (UsedLimit::Clearance, part_of_clearance(pair).max(1.0))))
+}
+
 /// Largest used part.
 pub(super) fn most(parts: &[(UsedLimit, f64)]) -> Option<(UsedLimit, f64)> {
     parts.iter().copied().max_by(|a, b| a.1.total_cmp(&b.1))

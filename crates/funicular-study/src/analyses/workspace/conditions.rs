@@ -74,6 +74,8 @@ impl fmt::Display for ConditionRow {
 pub(super) struct Conditions {
     quantities: Vec<Quantity>,
     limits: Vec<Limit>,
+    /// Limits of the load factor, which needs the dead load alone, not what a map knows about its equilibrium.
+    of_loads: Vec<Limit>,
     pub(super) rows: Vec<ConditionRow>,
 }
 
@@ -84,7 +86,8 @@ impl Conditions {
     /// # Errors
     /// A name that no quantity and no column has, or one without a single number per pose.
     pub(super) fn of(request: &WorkspaceRequest, robot: &Robot, options: &Options) -> Result<Self> {
-        let mut conditions = Self { quantities: Vec::new(), limits: Vec::new(), rows: Vec::new() };
+        let mut conditions =
+            Self { quantities: Vec::new(), limits: Vec::new(), of_loads: Vec::new(), rows: Vec::new() };
         for (bounds, key, side) in
             [(&request.at_least, "at_least", LimitSide::AtLeast), (&request.at_most, "at_most", LimitSide::AtMost)]
         {
@@ -96,7 +99,7 @@ impl Conditions {
             }
         }
 
-        if conditions.limits.is_empty() && !robot.required.is_empty() {
+        if conditions.rows.is_empty() && !robot.required.is_empty() {
             let all_loads = BoundValue { quantity: LOAD_FACTOR.to_owned(), value: 1.0 };
             conditions.add(robot, options, &all_loads, LimitSide::AtLeast)?;
         }
@@ -104,7 +107,7 @@ impl Conditions {
             let clearance = BoundValue { quantity: CLEARANCE.to_owned(), value: 0.0 };
             conditions.add(robot, options, &clearance, LimitSide::AtLeast)?;
         }
-        if conditions.limits.is_empty() {
+        if conditions.rows.is_empty() {
             conditions.rows.push(ConditionRow { of: "tensions".to_owned(), at_least: None, at_most: None });
         }
         Ok(conditions)
@@ -119,6 +122,17 @@ impl Conditions {
             bail!("it does not exist with {} cables: choose another ⟪static_model⟫", options.static_model.name());
         }
 
+        let (at_least, at_most) = match side {
+            LimitSide::AtLeast => (Some(bound.value), None),
+            LimitSide::AtMost => (None, Some(bound.value)),
+        };
+        let is_load_factor = name == LOAD_FACTOR;
+        self.rows.push(ConditionRow { of: name, at_least, at_most });
+        if is_load_factor {
+            self.of_loads.push(Limit { column: own, side, value: bound.value });
+            return Ok(());
+        }
+
         let mut column = own;
         for known in &self.quantities {
             if *known == quantity {
@@ -129,33 +143,28 @@ impl Conditions {
         if !self.quantities.contains(&quantity) {
             self.quantities.push(quantity);
         }
-
-        let (at_least, at_most) = match side {
-            LimitSide::AtLeast => (Some(bound.value), None),
-            LimitSide::AtMost => (None, Some(bound.value)),
-        };
         self.limits.push(Limit { column, side, value: bound.value });
-        self.rows.push(ConditionRow { of: name, at_least, at_most });
         Ok(())
     }
 
     /// Distance of a pose from the limits: the least of all, each over its value if that is not zero. Negative if one
     /// is not kept, `None` if a quantity has no value there.
     pub(super) fn margin(&self, robot: &Robot, pose: &Pose, options: &Options) -> Option<f64> {
-        match (&self.limits[..], &self.rows[..]) {
-            ([], _) => tension_margin(robot, pose, options),
-            // Load factors need the dead load alone, not what a map knows about its equilibrium.
-            ([limit], [row]) if row.of == LOAD_FACTOR => load_margin(limit, robot, pose, options),
-            (limits, _) => {
-                let values = values_at(robot, pose, &self.quantities, options)?;
-                let margin = |limit: &Limit| match &values[limit.column] {
-                    Value::Real(value) => limit.margin(*value),
-                    _ => None,
-                };
-                let margins: Option<Vec<f64>> = limits.iter().map(margin).collect();
-                margins?.into_iter().reduce(f64::min)
+        if self.limits.is_empty() && self.of_loads.is_empty() {
+            return tension_margin(robot, pose, options);
+        }
+        let mut margins = Vec::with_capacity(self.limits.len() + self.of_loads.len());
+        if !self.limits.is_empty() {
+            let values = values_at(robot, pose, &self.quantities, options)?;
+            for limit in &self.limits {
+                let Value::Real(value) = &values[limit.column] else { return None };
+                margins.push(limit.margin(*value)?);
             }
         }
+        for limit in &self.of_loads {
+            margins.push(load_margin(limit, robot, pose, options)?);
+        }
+        margins.into_iter().reduce(f64::min)
     }
 }
 
@@ -168,14 +177,16 @@ fn tension_margin(robot: &Robot, pose: &Pose, options: &Options) -> Option<f64> 
 }
 
 /// Distance of the load factor from its limit. Bounds that lie on one side of the limit decide, and the upper one
-/// stands for the value, to which it is nearer; only between them the factor itself is computed.
+/// stands for the value, to which it is nearer; only between them the factor itself is computed. In wind on the cables
+/// the drag of the ropes at the limit stands for that at the factor, which is on the same side.
 fn load_margin(limit: &Limit, robot: &Robot, pose: &Pose, options: &Options) -> Option<f64> {
     let model = options.static_model;
-    let mut bounds = statics::load_factor_bounds(robot, pose, model).ok()?;
-    if bounds.is_none() && limit.value > 0.0 {
-        bounds = statics::load_factor_bounds_in_wind(robot, pose, model, limit.value).ok()?;
+    if limit.value > 0.0
+        && let Some(verdict) = statics::load_factor_verdict_in_wind(robot, pose, model, limit.value).ok()?
+    {
+        return limit.margin(verdict);
     }
-    if let Some([lower, upper]) = bounds {
+    if let Some([lower, upper]) = statics::load_factor_bounds(robot, pose, model).ok()? {
         let [lower, upper] = [lower, upper].map(|bound| limit.margin(bound));
         if lower.is_some_and(|margin| margin >= 0.0) == upper.is_some_and(|margin| margin >= 0.0) {
             return upper;

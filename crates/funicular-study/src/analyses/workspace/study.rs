@@ -100,7 +100,7 @@ impl WorkspaceStudy {
     }
 
     /// Finds the set with the values that `evaluate` gives for [`Self::value`] of many positions; `None` if it stopped
-    /// before anything was found.
+    /// before a surface was found.
     ///
     /// # Errors
     /// No position of the grid meets the conditions, or a centre of rays outside the box.
@@ -111,6 +111,9 @@ impl WorkspaceStudy {
         let Some(set) = LevelSet::find(self.grid.clone(), self.tolerance, &mut of_own) else { return Ok(None) };
         let surface = set.boundary(1);
         if surface.triangles().is_empty() {
+            if set.end() != SearchEnd::Complete {
+                return Ok(None);
+            }
             let step = first_step(&self.grid, self.plane);
             let message = format!(
                 "no position of the grid meets the conditions: it was searched with steps of {step} m; give a ⟪grid⟫ \

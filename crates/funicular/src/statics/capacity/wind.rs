@@ -4,16 +4,14 @@
 
 use super::required_set::RequiredSet;
 use super::{LoadCapacity, LoadFactor, unscaled, wind_loads_cables, with_lightest_payload};
-use crate::math::{DMat, Vec3, Vec6, any_normal};
+use crate::math::{DMat, Vec3, Vec6, any_normal, order};
 use crate::platform::{Coordinates, wrench_of};
 use crate::robot::{Cable, Pose, RequiredLoads, Robot, Wind};
 use crate::statics::error::StaticsError;
-use crate::statics::exit_points;
 use crate::statics::model::StaticModel;
 use crate::statics::tension::with_wrench;
 use crate::statics::wrench_set::{BulgeSearch, Facet};
 use std::borrow::Cow;
-use std::cell::Cell;
 use std::f64::consts::TAU;
 
 /// Number of directions in which the worst wind is sought at first. The load factor over the direction is the least of
@@ -23,6 +21,11 @@ const DIRECTIONS: usize = 24;
 /// Width of the direction of the worst wind [rad]: the load factor is flat there, and known to its square.
 const DIRECTION_WIDTH: f64 = 1e-5;
 
+/// Change of the direction of the worst wind [rad] at which a search by parabolas ends, and the maximum number of its
+/// steps: a step squares the distance, and 2 or 3 are usual.
+const SAME_DIRECTION: f64 = 1e-4;
+const MAX_PARABOLAS: usize = 6;
+
 /// Difference between the multiple of the pressure on the cables and the load factor, over the load factor, at which
 /// both are equal.
 const SAME_MULTIPLE: f64 = 1e-11;
@@ -30,31 +33,28 @@ const SAME_MULTIPLE: f64 = 1e-11;
 /// Maximum number of pressures tried for one direction, a guard: 3 to 5 are usual.
 const MAX_PRESSURES: usize = 60;
 
-/// Bounds of the load factor at a pose with required wind on the cables, as
-/// [`load_factor_bounds`](super::load_factor_bounds) for calm ropes: with their drag in a wind of `multiple` of the
-/// required pressure, they are on that side of the multiple on which the load factor is. They take a hundredth of the
-/// time of the load factor. `None` without wind on the cables, with exit points that move with the tensions, and
-/// without facets.
+/// Verdict at a pose with required wind on the cables: the load factor with the drag of the ropes in a wind of
+/// `multiple` of the required pressure. It is on that side of the multiple on which the load factor is, and takes a
+/// hundredth of its time: bounds from the facets decide most directions of the wind. `None` without wind on the
+/// cables, for which [`load_factor_bounds`](super::load_factor_bounds) is enough.
 ///
 /// # Errors
-/// As [`LoadCapacity::at`]; a dead load that is not held.
+/// As [`LoadCapacity::at`]; a dead load that is not held, or a wind in which no load is.
 ///
 /// # References
 /// docs/theory.md, equation (40l1).
-pub fn load_factor_bounds_in_wind(
+pub fn load_factor_verdict_in_wind(
     robot: &Robot,
     pose: &Pose,
     model: StaticModel,
     multiple: f64,
-) -> Result<Option<[f64; 2]>, StaticsError> {
-    if !wind_loads_cables(robot, model) || exit_points::depend_on_tensions(robot, model) {
+) -> Result<Option<f64>, StaticsError> {
+    if !wind_loads_cables(robot, model) {
         return Ok(None);
     }
     let capacity = LoadCapacity::at(robot, pose, model, None)?;
-    match capacity.bounds_in_wind(multiple) {
-        Err(StaticsError::NoLoadFactor) => Ok(None),
-        bounds => bounds.map(Some),
-    }
+    capacity.rest.as_ref().map_err(Clone::clone)?;
+    capacity.verdict_in_wind(multiple).map(Some)
 }
 
 impl<'a> LoadCapacity<'a> {
@@ -70,21 +70,59 @@ impl<'a> LoadCapacity<'a> {
         self.in_worst_wind(margin, |margin| *margin).ok().filter(|margin| !margin.is_nan())
     }
 
-    /// Bounds of the load factor from the facets, with the drag of the ropes in a wind of a multiple of the pressure:
-    /// they are on that side of the multiple on which the load factor is.
-    fn bounds_in_wind(&self, multiple: f64) -> Result<[f64; 2], StaticsError> {
-        self.rest.as_ref().map_err(Clone::clone)?;
-        let least = Cell::new(f64::INFINITY);
-        let upper_in = |wind: &Wind| {
-            let blown = self.in_wind(wind, multiple)?;
+    /// Load factor with the drag of the ropes in a wind of a multiple of the pressure, as
+    /// [`load_factor_verdict_in_wind`].
+    fn verdict_in_wind(&self, multiple: f64) -> Result<f64, StaticsError> {
+        let horizon = Horizon::of(self.given);
+        let in_wind = |velocity_w: Vec3| self.in_wind(&Wind { velocity_w, ..self.given.wind }, multiple);
+        let exact = |velocity_w: Vec3| in_wind(velocity_w)?.load_factor_value();
+
+        // Bounds for all directions and for calm air, the lowest first.
+        let step = TAU / DIRECTIONS as f64;
+        let mut bounded = Vec::with_capacity(DIRECTIONS + 1);
+        for k in 0..=DIRECTIONS {
+            let angle = (k < DIRECTIONS).then_some(step * k as f64);
+            let blown = in_wind(angle.map_or_else(Vec3::zeros, |angle| horizon.wind_w(angle)))?;
             let available = blown.wrenches(BulgeSearch::Bounds);
-            let bound = |reach: fn(&Facet) -> f64| blown.smallest(&available, reach).ok_or(StaticsError::NoLoadFactor);
-            let [lower, upper] = [bound(|facet| facet.inner)?, bound(|facet| facet.outer)?];
-            least.set(least.get().min(lower));
-            Ok(upper)
+            let bound = |reach: fn(&Facet) -> f64| blown.smallest(&available, reach);
+            bounded.push((angle, bound(|facet| facet.inner).zip(bound(|facet| facet.outer))));
+        }
+        let lowest = |bounds: &Option<(f64, f64)>| bounds.map_or(f64::NEG_INFINITY, |(lower, _)| lower);
+        order::sort_ascending(&mut bounded, |(_, bounds)| lowest(bounds));
+
+        // Bounds on one side of the multiple decide for all directions; the upper one is nearer to the value.
+        let bounds: Option<Vec<(f64, f64)>> = bounded.iter().map(|(_, bounds)| *bounds).collect();
+        let upper = |angle: f64| {
+            let blown = in_wind(horizon.wind_w(angle))?;
+            blown.smallest(&blown.wrenches(BulgeSearch::Bounds), |facet| facet.outer).ok_or(StaticsError::NoLoadFactor)
         };
-        let upper = self.in_worst_wind(upper_in, |upper| *upper)?;
-        Ok([least.get(), upper])
+        if let Some(bounds) = bounds {
+            let least_upper = bounds.iter().enumerate().min_by(|a, b| a.1.1.total_cmp(&b.1.1));
+            let (at, on_grid) = least_upper.map_or((0, f64::INFINITY), |(at, (_, upper))| (at, *upper));
+            let least = bounded[at].0.map_or(Ok(on_grid), |angle| lowest_near(angle, step, on_grid, upper))?;
+            // The lower bound falls between the directions as the upper one does.
+            let between = if on_grid.is_finite() { on_grid - least } else { 0.0 };
+            if least < multiple || bounds[0].0 - between >= multiple {
+                return Ok(least);
+            }
+        }
+
+        // Otherwise the load factor itself decides, in the directions that may be the worst.
+        let mut worst: Option<(Option<f64>, f64)> = None;
+        for (angle, bounds) in &bounded {
+            if worst.is_some_and(|(_, least)| lowest(bounds) >= least) {
+                break;
+            }
+            let found = exact(angle.map_or_else(Vec3::zeros, |angle| horizon.wind_w(angle)))?;
+            if worst.is_none_or(|(_, least)| found < least) {
+                worst = Some((*angle, found));
+            }
+        }
+        let (angle, least) = worst.ok_or(StaticsError::NoLoadFactor)?;
+        match angle {
+            Some(angle) if least.is_finite() => lowest_near(angle, step, least, |angle| exact(horizon.wind_w(angle))),
+            _ => Ok(least),
+        }
     }
 
     /// Load factor in wind from one direction. The pressure on the cables has the multiple of all loads.
@@ -125,14 +163,9 @@ impl<'a> LoadCapacity<'a> {
         of: impl Fn(&Wind) -> Result<T, StaticsError>,
         value: impl Fn(&T) -> f64,
     ) -> Result<T, StaticsError> {
-        let up_w = self.given.up_w();
-        let along_w = any_normal(&up_w);
-        let across_w = up_w.cross(&along_w);
+        let horizon = Horizon::of(self.given);
         let blowing = |velocity_w: Vec3| of(&Wind { velocity_w, ..self.given.wind });
-        let at = |angle: f64| {
-            let (sin, cos) = angle.sin_cos();
-            blowing((along_w * cos + across_w * sin) * self.given.required.wind_speed)
-        };
+        let at = |angle: f64| blowing(horizon.wind_w(angle));
         let calm = blowing(Vec3::zeros())?;
 
         // All directions, …
@@ -202,12 +235,9 @@ pub(crate) fn robots_under_required_loads(robot: &Robot, pose: &Pose) -> Vec<(Ro
     let directions = directions_of_tensions(robot, pose);
     let mut sets = vec![((*loaded).clone(), without_wind(&loaded, pose))];
     if robot.required.wind_speed > 0.0 {
-        let up_w = robot.up_w();
-        let along_w = any_normal(&up_w);
-        let across_w = up_w.cross(&along_w);
+        let horizon = Horizon::of(robot);
         sets.extend((0..DIRECTIONS).map(|k| {
-            let (sin, cos) = (TAU * k as f64 / DIRECTIONS as f64).sin_cos();
-            let velocity_w = (along_w * cos + across_w * sin) * robot.required.wind_speed;
+            let velocity_w = horizon.wind_w(TAU * k as f64 / DIRECTIONS as f64);
             blown(&loaded, pose, &Wind { velocity_w, ..robot.wind }, 1.0)
         }));
     }
@@ -237,4 +267,56 @@ fn directions_of_tensions(robot: &Robot, pose: &Pose) -> Vec<Vec6> {
     matrix
         .pseudo_inverse(least)
         .map_or(columns, |inverse| inverse.row_iter().map(|row| -Vec6::from_iterator(row.iter().copied())).collect())
+}
+
+/// Horizontal directions of the required wind.
+struct Horizon {
+    along_w: Vec3,
+    across_w: Vec3,
+    /// Speed of the wind [m/s].
+    speed: f64,
+}
+
+impl Horizon {
+    fn of(robot: &Robot) -> Self {
+        let up_w = robot.up_w();
+        let along_w = any_normal(&up_w);
+        Self { along_w, across_w: up_w.cross(&along_w), speed: robot.required.wind_speed }
+    }
+
+    /// Velocity of the wind at an angle.
+    fn wind_w(&self, angle: f64) -> Vec3 {
+        let (sin, cos) = angle.sin_cos();
+        (self.along_w * cos + self.across_w * sin) * self.speed
+    }
+}
+
+/// Least value of a function of the direction near an angle with its value, lower than a step away, by parabolas.
+fn lowest_near(
+    angle: f64,
+    step: f64,
+    at_angle: f64,
+    value: impl Fn(f64) -> Result<f64, StaticsError>,
+) -> Result<f64, StaticsError> {
+    let mut middle = (angle, at_angle);
+    let (mut low, mut high) = ((angle - step, value(angle - step)?), (angle + step, value(angle + step)?));
+    for _ in 0..MAX_PARABOLAS {
+        // Vertex of the parabola through three points, the middle one of which is the lowest.
+        let [left, right] = [low, high].map(|(at, value)| (at - middle.0, value - middle.1));
+        let bend = right.0 * left.1 - left.0 * right.1;
+        let move_by = 0.5 * (right.0 * right.0 * left.1 - left.0 * left.0 * right.1) / bend;
+        if !move_by.is_finite() || move_by.abs() < SAME_DIRECTION || move_by <= left.0 || move_by >= right.0 {
+            break;
+        }
+        let next = (middle.0 + move_by, value(middle.0 + move_by)?);
+        let is_lower = next.1 < middle.1;
+        let (inner, outer) = if is_lower { (next, middle) } else { (middle, next) };
+        if outer.0 < inner.0 {
+            low = outer;
+        } else {
+            high = outer;
+        }
+        middle = inner;
+    }
+    Ok(middle.1)
 }

@@ -3,6 +3,8 @@
 use super::more_unknowns::rigid_poses;
 use super::*;
 use funicular::calibration::{WrongRow, wrong_rows};
+use funicular::robot::State;
+use funicular::statics::TensionRule;
 
 /// Largest decrease of χ² that noise may give in a test with many rows.
 const NOISE: f64 = 40.0;
@@ -188,4 +190,92 @@ fn a_factor_counts_among_lengths_as_one_of_them() {
         }
     }
     assert!(!weak[0].parts.iter().all(|(part, _)| is_factor(part)), "{:?}", weak[0].parts);
+}
+
+/// Tensions of elastic cables and the deviation with which they are measured [N].
+#[derive(Clone, Copy)]
+struct MeasuredTensions {
+    mean: f64,
+    deviation: f64,
+}
+
+const TAUT: MeasuredTensions = MeasuredTensions { mean: 150.0, deviation: 2.0 };
+
+/// Point on six elastic cables at rest at poses, whose lengths and tensions are read with noise, 0.5 mm of a length.
+fn elastic(poses: &[Pose], tensions: MeasuredTensions, draws: &mut Draws) -> (Robot, Vec<MeasuredRow>) {
+    let mut truth = camera();
+    truth.gravity_w = Vec3::new(0.0, 0.0, -9.81);
+    truth.platform.mass = tensions.mean / 40.0;
+    for cable in &mut truth.cables {
+        cable.material.axial_stiffness = 2e5;
+        cable.material.mass_per_length = 1e-3;
+    }
+    let mut rows = Vec::new();
+    for pose in poses {
+        let rule = TensionRule::Closest(vec![tensions.mean * (1.0 + draws.within(0.5))]);
+        let at_pose = statics::solve_at(&truth, &State::Pose(*pose), StaticModel::Catenary, &rule);
+        let Ok(rest) = at_pose.map(|found| found.equilibrium) else { continue };
+        let lengths = rest.cables.iter().map(|cable| cable.unstrained_length);
+        let readings: Vec<f64> = lengths.map(|length| length + 0.5e-3 * draws.normal()).collect();
+        let measured =
+            rest.cables.iter().map(|cable| Some(cable.tension_anchor + tensions.deviation * draws.normal())).collect();
+        rows.push(MeasuredRow { tensions: measured, start: Some(*pose), ..MeasuredRow::of_readings(&readings) });
+    }
+    (truth, rows)
+}
+
+fn of_elastic_rows(
+    truth: &Robot,
+    rows: Vec<MeasuredRow>,
+    tensions: MeasuredTensions,
+    draws: &mut Draws,
+) -> Calibration {
+    let all = unknowns(truth.cables.len(), &[0, 1, 2], false);
+    let deviations = ReadingDeviations { tension: tensions.deviation, ..deviations(0.5e-3) };
+    Calibration::new(with_errors(truth, 0.02, draws), all, rows, deviations, StaticModel::Catenary).unwrap()
+}
+
+#[test]
+fn a_row_of_elastic_cables_with_two_exchanged_readings_is_named() {
+    let mut draws = Draws(5);
+    let poses = camera_poses(16, &mut draws);
+    let (truth, mut rows) = elastic(&poses, TAUT, &mut draws);
+    assert!(rows.len() > 10, "{}", rows.len());
+    let wrong = 4;
+    let cables = pair_of(&rows[wrong], &mut draws);
+    rows[wrong].readings.swap(cables[0], cables[1]);
+    let of = of_elastic_rows(&truth, rows, TAUT, &mut draws);
+    let begun = std::time::Instant::now();
+    let found = found_wrong(&of);
+    println!("{} s", begun.elapsed().as_secs_f64());
+    assert_eq!(found.iter().map(|row| row.row).collect::<Vec<_>>(), [wrong], "{found:?}");
+    assert_eq!(found[0].exchange.map(|of| of.cables), Some(cables), "{found:?}");
+}
+
+/// Points in a plane leave elastic cables the mirror images of straight ones where tensions are too uncertain to tell
+/// on which side a cable pulls. Taut cables in balance tell it, and so do points that fill the room.
+#[test]
+fn mirror_images_of_elastic_cables_are_found_where_tensions_do_not_tell() {
+    let slack = MeasuredTensions { mean: 8.0, deviation: 30.0 };
+    let mut draws = Draws(8);
+    let filling = camera_poses(20, &mut draws);
+    let mut flat = filling.clone();
+    for pose in &mut flat {
+        pose.position_w.z = 2.0;
+    }
+    for (poses, tensions, has_images) in [(&flat, slack, true), (&flat, TAUT, false), (&filling, slack, false)] {
+        let (truth, rows) = elastic(poses, tensions, &mut draws);
+        assert!(rows.len() > 12, "{}", rows.len());
+        let of = of_elastic_rows(&truth, rows, tensions, &mut draws);
+        let frame = of.frame(&FrameChoice::Anchors(Vec::new())).unwrap();
+        let begun = std::time::Instant::now();
+        let found = search(&of, &frame, 3, &mut |_, _| true).unwrap();
+        println!("{} s, χ² {}", begun.elapsed().as_secs_f64(), found.best.chi2);
+        let images: Vec<_> = found.others.iter().filter(|other| !other.mirrored.is_empty()).collect();
+        assert_eq!(!images.is_empty(), has_images, "{}: {}", tensions.mean, images.len());
+        for image in images {
+            assert!(image.fit.chi2 < found.best.chi2 + 60.0, "{} {}", image.fit.chi2, found.best.chi2);
+            assert!(of.telling_row(&found.best, &image.fit).is_some());
+        }
+    }
 }

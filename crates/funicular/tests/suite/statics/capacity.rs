@@ -439,3 +439,39 @@ fn required_wind_on_the_ropes_is_held_just_inside_the_load_factor_and_refused_ju
         assert!(capacity.margin().unwrap() * (factor.value - 1.0) > 0.0);
     }
 }
+
+/// The verdict in wind is on the side of the load factor, for multiples near it and far from it, on both sides.
+#[test]
+fn the_verdict_in_wind_is_on_the_side_of_the_load_factor() {
+    let (mut counts, mut near) = ([0, 0], 0);
+    for robot in [in_the_open(0.03), in_the_open(0.15)] {
+        for pose in poses(3, [2.5, 1.5, 0.4], [0.0, 0.0, 1.4]) {
+            let capacity = LoadCapacity::at(&robot, &pose, StaticModel::Catenary, None).unwrap();
+            let verdict =
+                |multiple: f64| statics::load_factor_verdict_in_wind(&robot, &pose, StaticModel::Catenary, multiple);
+            let Ok(factor) = capacity.load_factor_value() else {
+                assert!(!verdict(1.0).is_ok_and(|value| value.is_some_and(|value| value >= 1.0)));
+                continue;
+            };
+            for part in [0.3, 0.9, 0.999, 1.0 - 1e-6, 1.0 + 1e-6, 1.001, 1.1, 2.0] {
+                let multiple = part * factor;
+                let is_held = verdict(multiple).is_ok_and(|value| value.unwrap() >= multiple);
+                assert_eq!(is_held, part < 1.0, "{part} of {factor}");
+                counts[usize::from(is_held)] += 1;
+            }
+            // At the load factor itself, the verdict is the load factor.
+            if let Ok(Some(value)) = verdict(factor) {
+                assert!((value / factor - 1.0).abs() < 1e-3, "{value} {factor}");
+                near += 1;
+            }
+        }
+    }
+    assert!(counts.iter().all(|count| *count > 8) && near > 2, "{counts:?} {near}");
+    let calm = statics::load_factor_verdict_in_wind(
+        &in_the_open(0.0),
+        &Pose::new([0.0, 0.0, 1.4], [0.0; 3]),
+        StaticModel::Catenary,
+        1.0,
+    );
+    assert_eq!(calm.unwrap(), None);
+}
