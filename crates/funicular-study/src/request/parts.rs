@@ -7,8 +7,8 @@ use crate::values::{finite, not_negative, positive};
 use anyhow::{Result, anyhow, bail};
 use funicular::cable::CableModel;
 use funicular::dynamics::Assembly;
-use funicular::math::{Quaternion, Rotation, rotation};
-use funicular::robot::WinchMode;
+use funicular::math::{Quaternion, Rotation, Vec3, rotation};
+use funicular::robot::{Robot, RobotChange, WinchMode};
 use funicular::statics::StaticModel;
 use serde::{Deserialize, Serialize};
 
@@ -408,6 +408,57 @@ pub(crate) fn check_vector(key: &str, vector: Option<[f64; 3]>) -> Result<()> {
     vector.iter().flatten().try_for_each(|value| check(key, Some(*value), finite))
 }
 
+/// Vector of a request that stands for one of the robot file.
+pub(crate) struct FileVector {
+    /// Key of the request.
+    pub(crate) key: &'static str,
+    /// Path in the robot file.
+    pub(crate) path: &'static str,
+    /// Value, if the request gives it.
+    pub(crate) value: Option<[f64; 3]>,
+    /// Its place in a robot.
+    pub(crate) of_robot: fn(&mut Robot) -> &mut Vec3,
+    /// Its place in a change of a robot.
+    pub(crate) of_change: fn(&mut RobotChange) -> &mut Vec3,
+}
+
+impl Load {
+    /// Vectors that stand for those of the robot file. The load of the cables stands for one of each cable.
+    pub(crate) fn of_file(&self) -> [FileVector; 4] {
+        let Self { force_n, moment_n_m, load_point_m, wind_m_s, cable_load_n_per_m: _ } = *self;
+        [
+            FileVector {
+                key: "force_n",
+                path: "loads.force_n",
+                value: force_n,
+                of_robot: |robot| &mut robot.load.force_w,
+                of_change: |change| &mut change.force_w,
+            },
+            FileVector {
+                key: "moment_n_m",
+                path: "loads.moment_n_m",
+                value: moment_n_m,
+                of_robot: |robot| &mut robot.load.moment_w,
+                of_change: |change| &mut change.moment_w,
+            },
+            FileVector {
+                key: "load_point_m",
+                path: "loads.point_m",
+                value: load_point_m,
+                of_robot: |robot| &mut robot.load.point_p,
+                of_change: |change| &mut change.point_p,
+            },
+            FileVector {
+                key: "wind_m_s",
+                path: "wind.velocity_m_s",
+                value: wind_m_s,
+                of_robot: |robot| &mut robot.wind.velocity_w,
+                of_change: |change| &mut change.wind_velocity_w,
+            },
+        ]
+    }
+}
+
 impl State {
     /// Checks the numbers.
     pub(crate) fn check(&self) -> Result<()> {
@@ -415,12 +466,8 @@ impl State {
             check("lengths_m", Some(*length), positive)?;
         }
         check("mass_kg", self.mass_kg, positive)?;
-        let Load { force_n, moment_n_m, load_point_m, wind_m_s, cable_load_n_per_m } = self.load;
-        check_vector("force_n", force_n)?;
-        check_vector("moment_n_m", moment_n_m)?;
-        check_vector("load_point_m", load_point_m)?;
-        check_vector("wind_m_s", wind_m_s)?;
-        check_vector("cable_load_n_per_m", cable_load_n_per_m)
+        self.load.of_file().iter().try_for_each(|vector| check_vector(vector.key, vector.value))?;
+        check_vector("cable_load_n_per_m", self.load.cable_load_n_per_m)
     }
 }
 

@@ -35,15 +35,8 @@ impl Prepared<'_> {
         }
 
         let load = &state.load;
-        for (is_given, own) in [
-            (load.force_n.is_some(), &mut change.force_w),
-            (load.moment_n_m.is_some(), &mut change.moment_w),
-            (load.load_point_m.is_some(), &mut change.point_p),
-            (load.wind_m_s.is_some(), &mut change.wind_velocity_w),
-        ] {
-            if is_given {
-                *own = Vec3::zeros();
-            }
+        for vector in load.of_file().iter().filter(|vector| vector.value.is_some()) {
+            *(vector.of_change)(&mut change) = Vec3::zeros();
         }
         for cable in &mut change.cables {
             if state.lengths_m.is_some() || state.hold_lengths_of_pose {

@@ -3,7 +3,7 @@
 use crate::analyses::gradient::{Tolerance, refuse_replaced, value_at};
 use crate::at_rest::AtRest;
 use crate::normal::normal_quantile;
-use crate::request::{Load, UncertaintyRequest};
+use crate::request::UncertaintyRequest;
 use crate::set_values::{self, Assignment};
 use anyhow::{Result, anyhow, bail};
 use funicular::gradient::Hold;
@@ -380,22 +380,17 @@ fn stated(
     };
 
     // Numbers of the request that stand for numbers of the file.
-    let Load { force_n, moment_n_m, load_point_m, wind_m_s, cable_load_n_per_m } = request.state.load;
+    let load = &request.state.load;
     if let Some(mass) = request.state.mass_kg {
         state("platform.mass_kg", json!(mass))?;
     }
-    for (path, vector) in [
-        ("loads.force_n", force_n),
-        ("loads.moment_n_m", moment_n_m),
-        ("loads.point_m", load_point_m),
-        ("wind.velocity_m_s", wind_m_s),
-    ] {
-        if let Some(vector) = vector {
-            state(path, json!(vector))?;
+    for vector in load.of_file() {
+        if let Some(value) = vector.value {
+            state(vector.path, json!(value))?;
         }
     }
-    for cable in at_rest.robot.cables.iter().filter(|_| cable_load_n_per_m.is_some()) {
-        state(&format!("cables.{}.load_n_per_m", quoted(&cable.name)), json!(cable_load_n_per_m))?;
+    for cable in at_rest.robot.cables.iter().filter(|_| load.cable_load_n_per_m.is_some()) {
+        state(&format!("cables.{}.load_n_per_m", quoted(&cable.name)), json!(load.cable_load_n_per_m))?;
     }
 
     // Numbers that the file leaves out.

@@ -141,7 +141,6 @@ fn rates_and_accelerations_are_those_of_differences() {
                 }
             }
         }
-        println!("{name}: {compared}, {worst:.1e?}");
         assert!(compared >= 3 * robot.cables.len(), "{name}: {compared}");
         for (k, error) in worst.iter().enumerate() {
             assert!(*error < [1e-8, 1e-6][k % 2], "{name}: {worst:?}");
