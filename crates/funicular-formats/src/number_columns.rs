@@ -48,7 +48,7 @@ pub fn read_with_gaps(path: &str, bytes: &[u8]) -> Result<NumberTable<Option<f64
     read_by(path, bytes, |text| if text.is_empty() { Ok(None) } else { number(text).map(Some) })
 }
 
-/// Reads such a table of texts and numbers as objects, one per row. Empty cells are left out.
+/// Reads such a table of texts and numbers as objects, one per row. Empty cells are left out; a `name` is a text.
 ///
 /// # Errors
 /// A table that is too large, or a column that is there twice.
@@ -61,10 +61,14 @@ pub fn read_with_gaps(path: &str, bytes: &[u8]) -> Result<NumberTable<Option<f64
 /// # Ok::<(), anyhow::Error>(())
 /// ```
 pub fn read_records(path: &str, bytes: &[u8]) -> Result<Vec<Map<String, Value>>> {
-    let table = read_by(path, bytes, |text| Ok(number(text).map_or_else(|_| Value::from(text), Value::from)))?;
+    let table = read_by(path, bytes, |text| Ok(text.to_owned()))?;
+    let value = |name: &str, text: &str| match number(text) {
+        Ok(number) if name != "name" => number.into(),
+        _ => Value::from(text),
+    };
     let row = |row: usize| {
-        let cells = table.columns.iter().map(|(name, values)| (name.clone(), values[row].clone()));
-        cells.filter(|(_, value)| value.as_str() != Some("")).collect()
+        let cells = table.columns.iter().map(|(name, values)| (name, &values[row]));
+        cells.filter(|(_, text)| !text.is_empty()).map(|(name, text)| (name.clone(), value(name, text))).collect()
     };
     Ok((0..table.lines.len()).map(row).collect())
 }

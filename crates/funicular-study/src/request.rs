@@ -64,7 +64,7 @@ pub use vibration::{
     CableRequest, CompareRequest, FrfRequest, GustRequest, ModesRequest, ReduceRequest, SettleRequest,
     TurbulenceOptions,
 };
-pub use winches::WinchesRequest;
+pub use winches::{OfferedWinch, WinchesRequest};
 pub use workspace::{BoundValue, WorkspaceRequest};
 
 pub use parts::check;

@@ -7,18 +7,16 @@ use super::shared::PoseRow;
 use crate::at_rest;
 use crate::columns::{ResultTable, Tabled};
 use crate::error::{Cancelled, NoSolution};
-use crate::names::suggestion;
-use crate::request::{self, WinchesRequest};
+use crate::request::{self, OfferedWinch, WinchesRequest};
 use crate::rows::rows;
 use crate::table::Column;
 use crate::text::{significant, with_unit};
-use crate::values::{finite, positive};
+use crate::values::positive;
 use crate::watch::Watch;
-use anyhow::{Result, anyhow, bail};
+use anyhow::{Result, bail};
 use funicular::math::Vec6;
 use funicular::robot::{Pose, Robot, RopeSection, State};
 use funicular::winch_needs::{CableNeeds, LargestNeed, WinchNeed, WinchNeeds, WinchNeedsError};
-use serde_json::{Map, Value};
 use std::f64::consts::PI;
 
 /// Name of the winch that serves every cable.
@@ -125,34 +123,33 @@ rows! {
     }
 }
 
-/// Quantities of a winch as results and offers name them: name, key of an offer, unit.
-const QUANTITIES: [(&str, &str, &str); 6] = [
-    ("tension", "tension_n", "N"),
-    ("speed", "speed_m_s", "m/s"),
-    ("acceleration", "acceleration_m_s2", "m/s²"),
-    ("torque", "torque_n_m", "N m"),
-    ("power", "power_w", "W"),
-    ("brake-power", "brake_power_w", "W"),
+/// Quantities of a winch in the order of [`WinchNeed::ALL`], with their units.
+const QUANTITIES: [(&str, &str); 6] = [
+    ("tension", "N"),
+    ("speed", "m/s"),
+    ("acceleration", "m/s²"),
+    ("torque", "N m"),
+    ("power", "W"),
+    ("brake-power", "W"),
 ];
-
-/// Key of the rope that an offer takes.
-const ROPE: (&str, &str) = ("rope", "rope_m");
 
 /// Computes the winches that a robot needs.
 ///
 /// # Errors
-/// A request that contradicts itself or the robot, fewer cables than degrees of freedom, no pose at which every required
-/// load is held, or work that was stopped before its first pose.
+/// A request that contradicts itself or the robot, fewer cables than degrees of freedom, no pose at which every
+/// required load is held, or work that was stopped before its first pose.
 pub fn run(robot: Robot, request: &WinchesRequest, watch: &mut dyn Watch) -> Result<Winches> {
     request::check("drum_width_m", request.drum_width_m, positive)?;
-    let offers = request.offers.as_deref().map(offers).transpose()?;
+    if request.offers.as_ref().is_some_and(Vec::is_empty) {
+        bail!("⟪offers⟫ has no winches: give at least one");
+    }
     let robot = at_rest::with_limits(&at_rest::with_state(robot, &request.state)?, &request.tensions)?;
     let robot =
         at_rest::with_required_velocities(at_rest::with_required(robot, &request.required)?, &request.velocities)?;
     if robot.constraint().is_under() {
         bail!(
-            "{} cables do not hold a platform with {} degrees of freedom at every pose: `winches` needs at least as many \
-             cables as degrees of freedom",
+            "{} cables do not hold a platform with {} degrees of freedom at every pose: `winches` needs at least as \
+             many cables as degrees of freedom",
             robot.cables.len(),
             robot.platform.motion.count()
         );
@@ -214,7 +211,8 @@ pub fn run(robot: Robot, request: &WinchesRequest, watch: &mut dyn Watch) -> Res
         held,
         not_held,
         asked: asked(&robot, &needs),
-        offers: offers.map(|offers| offers.iter().map(|offer| offer.compared(&winches[0])).collect()),
+        offers: (request.offers.as_ref())
+            .map(|offers| offers.iter().map(|offer| OfferRow::of(offer, &winches[0])).collect()),
         winches,
         warnings,
     })
@@ -319,13 +317,13 @@ fn layers(length: f64, width: f64, radius: f64, diameter: f64) -> Option<usize> 
     None
 }
 
-/// What asks for each number of the winch that serves every cable.
+/// Pose, load and velocity that ask for each number of the winch that serves every cable.
 fn asked(robot: &Robot, needs: &WinchNeeds) -> Vec<AskedRow> {
     let parts = |of: &Vec6| {
         let [x, y, z, rx, ry, rz] = (*of).into();
         [[x, y, z], [rx, ry, rz]]
     };
-    let row = |(need, (quantity, _, unit)): (WinchNeed, (&'static str, &str, &'static str))| {
+    let row = |(need, (quantity, unit)): (WinchNeed, (&'static str, &'static str))| {
         let (cable, of) = needs.of_one(need)?;
         let [force_n, moment_n_m] = parts(&of.load_w);
         let moves = need != WinchNeed::Tension;
@@ -347,61 +345,16 @@ fn asked(robot: &Robot, needs: &WinchNeeds) -> Vec<AskedRow> {
     WinchNeed::ALL.into_iter().zip(QUANTITIES).filter_map(row).collect()
 }
 
-/// Winch on offer.
-struct Offer {
-    name: String,
-    /// What it gives, in the order of [`QUANTITIES`].
-    gives: [Option<f64>; 6],
-    rope: Option<f64>,
-}
-
-/// Offers of a request.
-///
-/// # Errors
-/// A key that no offer has, or a value that is not positive; the message names the row.
-fn offers(rows: &[Map<String, Value>]) -> Result<Vec<Offer>> {
-    if rows.is_empty() {
-        bail!("⟪offers⟫ has no winches: give at least one");
-    }
-    let known: Vec<String> = std::iter::once("name")
-        .chain(QUANTITIES.iter().map(|(_, key, _)| *key))
-        .chain([ROPE.1])
-        .map(str::to_owned)
-        .collect();
-    let offer = |(number, row): (usize, &Map<String, Value>)| {
-        if let Some(key) = row.keys().find(|key| !known.contains(key)) {
-            bail!("⟪offers⟫, winch {number}: there is no `{key}` of a winch{}", suggestion(key, &known));
-        }
-        let value = |key: &str| -> Result<Option<f64>> {
-            let Some(given) = row.get(key) else { return Ok(None) };
-            let number_of = given.as_f64().ok_or_else(|| anyhow!("{given} is no number"));
-            let checked =
-                number_of.and_then(|value| finite(value).and_then(positive).map_err(|reason| anyhow!(reason)));
-            checked.map(Some).map_err(|reason| anyhow!("⟪offers⟫, winch {number}, `{key}`: {reason}"))
-        };
-        let mut gives = [None; 6];
-        for (gives, (_, key, _)) in gives.iter_mut().zip(QUANTITIES) {
-            *gives = value(key)?;
-        }
-        let name = match row.get("name") {
-            Some(Value::String(name)) => name.clone(),
-            Some(other) => other.to_string(),
-            None => number.to_string(),
-        };
-        Ok(Offer { name, gives, rope: value(ROPE.1)? })
-    };
-    (1..).zip(rows).map(offer).collect()
-}
-
-impl Offer {
-    /// Comparison with what is needed.
-    fn compared(&self, needed: &WinchRow) -> OfferRow {
-        let quantities = QUANTITIES.iter().map(|(name, ..)| *name).zip(needed.values()).zip(self.gives);
-        let rope = ((ROPE.0, Some(needed.rope_m)), self.rope);
-        let parts = quantities.chain([rope]).filter_map(|((name, need), gives)| Some((name, need? / gives?)));
+impl OfferRow {
+    /// Comparison of an offer with what is needed.
+    fn of(offer: &OfferedWinch, needed: &WinchRow) -> Self {
+        let needs = needed.values().into_iter().chain([Some(needed.rope_m)]);
+        let names = QUANTITIES.iter().map(|(name, _)| *name).chain(["rope"]);
+        let parts =
+            names.zip(needs).zip(offer.numbers()).filter_map(|((name, need), gives)| Some((name, need? / gives?)));
         let most = parts.reduce(|most, of| if of.1 > most.1 { of } else { most });
-        OfferRow {
-            name: self.name.clone(),
+        Self {
+            name: offer.name.clone(),
             fits: most.is_some_and(|(_, part)| part <= 1.0),
             used: most.map(|(_, part)| part),
             by: most.map(|(name, _)| name),

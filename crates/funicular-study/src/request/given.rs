@@ -1,6 +1,7 @@
 //! Values that a request gives, checked against the declaration of its keys before they are read: their kinds, their
 //! ranges, and keys that need or exclude each other. Every front end passes through here.
 
+use super::OfferedWinch;
 use super::key::{Declared, Key, Kind, ProgramForm, Range};
 use super::{Experiment, commands, library_words, simulate};
 use crate::names::{no_such, suggestion};
@@ -122,6 +123,7 @@ fn of_data(name: &str, value: &Value) -> KeyCheck {
         }
         "scenario" => scenario(value),
         "experiments" => experiments(value),
+        "offers" => objects(value, &offer_keys()),
         "responses" => objects(value, &response_keys()),
         "frequencies" => objects(value, &frequency_keys()),
         "from_csv" => object(value, "a mapping with `path` and `text`", |given| keys_of_object(&file(), &[], given)),
@@ -269,6 +271,12 @@ fn scenario(value: &Value) -> KeyCheck {
         }
     }
     Ok(())
+}
+
+/// Keys of a winch on offer.
+fn offer_keys() -> Vec<Key> {
+    let gives = OfferedWinch::NUMBERS.map(|name| entry(name, Kind::Number(Range::Positive), false));
+    std::iter::once(entry("name", Kind::Text, true)).chain(gives).collect()
 }
 
 fn response_keys() -> Vec<Key> {

@@ -416,9 +416,9 @@ pub(crate) struct FileVector {
     pub(crate) path: &'static str,
     /// Value, if the request gives it.
     pub(crate) value: Option<[f64; 3]>,
-    /// Its place in a robot.
+    /// Place in a robot.
     pub(crate) of_robot: fn(&mut Robot) -> &mut Vec3,
-    /// Its place in a change of a robot.
+    /// Place in a change of a robot.
     pub(crate) of_change: fn(&mut RobotChange) -> &mut Vec3,
 }
 
