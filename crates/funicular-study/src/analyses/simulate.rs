@@ -124,8 +124,8 @@ impl NearestRow {
 }
 
 rows! {
-    /// Loss of the stretch of ropes in one mode of the platform. In time it is a damping time, which has the loss factor
-    /// at one frequency only.
+    /// Loss of the stretch of ropes in one mode of the platform. In time it is a damping time, which has the loss
+    /// factor at one frequency only.
     pub struct StretchLossRow in tables() {
         /// Natural frequency of the platform on massless ropes.
         pub frequency_hz: f64 => one.significant("mode", 4);

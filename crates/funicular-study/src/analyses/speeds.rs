@@ -149,8 +149,8 @@ rows! {
         pub speed_m_s: f64;
         pub driving_power_w: f64;
         pub braking_power_w: f64;
-        /// Used parts of the limits: above 1 beyond the limit. Absent without a limit, and a part of the torque also beyond
-        /// the end of the torque–speed curve, where the part has no value.
+        /// Used parts of the limits: above 1 beyond the limit. Absent without a limit, and a part of the torque also
+        /// beyond the end of the torque–speed curve, where the part has no value.
         pub used_speed: Option<f64> = sparse;
         pub used_torque: Option<f64> = sparse;
         pub used_power: Option<f64> = sparse;
