@@ -130,12 +130,8 @@ rows! {
         /// Natural frequency of the platform on massless ropes.
         pub frequency_hz: f64 => one.significant("mode", 4);
         /// Share of the stretch in the energy of deformation.
-        ///
-        /// Share of the stretch of the ropes in the energy of deformation.
         pub stretch_share: f64 => one.significant("stretch", 2);
         /// Damping ratio by the losses of the robot file.
-        ///
-        /// Damping ratio by the loss factors and damping times of the robot file.
         pub damping_ratio: f64 => one.significant("ratio", 2);
         /// Damping ratio in this run.
         pub damping_ratio_in_time: f64 => one.significant("in time", 2);

@@ -114,8 +114,6 @@ rows! {
         /// `grid`, `rays` (all intervals of all rays) or `hull of rays` (triangles between their first ends).
         pub by: &'static str => one.plain("by");
         /// Largest step of the grid, or between points of a ray.
-        ///
-        /// Largest step of the grid, or between the points of a ray.
         pub step_m: f64 => one.short("step", 4);
         /// Number of rays.
         pub rays: Option<usize> => one.plain("rays");
