@@ -265,8 +265,11 @@ impl LimitNumbers {
 rows! {
     /// Unit vectors of a cable, world axes: along the chord, normal to it in plane, out of plane.
     pub struct Axes {
+        /// Along the chord.
         pub e: [f64; 3];
+        /// Normal to the chord, in plane and up.
         pub n: [f64; 3];
+        /// Out of plane.
         pub b: [f64; 3];
     }
 }
