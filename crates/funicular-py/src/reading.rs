@@ -516,8 +516,8 @@ pub(crate) fn suggested(word: &str, known: Vec<String>) -> String {
     funicular_study::names::suggestion(word, &known)
 }
 
-/// Unit that the end of a name tells, as the conventions for climate and forecast (CF) write it; empty for a name without
-/// one.
+/// Unit that the end of a name tells, as the conventions for climate and forecast (CF) write it; empty for a name
+/// without one.
 #[pyfunction]
 pub(crate) fn unit_of_name(name: &str) -> String {
     funicular_study::units::of_name(name).map_or_else(String::new, |unit| unit.text.replace('²', "2").replace('³', "3"))

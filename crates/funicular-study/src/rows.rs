@@ -1,5 +1,5 @@
-//! Rows and results, each declared once: from [`rows!`] follow the struct, its JSON and the schema of it, its columns in
-//! files and in tables for reading, and the reading of rows that a file holds.
+//! Rows and results, each declared once: from [`rows!`] follow the struct, its JSON and the schema of it, its columns
+//! in files and in tables for reading, and the reading of rows that a file holds.
 
 use crate::columns::{Cell, Field, ToCell};
 use crate::request::key::sentence;
@@ -24,7 +24,8 @@ pub trait Described {
         false
     }
 
-    /// True for a value that says nothing: an empty list, or a number that is not finite. A sparse key is left out then.
+    /// True for a value that says nothing: an empty list, or a number that is not finite. A sparse key is left out
+    /// then.
     fn is_empty(&self) -> bool {
         false
     }
@@ -110,8 +111,8 @@ pub(crate) fn schema_of(title: &str, about: &[&str], keys: Vec<RowKey>) -> Value
     let required = json!(required);
     let properties: Map<String, Value> = keys.into_iter().map(|key| (key.name.to_owned(), key.schema)).collect();
     json!({
-        "title": title, "description": sentence(about), "type": "object", "properties": properties, "required": required,
-        "additionalProperties": false,
+        "title": title, "description": sentence(about), "type": "object", "properties": properties,
+        "required": required, "additionalProperties": false,
     })
 }
 
@@ -344,10 +345,11 @@ impl ReadBack for Vec<[f64; 3]> {
 
 /// Declares rows or results: each key with its meaning and its type.
 ///
-/// A type may be followed by `= sparse` (the key is left out for an empty value), `= spread` (the keys of this part stand
-/// among those of the whole) or `= hidden` (no key). After `=>` stands the column: `one`, `one("name")`, `each(parts)`,
-/// `each(parts, "pattern_{}")`, `each(parts, "pattern_{}", "meaning of {}")`, with the methods of [`Field`]; for a part the arguments of its columns. The meaning of a
-/// column is the first paragraph of the doc comment. Columns of other values follow after a further `=>`.
+/// A type may be followed by `= sparse` (the key is left out for an empty value), `= spread` (the keys of this part
+/// stand among those of the whole) or `= hidden` (no key). After `=>` stands the column, with the methods of [`Field`]:
+/// `one`, or `one("name")` if it is not that of the key; `each(parts)`, `each(parts, "pattern_{}")` or
+/// `each(parts, "pattern_{}", "meaning of {}")` for a list; `columns(…)` for a part, with their arguments. The meaning
+/// of a column is the first paragraph of the doc comment. Columns of other values follow after a further `=>`.
 ///
 /// `in tables(names: &Names)` gives the function `columns`, `read back` the function `read`. `with { … } rows` stands
 /// before the columns and makes what several of them need.
@@ -360,7 +362,7 @@ macro_rules! rows {
     ) => {
         crate::rows::structure! { [$($about),+] [$($($derive),*)?] $visibility $Name { $($body)* } }
 
-        crate::rows::columns! { $Name ($($arg: $Arg),*) [$($($before)*)?] { $($body)* } $($back)? }
+        crate::rows::columns! { $visibility $Name ($($arg: $Arg),*) [$($($before)*)?] { $($body)* } $($back)? }
     };
     (
         $(#[doc = $about:literal])+
@@ -424,12 +426,12 @@ macro_rules! structure {
 
 /// Columns of [`rows!`], and the reading of their numbers.
 macro_rules! columns {
-    ($Name:ident ($($arg:ident: $Arg:ty),*) $before:tt $body:tt back) => {
-        crate::rows::columns! { $Name ($($arg: $Arg),*) $before $body }
+    ($visibility:vis $Name:ident ($($arg:ident: $Arg:ty),*) $before:tt $body:tt back) => {
+        crate::rows::columns! { $visibility $Name ($($arg: $Arg),*) $before $body }
         crate::rows::read_back! { $Name ($($arg: $Arg),*) $body }
     };
     (
-        $Name:ident ($($arg:ident: $Arg:ty),*) [$($before:tt)*] {
+        $visibility:vis $Name:ident ($($arg:ident: $Arg:ty),*) [$($before:tt)*] {
             $(
                 $(#[doc = $text:literal])*
                 $field_visibility:vis $field:ident: $Type:ty $(= $mark:ident)?
@@ -440,7 +442,7 @@ macro_rules! columns {
         impl $Name {
             /// Columns of the rows.
             #[allow(unused_variables, reason = "not every key has a column")]
-            pub fn columns($($arg: $Arg),*) -> crate::columns::Columns<Self> {
+            $visibility fn columns($($arg: $Arg),*) -> crate::columns::Columns<Self> {
                 $($before)*
                 let mut fields: Vec<crate::columns::Field<Self>> = Vec::new();
                 $({
@@ -556,3 +558,75 @@ macro_rules! taken {
 }
 
 pub(crate) use {column, columns, keys, put, read_back, rows, structure, taken};
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::columns::Style;
+
+    rows! {
+        /// Place of a point.
+        struct PlaceRow in tables(decimals: usize) read back {
+            /// Position, {}.
+            position_m: [f64; 3] => each(["x", "y", "z"], "{}_m").decimals("position", decimals);
+        }
+    }
+
+    rows! {
+        /// Point at one time.
+        struct PointRow in tables(cables: &[String]) read back {
+            /// Time since the start.
+            ///
+            /// Never negative.
+            t_s: f64 => one.decimals("t", 1);
+            /// Place.
+            place: PlaceRow = spread => columns(2);
+            /// Tension of cable {}.
+            tensions_n: Vec<f64> = sparse => each(cables, "tension_{}_n").lowest("lowest", 2);
+            /// Part of the limit.
+            used_part: Option<f64> => one.significant("used", 2);
+        }
+    }
+
+    fn row(tensions_n: Vec<f64>) -> PointRow {
+        PointRow { t_s: 0.25, place: PlaceRow { position_m: [1.0, -2.0, 3.0] }, tensions_n, used_part: None }
+    }
+
+    #[test]
+    fn keys_of_parts_stand_among_the_others_and_empty_ones_are_left_out() {
+        let json = serde_json::to_string(&row(Vec::new())).unwrap();
+        assert_eq!(json, r#"{"t_s":0.25,"position_m":[1.0,-2.0,3.0]}"#);
+        let schema = PointRow::schema();
+        assert_eq!(schema["required"], json!(["t_s", "position_m"]));
+        assert_eq!(
+            schema["properties"]["t_s"],
+            json!({ "type": "number", "description": "Time since the start\n\nNever negative.", "unit": "s" })
+        );
+        assert_eq!(schema["properties"]["tensions_n"]["description"], "Tension of each cable");
+    }
+
+    #[test]
+    fn columns_have_the_unit_of_their_name_and_are_read_back_in_their_order() {
+        let cables = ["a".to_owned(), "b".to_owned()];
+        let columns = PointRow::columns(&cables);
+        let described: Vec<String> = (columns.described().iter())
+            .map(|column| format!("{} [{}] {}", column.name, column.unit, column.about))
+            .collect();
+        assert_eq!(described[..2], ["t_s [s] time since the start", "x_m [m] position, x"]);
+        assert_eq!(
+            described[4..],
+            [
+                "tension_a_n [N] tension of cable a",
+                "tension_b_n [N] tension of cable b",
+                "used_part [1] part of the limit"
+            ]
+        );
+        let row = row(vec![7.0, 5.5]);
+        assert_eq!(columns.texts(&row, Style::Plain), ["0.2", "1.00, -2.00, 3.00", "5.5", crate::text::NONE]);
+
+        let mut numbers: &[f64] = &[0.25, 1.0, -2.0, 3.0, 7.0, 5.5, 0.5];
+        let again = PointRow::read(&mut numbers, &cables).unwrap();
+        assert_eq!((numbers.len(), again.used_part, again.place.position_m), (0, Some(0.5), row.place.position_m));
+        assert!(PointRow::read(&mut &[0.25, 1.0][..], &cables).is_none());
+    }
+}

@@ -2203,8 +2203,8 @@ def try_file(path: str | PathLike[str]) -> None:
 
 def unit_of_name(name: str) -> str:
     """
-    Unit that the end of a name tells, as the conventions for climate and forecast (CF) write it; empty for a name without
-    one.
+    Unit that the end of a name tells, as the conventions for climate and forecast (CF) write it; empty for a name
+    without one.
     """
 
 def write_file(path: str | PathLike[str], text: str) -> None:

@@ -16,14 +16,14 @@ from funicular._results import Results, Row
 
 
 class Axes(Row):
-    """Axes of the cable."""
+    """Unit vectors of a cable, world axes: along the chord, normal to it in plane, out of plane."""
 
     b: NDArray[np.float64]
     """B."""
     e: NDArray[np.float64]
     """E."""
     n: NDArray[np.float64]
-    """N [N]."""
+    """N."""
 
 
 class Local(Row):
@@ -68,7 +68,7 @@ class DistanceRow(Row):
 
 
 class LeftOut(Row):
-    """Number of candidates that were left out: no tensions within the limits, too near to a body, or out of reach."""
+    """Candidates that were left out."""
 
     by_clearance: int
     """Candidates with cables, platform or obstacles too near to each other."""
@@ -111,7 +111,7 @@ class ProposalRow(Row):
     readings_m: NDArray[np.float64]
     """Readings at the pose with the calibrated values, one per cable [m]."""
     roll_pitch_yaw_deg: NDArray[np.float64]
-    """{} of the platform [deg]."""
+    """Roll, pitch, yaw of the platform [deg]."""
     tension_rule: str | None
     """Rule of the tensions at the pose, if they are a matter of choice."""
     total_m: float | None
@@ -148,7 +148,7 @@ class ReadingRow(Row):
     residuals: list[CableResidual]
     """Residuals of the cables that were read."""
     roll_pitch_yaw_deg: NDArray[np.float64]
-    """{} of the platform [deg]."""
+    """Roll, pitch, yaw of the platform [deg]."""
     row: int
     """Number of the row, from 1."""
     shift_m: float | None
@@ -169,7 +169,7 @@ class ProfilePoint(Row):
 
 
 class Profile(Row):
-    """Profile of χ², if it was asked for: ends of the interval that holds the value with 95 %, and points."""
+    """Profile of one value."""
 
     falls: bool
     """True if a fit has a smaller χ² than the minimum: the search has missed it."""
@@ -201,7 +201,7 @@ class CalibratedValue(Row):
     inner_deviation: float | None
     """Standard deviation with inner conditions.
 
-    Which no choice of the frame enlarges."""
+    No choice of the frame enlarges it."""
     interval_95: NDArray[np.float64] | None
     """Interval that holds the value with 95 %; absent as well where χ² is no parabola."""
     path: str
@@ -254,8 +254,7 @@ class WeakRow(Row):
 
 
 class LengthParts(Row):
-    """Parts of the unstrained length of a cable over a pulley or to a winch; absent for other cables, and if the
-    lengths are unknown or have no equilibrium."""
+    """Unstrained length of a cable at rest, as it is counted with a pulley or a winch and without them."""
 
     beyond_anchor_m: float
     """Length that pulley and drum side add: the unstrained length of the file less `to_anchor_m` [m]."""
@@ -264,7 +263,7 @@ class LengthParts(Row):
 
 
 class CheckedPulley(Row):
-    """Pulley at the anchor; absent if there is none."""
+    """Pulley of a cable."""
 
     bearing_friction_coefficient: float | None
     """Bearing friction coefficient."""
@@ -294,7 +293,7 @@ class CheckedGuideWheel(Row):
 
 
 class CheckedWinch(Row):
-    """Winch behind the anchor; absent if there is none."""
+    """Winch of a cable."""
 
     control: str | None
     """Control of the motor; absent if it holds its angle."""
@@ -373,7 +372,7 @@ class CheckedCable(Row):
 
 
 class LoadRow(Row):
-    """Load on the platform; absent if there is none."""
+    """Load on the platform."""
 
     force_n: NDArray[np.float64]
     """Force [N]."""
@@ -467,7 +466,7 @@ class WindRow(Row):
 
 
 class PoseRow(Row):
-    """End of the move; absent without one."""
+    """Pose of the platform."""
 
     position_m: NDArray[np.float64]
     """Position of the platform origin [m]."""
@@ -505,7 +504,7 @@ class ClearanceRow(Row):
 
 
 class WayAround(Row):
-    """Way to the end of the move on which every pair keeps its distance, if it was searched."""
+    """Way from the pose of the state to the end of a move."""
 
     moves_examined: int
     """Number of straight moves that were examined."""
@@ -527,7 +526,7 @@ class AdviceRow(Row):
 
 
 class FrozenSagRow(Row):
-    """Reason why a model with static sag is worse than a spring; absent if it is not."""
+    """Modes for which a static sag model is worse than a spring."""
 
     cable_model: str
     """Cable model."""
@@ -818,7 +817,7 @@ class TurbulenceRow(Row):
 
 
 class SecondBest(Row):
-    """Best fit with other modes."""
+    """Best fit with other modes and other values."""
 
     chi2: float
     """Chi2."""
@@ -831,7 +830,7 @@ class SecondBest(Row):
 
 
 class ModeAssignment(Row):
-    """Assignment of frequencies without a number, unless responses were measured as well."""
+    """Assignment of measured frequencies without a number to modes; the numbers are in `frequencies`."""
 
     crowded: int
     """Number of these with several modes within two deviations."""
@@ -904,7 +903,7 @@ class ProposedMeasurement(Row):
     position_m: NDArray[np.float64]
     """Position of the platform origin [m]."""
     roll_pitch_yaw_deg: NDArray[np.float64]
-    """{} of the platform [deg]."""
+    """Roll, pitch, yaw of the platform [deg]."""
 
 
 class FittedResponse(Row):
@@ -1024,7 +1023,7 @@ class LoadedRow(Row):
 
 
 class RequiredHeld(Row):
-    """Required loads and how much of them is held; absent if nothing is required or the dead load is not held."""
+    """Load factor with what binds."""
 
     cables: list[LoadedRow]
     """Cables with the dead load and the largest multiple of this load; empty without a largest multiple."""
@@ -1054,7 +1053,7 @@ class RequiredHeld(Row):
 
 
 class FirstPlatformMode(Row):
-    """First mode of the platform; absent if none lies below the limit."""
+    """Mode that moves the platform, with its share: the first one with enough of it, or one below."""
 
     frequency_hz: float
     """Frequency [Hz]."""
@@ -1115,7 +1114,7 @@ class ParameterRow(Row):
 
 
 class BoundRow(Row):
-    """Maximum payload; absent if no maximum tension limits it."""
+    """Minimum or maximum payload."""
 
     cables: list[LoadedRow]
     """Tensions with this payload; empty without a payload."""
@@ -1130,7 +1129,7 @@ class BoundRow(Row):
 
 
 class HeldPoseRow(Row):
-    """Origin of the unstrained lengths; absent if they are given."""
+    """Pose whose unstrained lengths are held, with the mass and the rule for which they hold it."""
 
     mass_kg: float
     """Mass [kg]."""
@@ -1245,7 +1244,7 @@ class SettlingMode(Row):
 
 
 class NeverSettles(Row):
-    """Motion that never ends, because nothing damps it; absent if the point settles."""
+    """Undamped motion that is larger than the tolerance."""
 
     amplitude_m: float
     """Sum of the amplitudes of all undamped modes: the point keeps swinging by up to this distance [m]."""
@@ -1343,7 +1342,7 @@ class ColumnError(Row):
 
 
 class NearestRow(Row):
-    """Time at which the parts of the robot are nearest; absent if its file says nothing about distances."""
+    """Least margin of all rows."""
 
     margin_m: float
     """Distance beyond the required one [m]."""
@@ -1522,7 +1521,7 @@ class CableSpeeds(Row):
 
 
 class LargestSpeed(Row):
-    """In the negative direction."""
+    """Largest speed or multiple of it, with what limits it. All are absent if nothing does."""
 
     cable: str | None
     """Cable whose winch limits it."""
@@ -1551,7 +1550,7 @@ class DirectionRow(Row):
 
 
 class RequiredSpeeds(Row):
-    """Work of the winches for the required velocities; absent if none is required."""
+    """Required velocities, and the winches meanwhile."""
 
     angular_velocity_rad_s: NDArray[np.float64]
     """Angular velocity [rad/s]."""
@@ -1583,7 +1582,7 @@ class OtherStable(Row):
 
 
 class DriveRow(Row):
-    """State of pulley and winch; absent for a cable that ends at a fixed point."""
+    """Pulley and winch of a cable at the equilibrium."""
 
     arc_length_m: float
     """Arc length [m]."""
@@ -1699,7 +1698,7 @@ class FrictionCableRow(Row):
 
 
 class FrictionRow(Row):
-    """Interval in which friction of pulleys leaves the robot; absent unless requested."""
+    """Interval in which friction of pulleys leaves the robot. Every pair is minimum and maximum."""
 
     cables: list[FrictionCableRow]
     """Cables."""
@@ -1716,7 +1715,7 @@ class FrictionRow(Row):
 
 
 class HeldRow(Row):
-    """Motion from the pose whose lengths are held to the equilibrium; absent if no lengths are held."""
+    """Pose whose unstrained lengths are held, and the motion from there to the equilibrium."""
 
     angle_deg: float
     """Angle [deg]."""
@@ -1786,8 +1785,7 @@ class LimitChange(Row):
 
 
 class MostUsed(Row):
-    """Limit of which the largest part is used; absent if the robot file has none. All of a minimum tension is used
-    where the rule holds a cable there by its choice."""
+    """Limit of which a motion uses the largest part."""
 
     cable: str | None
     """Cable."""
@@ -1800,7 +1798,7 @@ class MostUsed(Row):
 
 
 class Nearest(Row):
-    """Nearest pair on the path; absent if the robot file says nothing about distances."""
+    """Nearest pair on a path."""
 
     distance_m: float
     """Distance [m]."""
@@ -1911,7 +1909,7 @@ class RuleJump(Row):
 
 
 class Stations(Row):
-    """Controller with straight lines between its stations; absent if no length bends."""
+    """Error of lengths that change in straight lines between stations, where it is largest."""
 
     cable: str
     """Cable."""
@@ -1932,7 +1930,7 @@ class Stations(Row):
 
 
 class PowerSums(Row):
-    """Largest sums over all winches of the powers that drive and that brake; absent without winches."""
+    """Largest sums of powers, each with its time."""
 
     braking_power_w: float
     """Braking power [W]."""
@@ -1981,7 +1979,7 @@ class UncertainInput(Row):
 
 
 class FailedSamples(Row):
-    """Number of sampled robots without results, with the first reason."""
+    """Sampled robots without results."""
 
     count: int
     """Count."""
@@ -2070,7 +2068,7 @@ class PoseUncertainty(Row):
 
 
 class UncertainResponse(Row):
-    """Frequency response among the results."""
+    """Frequency response whose magnitudes and phases are results."""
 
     input: str
     """Input."""
@@ -2119,7 +2117,7 @@ class Section(Row):
 
 
 class ComparedSets(Row):
-    """Comparison with another robot."""
+    """Volumes of two sets on one grid, and of what they share."""
 
     common_volume_m3: float
     """Common volume [m³]."""
@@ -2169,7 +2167,7 @@ class PartOfWorkspace(Row):
 
 
 class InnerBox(Row):
-    """Largest box whose nodes are all in the set."""
+    """Box inside a set."""
 
     lower_m: NDArray[np.float64]
     """Lower [m]."""
@@ -2180,7 +2178,7 @@ class InnerBox(Row):
 
 
 class AreaOfWorkspace(Row):
-    """Plane of a planar platform, in which the set is an area; absent in space. Volumes are those of a slab of 1 m."""
+    """Set of a planar platform."""
 
     area_m2: float
     """Area [m²]."""

@@ -74,7 +74,8 @@ rows! {
         pub proposals: Vec<ProposalRow> = sparse;
         /// Number of candidates that were left out: no tensions within the limits, too near to a body, or out of reach.
         pub left_out: Option<LeftOut>;
-        /// Least number of proposed poses that reaches the wanted deviation; absent if none was wanted or no number does.
+        /// Least number of proposed poses that reaches the wanted deviation; absent if none was wanted or no number
+        /// does.
         pub poses_needed: Option<usize>;
         /// Sum of the squares of the residuals, divided by the deviations of the data.
         pub chi2: f64;

@@ -1,9 +1,9 @@
 //! `check`: description of the robot in the robot file.
 
-use super::fields::{self, AXES};
+use super::fields::AXES;
 use super::found;
 use super::shared::{LoadRow, WindRow};
-use crate::columns::{Columns, Field, ResultTable, Tabled, column, only_read, parts};
+use crate::columns::{ResultTable, Tabled, only_read, parts};
 use crate::rows::rows;
 use crate::table::Column;
 use crate::text::NONE;
@@ -58,29 +58,49 @@ rows! {
 rows! {
     /// Rope of a robot file.
     #[derive(PartialEq)]
-    pub struct CheckedRope {
-        pub name: String;
-        pub axial_stiffness_n: f64;
-        pub dynamic_axial_stiffness_n: Option<f64>;
-        pub mass_kg_per_m: f64;
-        pub damping_ratio: Option<f64>;
-        pub viscous_damping_n_s_m2: Option<f64>;
-        /// Loss factor and damping time of the stretch; absent if zero.
-        pub axial_loss_factor: Option<f64>;
-        pub axial_damping_time_s: Option<f64>;
-        pub limits: CheckedLimits = spread;
-        pub breaking_load_n: Option<f64>;
-        /// Drag coefficient times diameter [m].
-        pub drag_width_m: Option<f64>;
+    pub struct CheckedRope in tables(ropes: &[Self]) with {
+        let limited = ropes.iter().any(|rope| rope.limits.are_given() || rope.breaking_load_n.is_some());
+        let dragged = ropes.iter().any(|rope| rope.drag_width_m.is_some());
+        let stiffer = ropes.iter().any(|rope| rope.dynamic_axial_stiffness_n.is_some());
+        let lossy = ropes.iter().any(|rope| rope.axial_loss_factor.is_some() || rope.axial_damping_time_s.is_some());
+    } rows {
+        /// Name of the rope.
+        pub name: String => one.plain("rope");
+        /// Axial stiffness EA.
+        pub axial_stiffness_n: f64 => one.short("EA", 6);
+        /// Axial stiffness in vibration.
+        pub dynamic_axial_stiffness_n: Option<f64> => one.short("EA in vibration", 6).read_if(stiffer);
+        /// Mass per length.
+        pub mass_kg_per_m: f64 => one.short("mass", 5);
+        /// Damping ratio.
+        pub damping_ratio: Option<f64> => one.short("damping ratio", 4);
+        /// Viscous damping per length.
+        pub viscous_damping_n_s_m2: Option<f64> => one.short("viscous damping", 4);
+        /// Loss factor of the stretch.
+        ///
+        /// Absent if zero.
+        pub axial_loss_factor: Option<f64> => one.short("loss factor", 4).read_if(lossy);
+        /// Damping time of the stretch.
+        ///
+        /// Absent if zero.
+        pub axial_damping_time_s: Option<f64> => one.short("damping time", 4).read_if(lossy);
+        /// Tension limits of the rope.
+        pub limits: CheckedLimits = spread => columns(limited);
+        /// Breaking load.
+        pub breaking_load_n: Option<f64> => one.short("breaks at", 4).read_if(limited);
+        /// Drag coefficient times diameter.
+        pub drag_width_m: Option<f64> => one.short("drag width", 4).read_if(dragged);
     }
 }
 
 rows! {
     /// Tension limits; a limit that is not given is absent.
     #[derive(PartialEq)]
-    pub struct CheckedLimits {
-        pub minimum_tension_n: Option<f64>;
-        pub maximum_tension_n: Option<f64>;
+    pub struct CheckedLimits in tables(are_read: bool) {
+        /// Minimum tension that is allowed.
+        pub minimum_tension_n: Option<f64> => one.short("min T", 4).read_if(are_read);
+        /// Maximum tension that is allowed.
+        pub maximum_tension_n: Option<f64> => one.short("max T", 4).read_if(are_read);
     }
 }
 
@@ -92,25 +112,42 @@ impl CheckedLimits {
 
 rows! {
     /// Cable of a robot file.
-    pub struct CheckedCable {
-        pub name: String;
-        pub material: String;
-        pub anchor_m: [f64; 3];
-        pub attachment_m: [f64; 3];
+    pub struct CheckedCable in tables(cables: &[Self]) with {
+        let limited = cables.iter().any(|cable| cable.limits.are_given());
+        let loaded = cables.iter().any(|cable| cable.load_n_per_m.is_some());
+    } rows {
+        /// Name of the cable.
+        pub name: String => one.plain("cable");
+        /// Name of its rope.
+        pub material: String => one.plain("rope");
+        /// Anchor, world axes, {}.
+        pub anchor_m: [f64; 3] => each(AXES).components("anchor", 4);
+        /// Attachment, platform axes, {}.
+        pub attachment_m: [f64; 3] => each(AXES).components("attachment", 4);
         /// Pulley at the anchor; absent if there is none.
         pub pulley: Option<CheckedPulley>;
         /// Winch behind the anchor; absent if there is none.
         pub winch: Option<CheckedWinch>;
         /// Name of the flexible support of its anchor; absent for a rigid anchor.
         pub support: Option<String>;
-        pub unstrained_length_m: Option<f64>;
+        /// Unstrained length of the file.
+        pub unstrained_length_m: Option<f64> => one.decimals("unstrained", 4);
         /// Parts of the unstrained length of a cable over a pulley or to a winch; absent for other cables, and if the
         /// lengths are unknown or have no equilibrium.
         pub length_parts: Option<LengthParts>;
         /// Tension limits of the cable, or else of its rope.
-        pub limits: CheckedLimits = spread;
+        pub limits: CheckedLimits = spread => columns(limited);
         /// Load per length besides weight and wind; absent if there is none.
-        pub load_n_per_m: Option<[f64; 3]>;
+        pub load_n_per_m: Option<[f64; 3]>
+            => parts("load_{}_n_per_m", AXES, "N/m", "load per length besides weight and wind, {}", |cable: &Self| {
+                cable.load_n_per_m.unwrap_or_default()
+            })
+            => only_read()
+                .shown("load", "N/m", |cable: &Self, style| {
+                    cable.load_n_per_m.map_or_else(|| NONE.to_owned(), |load| style.components(&load, 4))
+                })
+                .aligned(false)
+                .only_if(loaded);
     }
 }
 
@@ -532,99 +569,8 @@ fn caveats(robot: &Robot) -> Vec<String> {
 }
 
 impl CheckedLimits {
-    /// Fields of the limits; tables for reading have them if there are any.
-    fn fields<R>(of: impl Fn(&R) -> &Self + Copy + 'static, are_given: bool) -> [Field<R>; 2] {
-        [
-            column("minimum_tension_n", "N", "minimum tension that is allowed", move |row| of(row).minimum_tension_n)
-                .short("min T", 4)
-                .read_if(are_given),
-            column("maximum_tension_n", "N", "maximum tension that is allowed", move |row| of(row).maximum_tension_n)
-                .short("max T", 4)
-                .read_if(are_given),
-        ]
-    }
-
     fn are_given(&self) -> bool {
         self.minimum_tension_n.is_some() || self.maximum_tension_n.is_some()
-    }
-}
-
-impl CheckedRope {
-    /// Columns of the ropes.
-    pub fn columns(ropes: &[Self]) -> Columns<Self> {
-        let limited = ropes.iter().any(|rope| rope.limits.are_given() || rope.breaking_load_n.is_some());
-        let dragged = ropes.iter().any(|rope| rope.drag_width_m.is_some());
-        let stiffer = ropes.iter().any(|rope| rope.dynamic_axial_stiffness_n.is_some());
-        let own = [
-            column("name", "", "name of the rope", |rope: &Self| rope.name.clone()).plain("rope"),
-            column("axial_stiffness_n", "N", "axial stiffness EA", |rope: &Self| rope.axial_stiffness_n).short("EA", 6),
-            column("dynamic_axial_stiffness_n", "N", "axial stiffness in vibration", |rope: &Self| {
-                rope.dynamic_axial_stiffness_n
-            })
-            .short("EA in vibration", 6)
-            .read_if(stiffer),
-            column("mass_kg_per_m", "kg/m", "mass per length", |rope: &Self| rope.mass_kg_per_m).short("mass", 5),
-            column("damping_ratio", "1", "damping ratio", |rope: &Self| rope.damping_ratio).short("damping ratio", 4),
-            column("viscous_damping_n_s_m2", "N s/m²", "viscous damping per length", |rope: &Self| {
-                rope.viscous_damping_n_s_m2
-            })
-            .short("viscous damping", 4),
-        ];
-        let lossy = ropes.iter().any(|rope| rope.axial_loss_factor.is_some() || rope.axial_damping_time_s.is_some());
-        let loss = [
-            column("axial_loss_factor", "1", "loss factor of the stretch", |rope: &Self| rope.axial_loss_factor)
-                .short("loss factor", 4)
-                .read_if(lossy),
-            column("axial_damping_time_s", "s", "damping time of the stretch", |rope: &Self| rope.axial_damping_time_s)
-                .short("damping time", 4)
-                .read_if(lossy),
-        ];
-        let further = [
-            column("breaking_load_n", "N", "breaking load", |rope: &Self| rope.breaking_load_n)
-                .short("breaks at", 4)
-                .read_if(limited),
-            column("drag_width_m", "m", "drag coefficient times diameter", |rope: &Self| rope.drag_width_m)
-                .short("drag width", 4)
-                .read_if(dragged),
-        ];
-        Columns::new(
-            own.into_iter()
-                .chain(loss)
-                .chain(CheckedLimits::fields(|rope: &Self| &rope.limits, limited))
-                .chain(further),
-        )
-    }
-}
-
-impl CheckedCable {
-    /// Columns of the cables.
-    pub fn columns(cables: &[Self]) -> Columns<Self> {
-        let limited = cables.iter().any(|cable| cable.limits.are_given());
-        let loaded = cables.iter().any(|cable| cable.load_n_per_m.is_some());
-        let own = [
-            fields::cable_name(|cable: &Self| cable.name.clone()),
-            column("material", "", "name of its rope", |cable: &Self| cable.material.clone()).plain("rope"),
-            parts("anchor_{}_m", AXES, "m", "anchor, world axes, {}", |cable: &Self| cable.anchor_m)
-                .components("anchor", 4),
-            parts("attachment_{}_m", AXES, "m", "attachment, platform axes, {}", |cable: &Self| cable.attachment_m)
-                .components("attachment", 4),
-            column("unstrained_length_m", "m", "unstrained length of the file", |cable: &Self| {
-                cable.unstrained_length_m
-            })
-            .decimals("unstrained", 4),
-        ];
-        let load = [
-            parts("load_{}_n_per_m", AXES, "N/m", "load per length besides weight and wind, {}", |cable: &Self| {
-                cable.load_n_per_m.unwrap_or_default()
-            }),
-            only_read()
-                .shown("load", "N/m", |cable: &Self, style| {
-                    cable.load_n_per_m.map_or_else(|| NONE.to_owned(), |load| style.components(&load, 4))
-                })
-                .aligned(false)
-                .only_if(loaded),
-        ];
-        Columns::new(own.into_iter().chain(CheckedLimits::fields(|cable: &Self| &cable.limits, limited)).chain(load))
     }
 }
 

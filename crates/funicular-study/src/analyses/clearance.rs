@@ -51,8 +51,6 @@ rows! {
         /// Name of the other cable, body or obstacle.
         pub second: String => one.plain("second");
         /// Distance between the surfaces, negative in an overlap.
-        ///
-        /// Distance between the surfaces, negative by the depth of an overlap.
         pub distance_m: f64 => one.decimals("distance", 4);
         /// Required distance, vibration included.
         pub required_m: f64;

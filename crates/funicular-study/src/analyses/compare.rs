@@ -25,7 +25,8 @@ rows! {
         pub origin: Origin = spread;
         pub reference: &'static str;
         pub tolerance: f64;
-        /// Minimum fraction of the kinetic energy in the platform for a compared mode; absent if all modes are compared.
+        /// Minimum fraction of the kinetic energy in the platform for a compared mode; absent if all modes are
+        /// compared.
         pub platform_share: Option<f64>;
         /// Indices of the compared modes in the list of the reference, from 0.
         pub compared: Vec<usize>;

@@ -122,7 +122,8 @@ impl Described for Frf {
             schema_of("Frf", &[about], keys)
         };
         let several = key::<Vec<PairRow>>("responses", &["Response of every output to every input."], false);
-        json!({ "oneOf": [of("One frequency response.", PairRow::keys()), of("Several frequency responses.", several)] })
+        let forms = [of("One frequency response.", PairRow::keys()), of("Several frequency responses.", several)];
+        json!({ "oneOf": forms })
     }
 }
 

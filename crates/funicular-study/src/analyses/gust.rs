@@ -60,10 +60,10 @@ rows! {
         /// Natural frequency.
         pub frequency_hz: f64 => one.decimals("f", 4);
         /// Damping ratio in still air.
-        pub damping_ratio: f64 => one.shown("damping", "%",percent(|mode| mode.damping_ratio));
+        pub damping_ratio: f64 => one.shown("damping", "%", percent(|mode| mode.damping_ratio));
         /// Damping ratio by the mean wind.
         ///
-        /// Which adds to the other.
+        /// Added to the other.
         pub aerodynamic_damping_ratio: f64 => one
             .shown("by the wind", "%", percent(|mode| mode.aerodynamic_damping_ratio));
     }
@@ -92,8 +92,6 @@ rows! {
                 .significant("part", 2)
                 .with_unit("1");
         /// Rate of crossings.
-        ///
-        /// Rate at which the mean is crossed upwards.
         pub rate_hz: f64
             => one.significant("rate", 3)
             => column("smallest", "", "expected smallest value", Self::smallest).significant("smallest", 4)

@@ -88,8 +88,8 @@ rows! {
         pub statics: Vec<StaticRow> = sparse;
         /// Measurements to make next.
         pub proposals: Vec<ProposedMeasurement> = sparse;
-        /// Least number of proposed measurements that reaches the wanted deviation; absent if none was wanted or no number
-        /// does.
+        /// Least number of proposed measurements that reaches the wanted deviation; absent if none was wanted or no
+        /// number does.
         pub measurements_needed: Option<usize>;
         /// Robot file with the values.
         pub robot_file: String;
@@ -187,9 +187,11 @@ rows! {
         pub unit: &'static str;
         pub start: f64;
         pub value: f64;
-        /// Standard deviation; absent for a value that the measurements do not determine, or that moves with such a value.
+        /// Standard deviation; absent for a value that the measurements do not determine, or that moves with such a
+        /// value.
         pub deviation: Option<f64>;
-        /// Interval that holds the value with 95 %: that of the deviation, or that of the profile where χ² is no parabola.
+        /// Interval that holds the value with 95 %: that of the deviation, or that of the profile where χ² is no
+        /// parabola.
         pub interval_95: Option<[f64; 2]>;
         pub prior: Option<f64>;
         pub prior_deviation: Option<f64>;

@@ -39,8 +39,8 @@ rows! {
         pub platform_share: f64;
         /// First mode of the platform; absent if none lies below the limit.
         pub first_platform_mode: Option<FirstPlatformMode>;
-        /// Modes below it that move the platform considerably, with at least a fifth of their kinetic energy: a motion of
-        /// the platform that is split beside a resonance of a cable.
+        /// Modes below it that move the platform considerably, with at least a fifth of their kinetic energy: a motion
+        /// of the platform that is split beside a resonance of a cable.
         pub share_platform: Vec<FirstPlatformMode> = sparse;
         pub cable_names: Vec<String>;
         /// Names of the flexible supports; absent on a rigid frame.

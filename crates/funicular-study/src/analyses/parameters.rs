@@ -25,8 +25,6 @@ rows! {
     /// Number of a robot.
     pub struct ParameterRow in tables() {
         /// Path of the number for `set`, `vary` and `fit`.
-        ///
-        /// Path for `set` and `vary`.
         pub path: String => one.plain("path");
         /// Value, in the unit of the row.
         pub value: f64 => one.unit("")
@@ -36,12 +34,8 @@ rows! {
         /// Unit; `1` for a ratio.
         pub unit: &'static str => one.plain("unit");
         /// Range that is allowed, in words.
-        ///
-        /// Permitted range in words.
         pub range: String => one.plain("range");
         /// Lower end of the range.
-        ///
-        /// Minimum of the range.
         pub minimum: f64 => one.unit("");
         /// Upper end of the range.
         ///

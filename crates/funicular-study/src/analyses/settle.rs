@@ -91,8 +91,8 @@ rows! {
     pub struct Held {
         /// Displacement of the point under the wrench, linear, world axes.
         pub held_m: [f64; 3];
-        /// Displacement between the equilibria with the wrench and without it; absent if there is none with it, and with
-        /// ideal cables.
+        /// Displacement between the equilibria with the wrench and without it; absent if there is none with it, and
+        /// with ideal cables.
         pub held_exact_m: Option<[f64; 3]>;
         /// Bound of what the modes above the limit add to the displacement at the release.
         pub omitted_m: f64;
@@ -111,8 +111,8 @@ rows! {
         /// Bound of the distance by which the modes above the limit move the point after the command; absent if none is
         /// known.
         pub omitted_m: Option<f64>;
-        /// Bound of the change of the tension of a cable, averaged along it, by the modes above the limit; absent if none
-        /// is known.
+        /// Bound of the change of the tension of a cable, averaged along it, by the modes above the limit; absent if
+        /// none is known.
         pub omitted_tension_n: Option<f64>;
         /// Motion while the command runs, at negative times.
         pub during: Vec<HistoryRow>;

@@ -76,8 +76,8 @@ impl Models {
 }
 
 rows! {
-    /// Numbers of a cable's sag for JSON. They are absent for a cable without tension. The string frequency is also absent
-    /// for a cable without mass.
+    /// Numbers of a cable's sag for JSON. They are absent for a cable without tension. The string frequency is also
+    /// absent for a cable without mass.
     #[derive(Debug, Clone, Copy)]
     pub struct SagNumbers {
         pub sag_ratio: Option<f64>;
@@ -265,8 +265,11 @@ impl LimitNumbers {
 rows! {
     /// Unit vectors of a cable, world axes: along the chord, normal to it in plane, out of plane.
     pub struct Axes {
+        /// Along the chord.
         pub e: [f64; 3];
+        /// Normal to the chord, in plane and up.
         pub n: [f64; 3];
+        /// Out of plane.
         pub b: [f64; 3];
     }
 }
@@ -294,8 +297,8 @@ rows! {
         pub drive_energy_fractions: Vec<f64> = sparse;
         /// Kinetic energy of each flexible support; absent on a rigid frame.
         pub support_energy_fractions: Vec<f64> = sparse;
-        /// Share of the stretch of each cable in the energy of deformation; absent in the closed form of shallow-dynamic
-        /// cables and for rigid ones.
+        /// Share of the stretch of each cable in the energy of deformation; absent in the closed form of
+        /// shallow-dynamic cables and for rigid ones.
         pub stretching_share: Vec<f64> = sparse;
         pub shape: [f64; 6];
         pub modal_mass_kg: f64;

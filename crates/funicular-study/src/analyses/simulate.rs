@@ -124,18 +124,14 @@ impl NearestRow {
 }
 
 rows! {
-    /// Loss of the stretch of ropes in one mode of the platform. In time it is a damping time, which has the loss factor
-    /// at one frequency only.
+    /// Loss of the stretch of ropes in one mode of the platform. In time it is a damping time, which has the loss
+    /// factor at one frequency only.
     pub struct StretchLossRow in tables() {
         /// Natural frequency of the platform on massless ropes.
         pub frequency_hz: f64 => one.significant("mode", 4);
         /// Share of the stretch in the energy of deformation.
-        ///
-        /// Share of the stretch of the ropes in the energy of deformation.
         pub stretch_share: f64 => one.significant("stretch", 2);
         /// Damping ratio by the losses of the robot file.
-        ///
-        /// Damping ratio by the loss factors and damping times of the robot file.
         pub damping_ratio: f64 => one.significant("ratio", 2);
         /// Damping ratio in this run.
         pub damping_ratio_in_time: f64 => one.significant("in time", 2);

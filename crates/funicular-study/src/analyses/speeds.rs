@@ -97,8 +97,6 @@ rows! {
         /// out.
         pub rate_per_velocity: [f64; 3] => each(fields::AXES, "rate_{}");
         /// Speed of the cable at the drum per angular velocity about {}, paying out.
-        ///
-        /// Speed of the cable at the drum per angular velocity about these axes.
         pub rate_per_angular_velocity_m_per_rad: [f64; 3] => each(fields::AXES, "rate_r{}_m_per_rad");
         /// Tension at the drum.
         pub tension_drum_n: f64 => one.decimals("T drum", 2);
@@ -111,8 +109,6 @@ rows! {
         /// Largest speed of the cable at the drum while it winds in; absent without a limit.
         pub speed_max_in_m_s: Option<f64> => one.significant("in up to", 4);
         /// Largest speed of the cable while it pays out.
-        ///
-        /// Largest value while the winch pays out.
         pub speed_max_out_m_s: Option<f64> => one.significant("out up to", 4);
         /// Limit that is reached first.
         pub limit: Option<&'static str> => one.plain("limit");
@@ -149,8 +145,8 @@ rows! {
         pub speed_m_s: f64;
         pub driving_power_w: f64;
         pub braking_power_w: f64;
-        /// Used parts of the limits: above 1 beyond the limit. Absent without a limit, and a part of the torque also beyond
-        /// the end of the torque–speed curve, where the part has no value.
+        /// Used parts of the limits: above 1 beyond the limit. Absent without a limit, and a part of the torque also
+        /// beyond the end of the torque–speed curve, where the part has no value.
         pub used_speed: Option<f64> = sparse;
         pub used_torque: Option<f64> = sparse;
         pub used_power: Option<f64> = sparse;

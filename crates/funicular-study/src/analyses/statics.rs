@@ -30,7 +30,8 @@ rows! {
         /// Wind; absent in still air.
         pub wind: Option<WindRow>;
         pub pose: PoseRow;
-        /// Distance from the requested pose; present only with fewer cables than degrees of freedom and a requested pose.
+        /// Distance from the requested pose; present only with fewer cables than degrees of freedom and a requested
+        /// pose.
         pub nearest_pose_distance_m: Option<f64>;
         /// Motion from the pose whose lengths are held to the equilibrium; absent if no lengths are held.
         pub held: Option<HeldRow>;
@@ -48,8 +49,8 @@ rows! {
         /// True for a stable equilibrium; absent for ideal cables, which are rigid.
         pub stable: Option<bool>;
         pub stiffness_min_n_per_m: Option<f64>;
-        /// Motions that no cable opposes by its tension; absent unless the directions of the cables are dependent or the
-        /// equilibrium is indifferent.
+        /// Motions that no cable opposes by its tension; absent unless the directions of the cables are dependent or
+        /// the equilibrium is indifferent.
         pub free_motions: Vec<FreeMotionRow> = sparse;
         pub another_stable_equilibrium: Option<OtherStable>;
         /// All equilibria that the search of `all` found, with the lowest energy first.
@@ -409,8 +410,8 @@ rows! {
         pub swivel_direction: Option<[f64; 3]>;
         /// Tension from the entry point to the drum.
         pub tension_drum_n: f64;
-        /// Unstrained lengths of the free span, on the wheel, and from the entry point to the drum, which add up to that of
-        /// the cable.
+        /// Unstrained lengths of the free span, on the wheel, and from the entry point to the drum, which add up to
+        /// that of the cable.
         pub free_length_m: f64;
         pub arc_length_m: f64;
         pub drum_side_length_m: f64;

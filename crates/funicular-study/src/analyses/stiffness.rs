@@ -31,7 +31,8 @@ rows! {
         pub models: Models = spread;
         pub real: [[f64; 6]; 6];
         pub imag: [[f64; 6]; 6];
-        /// Norm of the antisymmetric part divided by the norm of the matrix; absent if the matrix is symmetric by theory.
+        /// Norm of the antisymmetric part divided by the norm of the matrix; absent if the matrix is symmetric by
+        /// theory.
         pub antisymmetric_fraction: Option<f64>;
         pub warnings: Vec<String> = hidden;
     }

@@ -108,7 +108,8 @@ rows! {
     /// Limit of which a motion uses the largest part.
     #[derive(Clone)]
     pub struct MostUsed {
-        /// `maximum-tension`, `minimum-tension`, `speed`, `acceleration`, `torque`, `power`, `brake-power` or `clearance`.
+        /// `maximum-tension`, `minimum-tension`, `speed`, `acceleration`, `torque`, `power`, `brake-power` or
+        /// `clearance`.
         pub limit: &'static str;
         pub cable: Option<String>;
         pub t_s: f64;
@@ -122,8 +123,8 @@ rows! {
     pub struct Extreme {
         /// Name of the number.
         pub what: &'static str;
-        /// Largest beside the jumps where the number has no bound; absent where rates jump because tensions reach limits,
-        /// near which they change too fast for a number that does not depend on the rows.
+        /// Largest beside the jumps where the number has no bound; absent where rates jump because tensions reach
+        /// limits, near which they change too fast for a number that does not depend on the rows.
         pub value: Option<f64>;
         pub unit: &'static str;
         pub cable: String;

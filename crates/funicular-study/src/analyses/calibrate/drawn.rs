@@ -21,7 +21,8 @@ rows! {
         pub position_m: [f64; 3];
         /// Places of its coordinates among the values; none for a coordinate that is known.
         pub places: [Option<usize>; 3] = hidden;
-        /// Covariance of the coordinates with inner conditions; zero along a known coordinate, absent without deviations.
+        /// Covariance of the coordinates with inner conditions; zero along a known coordinate, absent without
+        /// deviations.
         pub covariance_m2: Option<[[f64; 3]; 3]>;
         /// One deviation along the weakest combination.
         pub weakest_m: Option<[f64; 3]>;

@@ -49,12 +49,10 @@ rows! {
             => one.unit("").significant("inner ±", 3)
             => column("remark", "", "what holds the value, or that nothing determines it; its prior", remark).plain("");
         /// Value that was known beforehand.
-        ///
-        /// Value known beforehand.
         pub prior: Option<f64> => one.unit("");
-        /// Its standard deviation.
+        /// Standard deviation of the value known beforehand.
         pub prior_deviation: Option<f64>
-            => one.unit("")
+            => one.unit("").about("its standard deviation")
             => parts("profile_95_{}", ["from", "to"], "", "end of the interval of the profile: {}", profile);
         /// Profile of χ², if it was asked for: ends of the interval that holds the value with 95 %, and points.
         pub profile: Option<Profile>;

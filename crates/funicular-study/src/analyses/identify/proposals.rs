@@ -49,12 +49,10 @@ rows! {
             .components("roll, pitch, yaw", 3);
         /// Payload that the platform carries there.
         ///
-        /// If payloads are candidates.
+        /// Absent unless payloads are candidates.
         pub payload_kg: Option<f64> => one.significant("payload", 4).only_if(has_payloads);
-        /// What is measured there.
-        ///
-        /// Measured quantities there: `frequencies`, `tensions`, `lengths` or `pose`.
-        pub measured: String => one.plain("measured");
+        /// Measured quantity: `frequencies`, `tensions`, `lengths` or `pose`.
+        pub measured: String => one.about("what is measured there").plain("measured");
         /// Natural frequencies of the identified robot there, if they are measured.
         pub frequency_hz: Vec<f64> = sparse;
         /// Standard deviations of all values after this measurement and those before it, in their order.
@@ -64,8 +62,6 @@ rows! {
         /// Largest of these relative to its value, of the chosen positive values.
         pub largest_percent: Option<f64> => one.significant("largest ±", 3);
         /// Value with the largest relative deviation.
-        ///
-        /// Value that has it.
         pub largest_of: Option<String> => one.plain("of");
     }
 }

@@ -31,8 +31,8 @@ rows! {
         pub input: String;
         pub output: String;
         pub unit: String;
-        /// Root mean square of the residuals in deviations of the noise, of the values that are not left out; 1 if the fit
-        /// is perfect.
+        /// Root mean square of the residuals in deviations of the noise, of the values that are not left out; 1 if the
+        /// fit is perfect.
         pub residual_rms: f64;
         /// Ranges that are left out because the model misses them: first and last frequency of each [Hz].
         pub left_out_hz: Vec<[f64; 2]> = sparse;

@@ -21,10 +21,11 @@ rows! {
         pub longer_s: f64;
         /// Sum of all amplitudes at the end, with frequencies as they are and with others.
         pub robustness: Vec<Robustness>;
-        /// Last time at which the point is at the tolerance without the shaper, since the end of the command without it;
-        /// absent if it never settles.
+        /// Last time at which the point is at the tolerance without the shaper, since the end of the command without
+        /// it; absent if it never settles.
         pub settled_without_s: Option<f64>;
-        /// Time from which on the sum of all amplitudes without the shaper is within the tolerance; absent if it never is.
+        /// Time from which on the sum of all amplitudes without the shaper is within the tolerance; absent if it never
+        /// is.
         pub surely_settled_without_s: Option<f64>;
         /// Motion from the end of the command without it.
         pub history_without: Vec<HistoryRow>;

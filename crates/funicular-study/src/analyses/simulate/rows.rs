@@ -51,8 +51,8 @@ rows! {
         pub dissipated_j: f64 => one;
         /// Energy that payloads brought, less what they took away.
         pub energy_of_payloads_j: f64 => one;
-        /// What the books of the energy are off by.
-        pub energy_defect_j: f64 => one;
+        /// Defect of the energy balance.
+        pub energy_defect_j: f64 => one.about("what the books of the energy are off by");
     }
 }
 

@@ -131,7 +131,8 @@ rows! {
         pub interval_95: Option<[f64; 2]>;
         /// Method: `linear` or `sampled`.
         pub method: &'static str;
-        /// Reason for sampling. With the requested method `linear` it is the reason why the linear deviation is doubtful.
+        /// Reason for sampling. With the requested method `linear` it is the reason why the linear deviation is
+        /// doubtful.
         pub sampling_reason: Option<String>;
         /// Standard deviation by the gradient, also of a sampled result.
         pub linear_deviation: Option<f64>;
@@ -163,8 +164,8 @@ rows! {
     pub struct WorstCase {
         /// Sum of the absolute linear changes over all tolerances: neither a lower nor an upper bound.
         pub linear: f64;
-        /// Change at the corner of the tolerances where the linear result is smallest. The true worst case is at least as
-        /// far.
+        /// Change at the corner of the tolerances where the linear result is smallest. The true worst case is at least
+        /// as far.
         pub down: Option<f64>;
         /// Change at the opposite corner, where the linear result is largest.
         pub up: Option<f64>;

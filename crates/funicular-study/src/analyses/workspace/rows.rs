@@ -25,7 +25,8 @@ rows! {
         /// Roll, pitch and yaw of every orientation, and which of them have to be possible: `all` or `some`.
         pub roll_pitch_yaw_deg: Vec<[f64; 3]>;
         pub orientations: &'static str;
-        /// Plane of a planar platform, in which the set is an area; absent in space. Volumes are those of a slab of 1 m.
+        /// Plane of a planar platform, in which the set is an area; absent in space. Volumes are those of a slab of 1
+        /// m.
         pub plane: Option<AreaOfWorkspace>;
         pub grid: GridOfWorkspace;
         /// True if everything was found: otherwise the work was stopped before the steps were as small as requested, or
@@ -50,7 +51,8 @@ rows! {
         pub rays: Option<RaysOfWorkspace>;
         /// Comparison with another robot.
         pub compared: Option<ComparedSets>;
-        /// Closed surface: vertices, and triangles by the numbers of their vertices from 0, counterclockwise from outside.
+        /// Closed surface: vertices, and triangles by the numbers of their vertices from 0, counterclockwise from
+        /// outside.
         pub vertices_m: Vec<[f64; 3]>;
         pub triangles: Vec<[usize; 3]>;
         /// Number of triangles on the surface of the set; those after them lie on the faces of the box.
@@ -97,7 +99,8 @@ rows! {
         pub upper_m: [f64; 3];
         /// Step along each axis.
         pub step_m: [f64; 3];
-        /// Largest step with which the set was searched at first: separate parts and holes that are smaller can be missed.
+        /// Largest step with which the set was searched at first: separate parts and holes that are smaller can be
+        /// missed.
         pub first_step_m: f64;
         pub vertex_tolerance_m: f64;
     }
@@ -111,8 +114,6 @@ rows! {
         /// `grid`, `rays` (all intervals of all rays) or `hull of rays` (triangles between their first ends).
         pub by: &'static str => one.plain("by");
         /// Largest step of the grid, or between points of a ray.
-        ///
-        /// Largest step of the grid, or between the points of a ray.
         pub step_m: f64 => one.short("step", 4);
         /// Number of rays.
         pub rays: Option<usize> => one.plain("rays");
