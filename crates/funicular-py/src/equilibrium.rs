@@ -87,6 +87,13 @@ impl PyEquilibrium {
         self.at_rest.rule.as_ref().map(statics::TensionRule::name)
     }
 
+    /// True if the tensions of the rule `centre` are certified to be the only ones; None for another rule. The key
+    /// `centre` of `to_dict` has the numbers of the proof.
+    #[getter]
+    fn unique_centre(&self) -> Option<bool> {
+        analyses::statics::CentreRow::of(&self.at_rest).map(|proof| proof.unique)
+    }
+
     /// Unstrained lengths [m].
     #[getter]
     fn unstrained_length_m(&self) -> Vector {

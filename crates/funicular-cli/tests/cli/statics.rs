@@ -339,3 +339,22 @@ fn lengths_to_the_anchors_hold_the_pose_without_pulleys(driven: &str, fixed: &st
     }
     assert!(json(&["check", "-"], fixed)["cables"][0].get("length_parts").is_none());
 }
+
+#[test]
+fn the_centre_has_a_certificate_and_a_pose_beyond_the_limits_a_proof() {
+    let cogiro = robot("cogiro.toml");
+    let pose = ["statics", &cogiro, "--pose", "1,1,1.5", "--tension-rule", "centre"];
+    let proof = json(&pose)["centre"].clone();
+    assert_eq!((&proof["unique"], number(&proof["max_curvature"])), (&Value::Bool(true), 0.5));
+    assert!((0.0..0.1).contains(&number(&proof["curvature"])), "{proof}");
+    assert!(proof["curvature_cable"].is_string() && proof.get("convexity_min").is_none(), "{proof}");
+    let text = succeed(&pose);
+    assert!(text.contains("Tensions: proved to be the only centre (curvature at most "), "{text}");
+    assert!(json(&["statics", &cogiro, "--pose", "1,1,1.5"]).get("centre").is_none());
+
+    // Two metres beyond the border: a force inwards is missing, with cables at both limits.
+    let outside = run(&["statics", &cogiro, "--pose", "6.5,0,1", "--tension-rule", "centre"]);
+    let message = stderr(&outside);
+    assert_eq!(outside.status.code(), Some(1), "{message}");
+    assert!(message.contains("; proof: even with cables ") && message.contains(" at the minimum "), "{message}");
+}

@@ -817,6 +817,12 @@ class Equilibrium(Analyses):
         Makes a table of pandas with one row per cable; pandas has to be installed.
         """
     @property
+    def unique_centre(self, /) -> bool | None:
+        """
+        True if the tensions of the rule `centre` are certified to be the only ones; None for another rule. The key
+        `centre` of `to_dict` has the numbers of the proof.
+        """
+    @property
     def unstrained_length_m(self, /) -> NDArray[float64]:
         """
         Unstrained lengths [m].

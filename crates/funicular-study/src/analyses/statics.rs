@@ -80,7 +80,7 @@ rows! {
 
 impl CentreRow {
     /// Proof for a robot at equilibrium; `None` for another rule, and where the lengths of another pose are held.
-    fn of(at_rest: &AtRest) -> Option<Self> {
+    pub fn of(at_rest: &AtRest) -> Option<Self> {
         let AtRest { robot, equilibrium, rule, held_pose, .. } = at_rest;
         if *rule != Some(statics::TensionRule::Centre) || held_pose.is_some() {
             return None;

@@ -193,7 +193,8 @@ impl<'a> TensionCurve<'a> {
             }
 
             // The size of the next step, by the square or by the ratio of the last two.
-            let next = if is_fresh { size * size } else { size * (size / last).min(SLOW) };
+            let ratio = if last.is_finite() { size / last } else { SLOW };
+            let next = if is_fresh { size * size } else { size * ratio };
             if next <= LAST_PLACE_STEP {
                 let (end_w, up_w) = (self.cable().anchor.point_w + contact.exit_offset_w(), self.span.axes_w().1);
                 let span = HangingCable::with_parallel_tension(self.span.start_w, end_w, up_w, rope, tau);
