@@ -9,7 +9,7 @@ use anyhow::{Result, bail};
 use funicular::math::{DMat, Vec3};
 use funicular::modes::LengthCommand;
 use funicular::path::{Profile, Shaper};
-use funicular::robot::{CableChange, Pose, RobotChange, State};
+use funicular::robot::{CableChange, Pose, Robot, RobotChange, State};
 use funicular::statics::{self, Equilibrium, derivatives};
 
 /// Kind of the motion that ends at rest.
@@ -38,6 +38,9 @@ const STEP: f64 = 1e-4;
 
 /// Singular value of the motions by lengths, over their size, below which a motion is none that lengths command.
 const RANK: f64 = 1e-9;
+
+/// Maximum number of steps of the lengths to the nearest pose, a guard: each leaves a part of the distance.
+const MAX_STEPS: usize = 60;
 
 /// Equilibria along a path for its static tensions; between them lie straight lines.
 const ALONG_PATH: usize = 9;
@@ -173,7 +176,7 @@ pub(super) fn tangent(at_rest: &AtRest, motion: &[Vec3; 2]) -> Result<Vec<f64>> 
         return Ok(vec![0.0; cables.len()]);
     }
     if at_rest.robot.constraint().is_under()
-        && let Some(by) = nearest_rates(at_rest, motion)
+        && let Some(by) = nearest_rates(&at_rest.robot, &at_rest.equilibrium, motion)
     {
         return Ok(by);
     }
@@ -187,7 +190,7 @@ pub(super) fn tangent(at_rest: &AtRest, motion: &[Vec3; 2]) -> Result<Vec<f64>> 
 
 /// Rates of the lengths with which the equilibria of a robot with too few cables come nearest to a motion: searches for
 /// the nearest poses beside the rest need not end. `None` without derivatives of the equilibrium.
-fn nearest_rates(AtRest { robot, equilibrium, .. }: &AtRest, motion: &[Vec3; 2]) -> Option<Vec<f64>> {
+fn nearest_rates(robot: &Robot, equilibrium: &Equilibrium, motion: &[Vec3; 2]) -> Option<Vec<f64>> {
     let size = robot.platform_length();
     let count = robot.cables.len();
     let as_column = |[shift, turn]: [Vec3; 2]| [shift.x, shift.y, shift.z, turn.x * size, turn.y * size, turn.z * size];
@@ -211,14 +214,39 @@ fn before_end(at_rest: &AtRest, motion: &[Vec3; 2], left: f64) -> Pose {
     at_rest.equilibrium.pose.moved(&shift, &turn)
 }
 
+/// Equilibrium of a robot with too few cables that is nearest to a pose, by steps of the lengths from another one;
+/// `None` if they do not end.
+fn nearest_from_rest(robot: &Robot, rest: &Equilibrium, pose: &Pose) -> Option<Equilibrium> {
+    let mut here = rest.clone();
+    for _ in 0..MAX_STEPS {
+        let turn_w = (pose.rot_wp * here.pose.rot_wp.inverse()).scaled_axis();
+        let by = nearest_rates(robot, &here, &[pose.position_w - here.pose.position_w, turn_w])?;
+        let mut lengths = unstrained(&here);
+        let longest = lengths.iter().copied().fold(0.0, f64::max);
+        let largest = by.iter().map(|by| by.abs()).fold(0.0, f64::max);
+        if largest <= SAME_LENGTH * longest {
+            return Some(here);
+        }
+        lengths.iter_mut().zip(&by).for_each(|(length, by)| *length += by);
+        here = statics::forward(robot, &lengths, here.model, Some(&here.pose)).ok()?;
+    }
+    None
+}
+
 /// Equilibrium at a pose by the tension rule of the robot at rest.
 ///
 /// # Errors
 /// A pose that the cables cannot hold.
 pub(super) fn on_the_way(AtRest { robot, equilibrium, rule, .. }: &AtRest, pose: &Pose) -> Result<Equilibrium> {
     let rule = rule.clone().unwrap_or_default();
-    let found = statics::solve_at(robot, &State::Pose(*pose), equilibrium.model, &rule);
-    found.map(|solution| solution.equilibrium).map_err(|error| {
+    let found = statics::solve_at(robot, &State::Pose(*pose), equilibrium.model, &rule).map(|found| found.equilibrium);
+    if found.is_err()
+        && robot.constraint().is_under()
+        && let Some(nearest) = nearest_from_rest(robot, equilibrium, pose)
+    {
+        return Ok(nearest);
+    }
+    found.map_err(|error| {
         let [x, y, z] = [0, 1, 2].map(|k| significant(pose.position_w[k], 4));
         no_solution_or_input(&error, format!("at {x}, {y}, {z} m, on the way: {error}"))
     })
