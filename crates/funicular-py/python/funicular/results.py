@@ -337,9 +337,9 @@ class CheckedCable(Row):
     """Cable of a robot file."""
 
     anchor_m: NDArray[np.float64]
-    """Anchor [m]."""
+    """Anchor, world axes [m]."""
     attachment_m: NDArray[np.float64]
-    """Attachment [m]."""
+    """Attachment, platform axes [m]."""
     length_parts: LengthParts | None
     """Parts of the unstrained length of a cable over a pulley or to a winch; absent for other cables, and if the lengths
     are unknown or have no equilibrium."""
@@ -1474,9 +1474,7 @@ class CableSpeeds(Row):
 
     Largest speed of the platform in every direction without turning, as far as this winch allows."""
     rate_per_angular_velocity_m_per_rad: NDArray[np.float64]
-    """Speed of the cable at the drum per angular velocity about {}, paying out [m/rad].
-
-    Speed of the cable at the drum per angular velocity about these axes."""
+    """Speed of the cable at the drum per angular velocity about {}, paying out [m/rad]."""
     rate_per_velocity: NDArray[np.float64]
     """Speed of the cable at the drum per speed along {}, paying out.
 
