@@ -78,7 +78,10 @@ fn with_envelope(command: &str, mut schema: Value) -> Value {
         ("robot", json!({ "type": "string", "description": "Name of the robot; absent if there are several" })),
     ];
     for (name, of_key) in keys {
-        schema["properties"][name] = of_key;
+        // `settle` has a key `command` of its own, which comes later and is the one that readers see.
+        if schema["properties"].get(name).is_none() {
+            schema["properties"][name] = of_key;
+        }
         if let Some(required) = schema["required"].as_array_mut().filter(|_| name != "robot") {
             required.push(name.into());
         }

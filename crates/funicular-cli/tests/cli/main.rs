@@ -104,7 +104,7 @@ fn succeed(arguments: &[&str]) -> String {
 fn json(arguments: &[&str]) -> Value {
     let text = succeed(&[arguments, &["--format", "json"]].concat());
     let results = serde_json::from_str(&text).unwrap_or_else(|error| panic!("{arguments:?}: {error}"));
-    results_schema::check(&results);
+    results_schema::check(&results, arguments[0]);
     results
 }
 
@@ -134,6 +134,6 @@ fn json_of(arguments: &[&str], file: &str) -> Value {
     let output = run_with(&[arguments, &["--format", "json"]].concat(), file);
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
     let results = serde_json::from_str(stdout(&output)).unwrap();
-    results_schema::check(&results);
+    results_schema::check(&results, arguments[0]);
     results
 }

@@ -189,11 +189,11 @@ def run(request: Mapping[str, Any] | str, **files: Any) -> Any:
             raise InputError("`merge` writes a file: call `funicular.merge(parts, path)`")
         case "validate":
             found = json.loads(answer(text))
-            return kind_of(found)(found)
+            return kind_of(full)(found)
         case _:
             answered = Answered(text)
             plain = json.loads(answered.json())
-            found = kind_of(plain)(plain)
+            found = kind_of(full)(plain)
             write_wanted(answered, "funicular.run(request, ", wanted)
             found._answered = answered
             return found

@@ -19,11 +19,11 @@ class Axes(Row):
     """Unit vectors of a cable, world axes: along the chord, normal to it in plane, out of plane."""
 
     b: NDArray[np.float64]
-    """B."""
+    """Out of plane."""
     e: NDArray[np.float64]
-    """E."""
+    """Along the chord."""
     n: NDArray[np.float64]
-    """N."""
+    """Normal to the chord, in plane and up."""
 
 
 class Local(Row):
@@ -209,11 +209,9 @@ class CalibratedValue(Row):
 
     Path in the robot file, or the name of an offset or of the scale."""
     prior: float | None
-    """Value that was known beforehand.
-
-    Value known beforehand."""
+    """Value that was known beforehand."""
     prior_deviation: float | None
-    """Its standard deviation."""
+    """Standard deviation of the value known beforehand."""
     profile: Profile | None
     """Profile of χ², if it was asked for: ends of the interval that holds the value with 95 %, and points."""
     start: float
@@ -339,28 +337,28 @@ class CheckedCable(Row):
     """Cable of a robot file."""
 
     anchor_m: NDArray[np.float64]
-    """Anchor [m]."""
+    """Anchor, world axes [m]."""
     attachment_m: NDArray[np.float64]
-    """Attachment [m]."""
+    """Attachment, platform axes [m]."""
     length_parts: LengthParts | None
     """Parts of the unstrained length of a cable over a pulley or to a winch; absent for other cables, and if the lengths
     are unknown or have no equilibrium."""
     load_n_per_m: NDArray[np.float64] | None
     """Load per length besides weight and wind; absent if there is none [N/m]."""
     material: str
-    """Material."""
+    """Name of its rope."""
     maximum_tension_n: float | None
-    """Maximum tension [N]."""
+    """Maximum tension that is allowed [N]."""
     minimum_tension_n: float | None
-    """Minimum tension [N]."""
+    """Minimum tension that is allowed [N]."""
     name: str
-    """Name."""
+    """Name of the cable."""
     pulley: CheckedPulley | None
     """Pulley at the anchor; absent if there is none."""
     support: str | None
     """Name of the flexible support of its anchor; absent for a rigid anchor."""
     unstrained_length_m: float | None
-    """Unstrained length [m]."""
+    """Unstrained length of the file [m]."""
     winch: CheckedWinch | None
     """Winch behind the anchor; absent if there is none."""
 
@@ -386,11 +384,15 @@ class CheckedRope(Row):
     """Rope of a robot file."""
 
     axial_damping_time_s: float | None
-    """Axial damping time [s]."""
+    """Damping time of the stretch [s].
+
+    Absent if zero."""
     axial_loss_factor: float | None
-    """Loss factor and damping time of the stretch; absent if zero."""
+    """Loss factor of the stretch.
+
+    Absent if zero."""
     axial_stiffness_n: float
-    """Axial stiffness [N]."""
+    """Axial stiffness EA [N]."""
     breaking_load_n: float | None
     """Breaking load [N]."""
     damping_ratio: float | None
@@ -398,17 +400,17 @@ class CheckedRope(Row):
     drag_width_m: float | None
     """Drag coefficient times diameter [m]."""
     dynamic_axial_stiffness_n: float | None
-    """Dynamic axial stiffness [N]."""
+    """Axial stiffness in vibration [N]."""
     mass_kg_per_m: float
-    """Mass [kg/m]."""
+    """Mass per length [kg/m]."""
     maximum_tension_n: float | None
-    """Maximum tension [N]."""
+    """Maximum tension that is allowed [N]."""
     minimum_tension_n: float | None
-    """Minimum tension [N]."""
+    """Minimum tension that is allowed [N]."""
     name: str
-    """Name."""
+    """Name of the rope."""
     viscous_damping_n_s_m2: float | None
-    """Viscous damping [N s/m²]."""
+    """Viscous damping per length [N s/m²]."""
 
 
 class CheckedPlatform(Row):
@@ -482,9 +484,7 @@ class ClearanceRow(Row):
     crossing_fractions: NDArray[np.float64] | None
     """Fractions of the move at which the two cables cross each other."""
     distance_m: float
-    """Distance between the surfaces, negative in an overlap [m].
-
-    Distance between the surfaces, negative by the depth of an overlap."""
+    """Distance between the surfaces, negative in an overlap [m]."""
     first: str
     """Name of the first cable, or of a body of the platform."""
     fraction: float | None
@@ -759,7 +759,7 @@ class AirDamping(Row):
     aerodynamic_damping_ratio: float
     """Damping ratio by the mean wind.
 
-    Which adds to the other."""
+    Added to the other."""
     damping_ratio: float
     """Damping ratio in still air."""
     frequency_hz: float
@@ -784,9 +784,7 @@ class GustRow(Row):
     quasi_static_rms: float | None
     """R.m.s. value without the dynamics of the robot; absent without stiffness."""
     rate_hz: float
-    """Rate of crossings [Hz].
-
-    Rate at which the mean is crossed upwards."""
+    """Rate of crossings [Hz]."""
     rms: float
     """Rms."""
     share_by_mode: NDArray[np.float64]
@@ -883,23 +881,19 @@ class ProposedMeasurement(Row):
     frequency_hz: NDArray[np.float64] | None
     """Natural frequencies of the identified robot there, if they are measured [Hz]."""
     largest_of: str | None
-    """Value with the largest relative deviation.
-
-    Value that has it."""
+    """Value with the largest relative deviation."""
     largest_percent: float | None
     """Largest relative deviation of a chosen value then [%].
 
     Largest of these relative to its value, of the chosen positive values."""
     measured: str
-    """What is measured there.
-
-    Measured quantities there: `frequencies`, `tensions`, `lengths` or `pose`."""
+    """Measured quantity: `frequencies`, `tensions`, `lengths` or `pose`."""
     number: int
     """Number of proposed measurements up to this one."""
     payload_kg: float | None
     """Payload that the platform carries there [kg].
 
-    If payloads are candidates."""
+    Absent unless payloads are candidates."""
     position_m: NDArray[np.float64]
     """Position of the platform origin [m]."""
     roll_pitch_yaw_deg: NDArray[np.float64]
@@ -1096,17 +1090,11 @@ class ParameterRow(Row):
     meaning: str
     """Meaning of the number."""
     minimum: float
-    """Lower end of the range.
-
-    Minimum of the range."""
+    """Lower end of the range."""
     path: str
-    """Path of the number for `set`, `vary` and `fit`.
-
-    Path for `set` and `vary`."""
+    """Path of the number for `set`, `vary` and `fit`."""
     range: str
-    """Range that is allowed, in words.
-
-    Permitted range in words."""
+    """Range that is allowed, in words."""
     unit: str
     """Unit; `1` for a ratio."""
     value: float
@@ -1385,7 +1373,7 @@ class SimulatedRow(Row):
     dissipated_j: float
     """Energy lost in damping since the start [J]."""
     energy_defect_j: float
-    """What the books of the energy are off by [J]."""
+    """Defect of the energy balance [J]."""
     energy_of_payloads_j: float
     """Energy that payloads brought, less what they took away [J]."""
     kinetic_energy_j: float
@@ -1457,17 +1445,13 @@ class StretchLossRow(Row):
     at one frequency only."""
 
     damping_ratio: float
-    """Damping ratio by the losses of the robot file.
-
-    Damping ratio by the loss factors and damping times of the robot file."""
+    """Damping ratio by the losses of the robot file."""
     damping_ratio_in_time: float
     """Damping ratio in this run."""
     frequency_hz: float
     """Natural frequency of the platform on massless ropes [Hz]."""
     stretch_share: float
-    """Share of the stretch in the energy of deformation.
-
-    Share of the stretch of the ropes in the energy of deformation."""
+    """Share of the stretch in the energy of deformation."""
 
 
 class CableSpeeds(Row):
@@ -1490,9 +1474,7 @@ class CableSpeeds(Row):
 
     Largest speed of the platform in every direction without turning, as far as this winch allows."""
     rate_per_angular_velocity_m_per_rad: NDArray[np.float64]
-    """Speed of the cable at the drum per angular velocity about {}, paying out [m/rad].
-
-    Speed of the cable at the drum per angular velocity about these axes."""
+    """Speed of the cable at the drum per angular velocity about {}, paying out [m/rad]."""
     rate_per_velocity: NDArray[np.float64]
     """Speed of the cable at the drum per speed along {}, paying out.
 
@@ -1504,9 +1486,7 @@ class CableSpeeds(Row):
 
     Largest speed of the cable at the drum while it winds in; absent without a limit."""
     speed_max_out_m_s: float | None
-    """Largest speed of the cable while it pays out [m/s].
-
-    Largest value while the winch pays out."""
+    """Largest speed of the cable while it pays out [m/s]."""
     tension_drum_n: float
     """Tension at the drum [N]."""
     used_brake_power: float | None
@@ -2244,9 +2224,7 @@ class VolumeRow(Row):
     rays: int | None
     """Number of rays."""
     step_m: float
-    """Largest step of the grid, or between points of a ray [m].
-
-    Largest step of the grid, or between the points of a ray."""
+    """Largest step of the grid, or between points of a ray [m]."""
     volume_error_m3: float | None
     """Largest expected error of the volume [m³].
 
