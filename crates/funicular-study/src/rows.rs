@@ -39,7 +39,7 @@ pub struct RowKey {
 }
 
 /// Rows or results that [`rows!`] declares.
-pub trait Row {
+pub trait DeclaredRow {
     /// Keys in the order of the JSON, those of the parts among them.
     fn keys() -> Vec<RowKey>;
 
@@ -51,9 +51,9 @@ pub trait Row {
 }
 
 /// Part whose keys stand among those of the whole: it may be absent.
-pub trait Part {
+pub trait RowPart {
     /// Declared type of the part.
-    type Of: Row;
+    type Of: DeclaredRow;
     /// True if it can be absent.
     const MAY_BE_ABSENT: bool;
 
@@ -61,7 +61,7 @@ pub trait Part {
     fn part(&self) -> Option<&Self::Of>;
 }
 
-impl<T: Row> Part for T {
+impl<T: DeclaredRow> RowPart for T {
     type Of = T;
     const MAY_BE_ABSENT: bool = false;
 
@@ -70,7 +70,7 @@ impl<T: Row> Part for T {
     }
 }
 
-impl<T: Row> Part for Option<T> {
+impl<T: DeclaredRow> RowPart for Option<T> {
     type Of = T;
     const MAY_BE_ABSENT: bool = true;
 
@@ -100,7 +100,7 @@ pub(crate) fn key<T: Described>(name: &'static str, about: &[&str], is_sparse: b
 }
 
 /// Keys of a part.
-pub(crate) fn keys_of_part<P: Part>() -> Vec<RowKey> {
+pub(crate) fn keys_of_part<P: RowPart>() -> Vec<RowKey> {
     let keys = P::Of::keys().into_iter();
     keys.map(|key| RowKey { is_required: key.is_required && !P::MAY_BE_ABSENT, ..key }).collect()
 }
@@ -393,7 +393,7 @@ macro_rules! structure {
             )*
         }
 
-        impl crate::rows::Row for $Name {
+        impl crate::rows::DeclaredRow for $Name {
             fn keys() -> Vec<crate::rows::RowKey> {
                 let keys: Vec<Vec<crate::rows::RowKey>> =
                     vec![$(crate::rows::keys!($field: $Type, [$($text),*] $($mark)?)),*];
@@ -409,7 +409,7 @@ macro_rules! structure {
 
         impl crate::rows::Described for $Name {
             fn schema() -> serde_json::Value {
-                let keys = <Self as crate::rows::Row>::keys();
+                let keys = <Self as crate::rows::DeclaredRow>::keys();
                 crate::rows::schema_of(stringify!($Name), &[$($about),+], keys)
             }
         }
@@ -417,7 +417,7 @@ macro_rules! structure {
         impl serde::Serialize for $Name {
             fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
                 let mut map = serializer.serialize_map(None)?;
-                crate::rows::Row::put(self, &mut map)?;
+                crate::rows::DeclaredRow::put(self, &mut map)?;
                 serde::ser::SerializeMap::end(map)
             }
         }
@@ -510,8 +510,8 @@ macro_rules! put {
         }
     };
     ($map:ident, $value:expr, $field:ident spread) => {
-        if let Some(part) = crate::rows::Part::part($value) {
-            crate::rows::Row::put(part, $map)?;
+        if let Some(part) = crate::rows::RowPart::part($value) {
+            crate::rows::DeclaredRow::put(part, $map)?;
         }
     };
     ($map:ident, $value:expr, $field:ident hidden) => {};
@@ -537,7 +537,7 @@ macro_rules! column {
         crate::rows::columns_of($pattern, &[$of_part], Some(&crate::rows::texts($parts)), |row: &Self| &row.$field)
     };
     ($about:ident, $field:ident: $Type:ty, columns($($a:tt)*)) => {
-        <<$Type as crate::rows::Part>::Of>::columns($($a)*).within(|row: &Self| crate::rows::Part::part(&row.$field))
+        <<$Type as crate::rows::RowPart>::Of>::columns($($a)*).within(|row: &Self| crate::rows::RowPart::part(&row.$field))
     };
     ($about:ident, $field:ident: $Type:ty, $($other:tt)+) => {
         $($other)+

@@ -39,7 +39,7 @@ pub struct WayBetween {
 }
 
 /// Pairs at one place.
-struct Place {
+struct PlaceOnCourse {
     at: f64,
     /// Lower bounds of the margins of all pairs [m]; infinite for a pair without a distance, and for one that was not
     /// asked.
@@ -81,7 +81,7 @@ impl Surroundings<'_> {
         };
 
         // The known places. Where a pair keeps more than its way to both neighbours, it needs no exact distance.
-        let mut places: Vec<Place> = Vec::with_capacity(known.len());
+        let mut places: Vec<PlaceOnCourse> = Vec::with_capacity(known.len());
         for (k, (at, rest)) in known.iter().enumerate() {
             let neighbours = [k.saturating_sub(1), (k + 1).min(known.len() - 1)].map(|k| known[k].0);
             let place = self.place(*at, rest, &all, &ways(neighbours));
@@ -126,7 +126,7 @@ impl Surroundings<'_> {
 
     /// Some pairs at a place, by their numbers. A margin that is surely larger than its entry of `enough` is told as
     /// that.
-    fn place(&self, place: f64, rest: &Equilibrium, of: &[usize], enough: &[f64]) -> Place {
+    fn place(&self, place: f64, rest: &Equilibrium, of: &[usize], enough: &[f64]) -> PlaceOnCourse {
         let at = self.at(rest);
         let pairs = at.pairs();
         let mut margins = vec![f64::INFINITY; pairs.len()];
@@ -141,18 +141,18 @@ impl Surroundings<'_> {
             }
         }
         let sagittas = at.sagittas();
-        Place { at: place, margins, least, sagittas }
+        PlaceOnCourse { at: place, margins, least, sagittas }
     }
 }
 
-impl Place {
+impl PlaceOnCourse {
     fn too_near(&self) -> Option<Clearance> {
         self.least.filter(|least| !least.is_kept())
     }
 }
 
 /// Part between two places, if a pair may be too near in it; `ways` bounds the change of every pair's distance.
-fn open_part(places: &[Place], ends: [usize; 2], pairs: &[ClearancePair], ways: &[f64]) -> Option<Bounded<CoursePart>> {
+fn open_part(places: &[PlaceOnCourse], ends: [usize; 2], pairs: &[ClearancePair], ways: &[f64]) -> Option<Bounded<CoursePart>> {
     let [from, to] = ends.map(|k| &places[k]);
     let sag = |i: usize| (from.sagittas[i] - to.sagittas[i]).abs();
     let bound = |k: usize| 0.5 * (from.margins[k] + to.margins[k] - ways[k]) - pairs[k].of_cables(sag);

@@ -46,7 +46,7 @@ fn given(robot: &Robot, i: usize, state: &CableState) -> TensionMargin {
 }
 
 /// Rates of a cable along a direction: of its chord, its length and the forces at its ends.
-struct CableRates {
+struct RatesAlong {
     chord: f64,
     length: f64,
     force_w: Vec3,
@@ -74,9 +74,9 @@ pub(super) fn about(robot: &Robot, here: &Equilibrium, directions: &[Vec6], leng
             let moved = Vec3::new(motion[0], motion[1], motion[2]) + turn.cross(&state.lever_w);
             let force_w = by_length_w * lengths[i] - tangent_w * moved;
             let chord = -chord_w.dot(&moved) / chord_w.norm();
-            CableRates { chord, length: lengths[i], force_w, anchor_force_w: force_w - weight_w * lengths[i] }
+            RatesAlong { chord, length: lengths[i], force_w, anchor_force_w: force_w - weight_w * lengths[i] }
         };
-        let rates: Vec<CableRates> = directions.iter().zip(lengths).map(rates_along).collect();
+        let rates: Vec<RatesAlong> = directions.iter().zip(lengths).map(rates_along).collect();
         let of_end = |end_w: &Vec3, at_anchor: bool, factor: f64| -> Vec<f64> {
             let unit = end_w.try_normalize(0.0).unwrap_or_else(Vec3::zeros) * factor;
             rates.iter().map(|of| unit.dot(if at_anchor { &of.anchor_force_w } else { &of.force_w })).collect()

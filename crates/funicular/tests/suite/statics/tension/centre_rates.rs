@@ -105,7 +105,7 @@ fn robots() -> Vec<(&'static str, Robot, fn(usize) -> Pose, StaticModel)> {
     ]
 }
 
-/// Both derivatives of lengths and tensions; the differences have an error of 1e-10 of the first and, from rounding, 1e-8
+/// Both derivatives of lengths and tensions; the differences have an error of 1e-12 of the first and, from rounding, 1e-9
 /// of the second.
 #[test]
 fn rates_and_accelerations_are_those_of_differences() {
@@ -116,7 +116,7 @@ fn rates_and_accelerations_are_those_of_differences() {
             let (pose, motion) = (pose_of(i), motion_of(&robot, size, i));
             let Ok(here) = tension_centre(&robot, &pose, model, None) else { continue };
             let found = centre_rates(&robot, &here, &motion).unwrap();
-            let step = 2.5e-2;
+            let step = 1e-2;
             for k in 0..robot.cables.len() {
                 let of = |value: &dyn Fn(&TensionCentre) -> f64| {
                     differences(|time| at(&robot, &pose, model, &motion, time).map(|there| value(&there)), step)
@@ -141,9 +141,10 @@ fn rates_and_accelerations_are_those_of_differences() {
                 }
             }
         }
+        println!("{name}: {compared}, {worst:?}");
         assert!(compared >= 3 * robot.cables.len(), "{name}: {compared}");
         for (k, error) in worst.iter().enumerate() {
-            assert!(*error < [1e-8, 1e-6][k % 2], "{name}: {worst:?}");
+            assert!(*error < [1e-10, 1e-8][k % 2], "{name}: {worst:?}");
         }
     }
 }
@@ -259,5 +260,5 @@ fn heavy_slack_ropes_have_no_certificate() {
         }
     }
     println!("{by_places} by places, {without} without");
-    assert!(by_places > 0);
+    assert!(by_places > 0 && without > 0, "{by_places} {without}");
 }
