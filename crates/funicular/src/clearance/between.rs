@@ -8,7 +8,7 @@ use std::collections::BinaryHeap;
 
 /// Maximum number of places between the known ones that are looked at: a pair that slides along its limit would need
 /// any number. A body that is passed needs some sixty.
-const MAX_PLACES: usize = 2000;
+const MAX_PLACES: usize = 4000;
 
 /// Result of [`Surroundings::too_near_between`].
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -75,9 +75,10 @@ impl Surroundings<'_> {
         let Some((_, first)) = known.first() else { return Ok(BetweenPlaces::Free) };
         let pairs = self.at(first).pairs();
         let all: Vec<usize> = (0..pairs.len()).collect();
+        let chords = self.chords_of(known);
         let ways = |ends: [f64; 2]| -> Vec<f64> {
-            let WayBetween { translation, turn } = way(ends);
-            pairs.iter().map(|pair| self.way_of(*pair, translation, turn)).collect()
+            let way = way(ends);
+            pairs.iter().map(|pair| self.way_between(*pair, &way, &chords)).collect()
         };
 
         // The known places. Where a pair keeps more than its way to both neighbours, it needs no exact distance.
@@ -122,6 +123,29 @@ impl Surroundings<'_> {
             }
         }
         Ok(BetweenPlaces::Free)
+    }
+
+    /// Shortest and longest chord of each cable at some places [m].
+    fn chords_of(&self, known: &[(f64, &Equilibrium)]) -> Vec<[f64; 2]> {
+        let of = |i: usize| {
+            let chords = known.iter().map(|(_, rest)| rest.cables[i].chord());
+            chords.fold([f64::INFINITY, 0.0], |[least, most], chord| [least.min(chord), most.max(chord)])
+        };
+        (0..self.robot.cables.len()).map(of).collect()
+    }
+
+    /// Bound of the change of a pair's distance during a motion [m]. Seen from the platform, a point of a cable moves by
+    /// its share of the way of the anchor, and points farther along than the platform reaches are not too near.
+    fn way_between(&self, pair: ClearancePair, way: &WayBetween, chords: &[[f64; 2]]) -> f64 {
+        let WayBetween { translation, turn } = *way;
+        let whole = self.way_of(pair, translation, turn);
+        let ClearancePair::CableAndPlatform { cable: i, .. } = pair else { return whole };
+        let cable = &self.robot.cables[i];
+        let lever = cable.attachment_p.norm();
+        let [least, most] = [chords[i][0] - whole, chords[i][1] + whole];
+        let near = self.platform_reach() + lever + self.required.platform + cable.radius();
+        let share = if least > near { near / least } else { 1.0 };
+        whole.min(share * (translation + turn * (most + lever)))
     }
 
     /// Some pairs at a place, by their numbers. A margin that is surely larger than its entry of `enough` is told as
