@@ -6,7 +6,7 @@ use crate::at_rest::{self, AtRest};
 use crate::columns::{Columns, ResultTable, Tabled, column};
 use crate::error::Cancelled;
 use crate::request::{self, FrequencyRange, ResponseRange};
-use crate::rows::{Described, Row, RowKey, key, put, rows, schema_of};
+use crate::rows::{DeclaredRow, Described, RowKey, key, put, rows, schema_of};
 use crate::signals::{Input, Output, SignalLists, response_unit};
 use crate::table::Column;
 use crate::text::{counted, significant};

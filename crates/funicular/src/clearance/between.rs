@@ -176,7 +176,12 @@ impl PlaceOnCourse {
 }
 
 /// Part between two places, if a pair may be too near in it; `ways` bounds the change of every pair's distance.
-fn open_part(places: &[PlaceOnCourse], ends: [usize; 2], pairs: &[ClearancePair], ways: &[f64]) -> Option<Bounded<CoursePart>> {
+fn open_part(
+    places: &[PlaceOnCourse],
+    ends: [usize; 2],
+    pairs: &[ClearancePair],
+    ways: &[f64],
+) -> Option<Bounded<CoursePart>> {
     let [from, to] = ends.map(|k| &places[k]);
     let sag = |i: usize| (from.sagittas[i] - to.sagittas[i]).abs();
     let bound = |k: usize| 0.5 * (from.margins[k] + to.margins[k] - ways[k]) - pairs[k].of_cables(sag);

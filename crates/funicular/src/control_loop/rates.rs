@@ -8,12 +8,7 @@ use crate::statics::{CentreSearch, PlatformAlong, RatesRow};
 
 /// Adds rates and accelerations to a state with the tensions of a search; false if they are not determined there, and
 /// they stay zero.
-pub(super) fn add(
-    model: &LoopModel,
-    input: &LoopInput,
-    search: &CentreSearch<'_, '_>,
-    state: &mut LoopState,
-) -> bool {
+pub(super) fn add(model: &LoopModel, input: &LoopInput, search: &CentreSearch<'_, '_>, state: &mut LoopState) -> bool {
     let (robot, motion) = (model.robot(), &input.motion);
     let is_at_rest = [&motion.velocity_w, &motion.acceleration_w, &motion.jerk_w].iter().all(|of| of.norm() == 0.0);
     if is_at_rest {
