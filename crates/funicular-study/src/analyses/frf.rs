@@ -481,7 +481,7 @@ impl<const IS_INPUT: bool> PlaceRow<IS_INPUT> {
     }
 }
 
-impl<const IS_INPUT: bool> Row for PlaceRow<IS_INPUT> {
+impl<const IS_INPUT: bool> DeclaredRow for PlaceRow<IS_INPUT> {
     fn keys() -> Vec<RowKey> {
         let abouts = ["Point of the platform, its frame.", "Point on the cable at equilibrium, world frame."];
         Self::KEYS.iter().zip(abouts).flat_map(|(name, about)| key::<Option<[f64; 3]>>(name, &[about], false)).collect()
