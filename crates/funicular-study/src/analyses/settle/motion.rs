@@ -37,7 +37,7 @@ pub(super) struct Motion<'a> {
 const STEP: f64 = 1e-4;
 
 /// Singular value of the motions by lengths, over their size, below which a motion is none that lengths command.
-const RANK: f64 = 1e-9;
+const RANK: f64 = 1e-3;
 
 /// Maximum number of steps of the lengths to the nearest pose, a guard: each leaves a part of the distance.
 const MAX_STEPS: usize = 60;
