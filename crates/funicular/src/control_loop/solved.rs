@@ -76,9 +76,9 @@ pub(super) fn solve(
     let count = cables.len();
     let mut search_for = CentreSearch::new(coordinates, &mut cables, &mut rows[..count], load);
     if model.has_choice() {
-        best(&mut search_for, near)?
+        best(&mut search_for, near)?;
     } else {
-        the_only(&mut search_for, near)?
+        the_only(&mut search_for, near)?;
     }
     let mut solved = collected(model, motion, &search_for);
     if with_rates && !rates::add(model, input, &search_for, &mut solved.state) {

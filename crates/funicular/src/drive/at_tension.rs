@@ -73,21 +73,21 @@ pub(crate) struct ByTension {
     pub(crate) force_w: Vec3,
 }
 
-impl<T: Real> AtTension<'_, T> {
-    /// Wheel turned by the unknowns.
-    fn wheel(&self, contact: &PulleyContact, [wrap, swivel, _]: &Unknown<T>) -> Wheel<T> {
-        let (sin, cos) = swivel.sin_cos();
-        let lifted = |vector: &Vec3| [0, 1, 2].map(|k| T::from(vector[k]));
-        let (center, sideways) = (lifted(&contact.center_w), lifted(&contact.sideways_w));
-        Wheel {
-            radius: T::from(contact.radius),
-            wrap: T::from(contact.wrap) + *wrap,
-            axis_w: lifted(&contact.axis_w),
-            center_w: combined(&center, cos, &sideways, sin),
-            sideways_w: combined(&sideways, cos, &center, -sin),
-        }
+/// Wheel turned by the unknowns.
+fn turned_wheel<T: Real>(contact: &PulleyContact, [wrap, swivel, _]: &Unknown<T>) -> Wheel<T> {
+    let (sin, cos) = swivel.sin_cos();
+    let lifted = |vector: &Vec3| [0, 1, 2].map(|k| T::from(vector[k]));
+    let (center, sideways) = (lifted(&contact.center_w), lifted(&contact.sideways_w));
+    Wheel {
+        radius: T::from(contact.radius),
+        wrap: T::from(contact.wrap) + *wrap,
+        axis_w: lifted(&contact.axis_w),
+        center_w: combined(&center, cos, &sideways, sin),
+        sideways_w: combined(&sideways, cos, &center, -sin),
     }
+}
 
+impl<T: Real> AtTension<'_, T> {
     /// True if the load of the rope turns the swivel, because the axis is not along it.
     fn turns_swivel(&self, contact: &PulleyContact) -> bool {
         let up = Vec3::from_fn(|k, _| self.up_w[k].value());
@@ -102,7 +102,7 @@ impl<T: Real> AtTension<'_, T> {
     /// Cable with these unknowns and this tension.
     pub(crate) fn span(&self, tau: T, unknown: &Unknown<T>) -> SpanAtTension<T> {
         let (zero, length) = (T::from(0.0), unknown[2]);
-        let wheel = self.contact.as_ref().map(|contact| self.wheel(contact, unknown));
+        let wheel = self.contact.as_ref().map(|contact| turned_wheel(contact, unknown));
         let offset = wheel.as_ref().map(|wheel| wheel.offset_w(wheel.wrap));
         let chord_w: [T; 3] = std::array::from_fn(|k| {
             let from_point = T::from(self.anchor.point_w[k]) - self.start_w[k];

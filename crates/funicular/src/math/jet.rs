@@ -30,9 +30,8 @@ impl<const N: usize> Jet<N> {
         let half = 0.5 * b * b;
         let slope = [first, second * b, second * c + third * half];
         Self {
-            rows: from_fn(|row| match row {
-                0 => [value, first * b, first * c + second * half],
-                _ => product(&slope, &self.rows[row]),
+            rows: from_fn(|row| {
+                if row == 0 { [value, first * b, first * c + second * half] } else { product(&slope, &self.rows[row]) }
             }),
         }
     }
@@ -93,16 +92,15 @@ impl<const N: usize> Mul for Jet<N> {
 
     #[inline(always)]
     fn mul(self, other: Self) -> Self {
-        Self {
-            rows: from_fn(|row| match row {
-                0 => product(&self.rows[0], &other.rows[0]),
-                _ => {
-                    let (one, two) =
-                        (product(&self.rows[0], &other.rows[row]), product(&self.rows[row], &other.rows[0]));
-                    from_fn(|k| one[k] + two[k])
-                }
-            }),
-        }
+        let of = |row: usize| {
+            let one = product(&self.rows[0], &other.rows[row]);
+            if row == 0 {
+                return one;
+            }
+            let two = product(&self.rows[row], &other.rows[0]);
+            from_fn(|k| one[k] + two[k])
+        };
+        Self { rows: from_fn(of) }
     }
 }
 

@@ -40,12 +40,12 @@ pub(crate) struct SpanForces {
 impl SpanForces {
     /// Lowest tension anywhere in the cable: at the lower end, or at the lowest point, or at the drum.
     pub(crate) fn lowest(&self) -> RoundedTension {
-        self.with_derivatives(|forces| forces.lowest())
+        self.with_derivatives(RoundedForces::lowest)
     }
 
     /// Highest tension anywhere in the cable: at the upper end, or at the drum.
     pub(crate) fn highest(&self) -> RoundedTension {
-        self.with_derivatives(|forces| forces.highest())
+        self.with_derivatives(RoundedForces::highest)
     }
 
     fn with_derivatives(&self, of: impl Fn(&RoundedForces<Dual<4>>) -> Dual<4>) -> RoundedTension {

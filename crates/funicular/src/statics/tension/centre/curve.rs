@@ -175,12 +175,11 @@ impl<'a> TensionCurve<'a> {
         let mut last = f64::INFINITY;
         for _ in 0..MAX_PLACE_STEPS {
             given.contact = Some(contact);
-            let (inverse, conditions, is_fresh) = match self.place {
-                Some(inverse) => (inverse, given.span(tau, &[0.0, 0.0, rope.unstrained_length]).conditions, false),
-                None => {
-                    let (inverse, conditions) = given.place_by(tau, rope.unstrained_length)?;
-                    (inverse, conditions, true)
-                }
+            let is_fresh = self.place.is_none();
+            let (inverse, conditions) = if let Some(inverse) = self.place {
+                (inverse, given.span(tau, &[0.0, 0.0, rope.unstrained_length]).conditions)
+            } else {
+                given.place_by(tau, rope.unstrained_length)?
             };
             self.place = Some(inverse);
             let step = -inverse * Vec3::from(conditions);

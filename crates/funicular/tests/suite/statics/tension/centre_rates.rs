@@ -56,9 +56,12 @@ fn differences(of: impl Fn(f64) -> Option<f64>, step: f64) -> Option<[f64; 2]> {
     Some([first / step, second / (step * step)])
 }
 
+/// Pose by its number.
+type Poses = fn(usize) -> Pose;
+
 /// Robots with everything that derivatives follow: limits of all kinds, pulleys with upright and with inclined axes,
 /// winches that yield, wind on ropes, loads beside the origin, fewer degrees of freedom, ropes without weight.
-fn robots() -> Vec<(&'static str, Robot, fn(usize) -> Pose, StaticModel)> {
+fn robots() -> Vec<(&'static str, Robot, Poses, StaticModel)> {
     let winches = Robot::from_toml(funicular_robots::COGIRO_WINCHES).unwrap();
     let inside = |i| pose(i, [0.0, 0.0, 1.8], [2.5, 1.5, 0.8], 4.0);
     let mut inclined = winches.clone();
@@ -72,7 +75,7 @@ fn robots() -> Vec<(&'static str, Robot, fn(usize) -> Pose, StaticModel)> {
     windy.wind.air_density = 1.2;
     windy.cables.iter_mut().for_each(|cable| cable.material.drag_width = Some(0.01));
     let mut fixed_windy = cogiro(0.064, 100.0, 5000.0);
-    fixed_windy.wind = windy.wind.clone();
+    fixed_windy.wind = windy.wind;
     fixed_windy.cables.iter_mut().for_each(|cable| cable.material.drag_width = Some(0.01));
     fixed_windy.load.force_w = Vec3::new(40.0, -30.0, 10.0);
     fixed_windy.load.point_p = Vec3::new(0.2, -0.1, 0.3);
