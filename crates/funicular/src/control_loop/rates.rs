@@ -2,18 +2,13 @@
 
 use super::input::LoopInput;
 use super::model::{LoopModel, MAX_CABLES};
-use super::solved::SolvedState;
+use super::state::LoopState;
 use crate::math::Vec6;
 use crate::statics::{CentreSearch, PlatformAlong, RatesRow};
 
 /// Adds rates and accelerations to a state with the tensions of a search; false if they are not determined there, and
 /// they stay zero.
-pub(super) fn add(
-    model: &LoopModel,
-    input: &LoopInput,
-    search: &CentreSearch<'_, '_>,
-    solved: &mut SolvedState,
-) -> bool {
+pub(super) fn add(model: &LoopModel, input: &LoopInput, search: &CentreSearch<'_, '_>, state: &mut LoopState) -> bool {
     let (robot, motion) = (model.robot(), &input.motion);
     let is_at_rest = [&motion.velocity_w, &motion.acceleration_w, &motion.jerk_w].iter().all(|of| of.norm() == 0.0);
     if is_at_rest {
@@ -27,7 +22,7 @@ pub(super) fn add(
     if !search.rates(&platform, &load, rows) {
         return false;
     }
-    for (cable, row) in solved.state.cables.iter_mut().zip(rows) {
+    for (cable, row) in state.cables.iter_mut().zip(rows) {
         [cable.length_rate, cable.length_acceleration] = row.rates.length;
     }
     true

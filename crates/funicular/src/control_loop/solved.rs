@@ -81,7 +81,7 @@ pub(super) fn solve(
         the_only(&mut search_for, near)?;
     }
     let mut solved = collected(model, motion, &search_for);
-    if with_rates && !rates::add(model, input, &search_for, &mut solved) {
+    if with_rates && !rates::add(model, input, &search_for, &mut solved.state) {
         solved.state.status = solved.state.status.max(LoopStatus::Accepted);
     }
     Ok(solved)
