@@ -90,8 +90,8 @@ typedef struct fn_inverse_result {
   double *tension_platform_n;
   double *tension_drum_n;
   double *margin_n;
-  /* Proof with FN_BEYOND_LIMITS that no tensions within the limits hold the platform (exit points on pulleys held): even
-   * if each cable pulls as far along the direction as its limits allow, missing_n are missing. 0: not proved. */
+  /* Proof with FN_BEYOND_LIMITS that no tensions within the limits hold the platform (exit points on pulleys held):
+   * even if each cable pulls as far along the direction as its limits allow, missing_n are missing. 0: not proved. */
   double missing_n;
   double missing_force[3];  /* direction, with the moment of length 1 */
   double missing_moment[3]; /* moments over the mean distance of the attachments */

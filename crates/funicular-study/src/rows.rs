@@ -244,7 +244,9 @@ impl<T: Cells> Cells for Vec<T> {
     const KIND: ColumnKind = T::KIND;
 
     fn add(&self, cells: &mut Vec<Cell>) {
-        self.iter().for_each(|value| value.add(cells));
+        for value in self {
+            value.add(cells);
+        }
     }
 }
 
@@ -252,7 +254,9 @@ impl<T: Cells, const N: usize> Cells for [T; N] {
     const KIND: ColumnKind = T::KIND;
 
     fn add(&self, cells: &mut Vec<Cell>) {
-        self.iter().for_each(|value| value.add(cells));
+        for value in self {
+            value.add(cells);
+        }
     }
 }
 

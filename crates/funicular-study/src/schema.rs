@@ -62,7 +62,9 @@ fn results(more: Vec<(&'static str, Value)>) -> Value {
 /// Schema of the results of a command with the keys that all results have.
 fn with_envelope(command: &str, mut schema: Value) -> Value {
     if let Some(forms) = schema.get_mut("oneOf").and_then(Value::as_array_mut) {
-        forms.iter_mut().for_each(|form| *form = with_envelope(command, form.take()));
+        for form in forms {
+            *form = with_envelope(command, form.take());
+        }
         return schema;
     }
     let keys = [

@@ -306,8 +306,8 @@ impl PathPoint {
         }
     }
 
-    /// Coefficients of t and t² of [`Self::inertia`] at a time t after this one, velocity, acceleration and jerk at their
-    /// derivatives here.
+    /// Coefficients of t and t² of [`Self::inertia`] at a time t after this one, velocity, acceleration and jerk at
+    /// their derivatives here.
     pub(crate) fn inertia_along(&self, robot: &Robot) -> [Vec6; 2] {
         let (mass, rot) = (robot.platform.mass, self.pose.rot_wp);
         let ([_, turn], [linear, angular], [jerk, angular_jerk]) =

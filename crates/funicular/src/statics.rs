@@ -90,13 +90,13 @@ pub use solve::{Solution, inverse, solve, solve_at, solve_held, solve_held_at};
 pub(crate) use stiffness::assembled;
 pub use stiffness::tangent_stiffness;
 pub(crate) use supports::{SupportSide, on_support, support_side};
-pub use tension::{
-    CableRates, CentreCertificate, CentreMotion, LimitAtCable, PayloadBound, PayloadSide, RequestedPayload,
-    TensionCentre, TensionRule, centre_rates, distribute_tensions, payload_bound, tension_centre,
-};
 pub(crate) use tension::{
     CentreCable, CentreLoad, CentreRow, CentreSearch, PlatformAlong, Potential, RatesRow, TauLimit, TauLimitKind,
     TensionCurve,
+};
+pub use tension::{
+    CentreCertificate, CentreMotion, CentreRates, LimitAtCable, PayloadBound, PayloadSide, RequestedPayload,
+    TensionCentre, TensionRule, centre_rates, distribute_tensions, payload_bound, tension_centre,
 };
 pub(crate) use tension_gain::tension_gain_exceeds;
 pub use tension_gain::{inverse_condition, tension_gain};

@@ -93,7 +93,7 @@ pub enum WinchNeedsError {
         /// Load in addition to the dead load, world axes about the platform origin (N, N m).
         load_w: Vec6,
         /// Reason.
-        reason: StaticsError,
+        reason: Box<StaticsError>,
     },
     /// Equilibrium without rates of its lengths.
     #[error(transparent)]
@@ -119,7 +119,7 @@ impl WinchNeeds {
         // Every load, with the tensions and lengths that it needs.
         let mut held = Vec::new();
         for (loaded, load_w) in statics::robots_under_required_loads(robot, pose) {
-            let not_held = |reason| WinchNeedsError::NotHeld { load_w, reason };
+            let not_held = |reason| WinchNeedsError::NotHeld { load_w, reason: Box::new(reason) };
             if let Constraint::Under(_) = robot.constraint() {
                 let (cables, dof) = (robot.cables.len(), robot.platform.motion.count());
                 return Err(not_held(StaticsError::InverseCableCount { cables, dof }));

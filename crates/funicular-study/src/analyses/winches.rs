@@ -176,9 +176,9 @@ pub fn run(robot: Robot, request: &WinchesRequest, watch: &mut dyn Watch) -> Res
                 }
             }
             Err(WinchNeedsError::NoRates(error)) => return Err(no_solution(error)),
-            Err(WinchNeedsError::NotHeld { reason, .. }) if !reason.is_no_solution() => return Err(reason.into()),
+            Err(WinchNeedsError::NotHeld { reason, .. }) if !reason.is_no_solution() => return Err((*reason).into()),
             Err(error) => {
-                not_held = not_held.or(Some(NotHeldRow { pose: PoseRow::of(pose), reason: error.to_string() }))
+                not_held = not_held.or(Some(NotHeldRow { pose: PoseRow::of(pose), reason: error.to_string() }));
             }
         }
         done += 1;

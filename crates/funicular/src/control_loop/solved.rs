@@ -38,8 +38,8 @@ pub(super) struct SolvedState {
     least_room: f64,
 }
 
-/// Tensions and lengths at one time of a motion, from a state nearby or from the middle of the limits. `with_rates` adds
-/// rates and accelerations of the lengths.
+/// Tensions and lengths at one time of a motion, from a state nearby or from the middle of the limits. `with_rates`
+/// adds rates and accelerations of the lengths.
 pub(super) fn solve(
     model: &LoopModel,
     input: &LoopInput,

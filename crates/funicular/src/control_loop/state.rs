@@ -95,8 +95,8 @@ pub struct LoopState {
     pub least_margin: f64,
     /// Index of that cable.
     pub least_margin_cable: usize,
-    /// Proof that no tensions within the limits balance the load; `None` without one, and with as many cables as degrees
-    /// of freedom, which have no choice.
+    /// Proof that no tensions within the limits balance the load; `None` without one, and with as many cables as
+    /// degrees of freedom, which have no choice.
     pub missing: Option<LoopMissing>,
     /// Cables in file order; zeros beyond their number.
     pub cables: [LoopCable; MAX_CABLES],

@@ -183,7 +183,7 @@ impl<T: Real> AtTension<'_, T> {
 }
 
 impl<'a> AtTension<'a, f64> {
-    /// The same cable in numbers with derivatives, by which it does not change.
+    /// Cable in numbers with derivatives, by which it does not change.
     fn lifted<T: Real>(&self) -> AtTension<'a, T> {
         AtTension {
             start_w: self.start_w.map(T::from),

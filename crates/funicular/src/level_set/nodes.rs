@@ -191,6 +191,6 @@ fn spread(all: &[usize]) -> Vec<usize> {
     };
     // A step that shares no divisor with the length comes to every member once.
     let near = (GOLDEN * count as f64) as usize;
-    let step = (near.max(1)..).find(|step| divisor(*step, count) == 1).unwrap_or(1);
+    let step = (near.max(1)..=near + count).find(|step| divisor(*step, count) == 1).unwrap_or(1);
     (0..count).map(|k| all[k * step % count]).collect()
 }

@@ -1,5 +1,5 @@
-//! Numbers as polynomials of time: values with their first two derivatives along a motion, for formulas that are written
-//! once for numbers and for numbers with derivatives.
+//! Numbers as polynomials of time: values with their first two derivatives along a motion, for formulas that are
+//! written once for numbers and for numbers with derivatives.
 
 use super::dual::Real;
 use std::array::from_fn;

@@ -72,8 +72,8 @@ mod tests {
         };
         assert_eq!(
             of(Vec3::z(), Vec3::zeros()).to_string(),
-            "proof: even with cables \"1\", \"2\" at the maximum and cable \"3\" at the minimum 17.2500 N along (0.000, \
-             0.000, 1.000) (+z) are missing"
+            "proof: even with cables \"1\", \"2\" at the maximum and cable \"3\" at the minimum 17.2500 N along \
+             (0.000, 0.000, 1.000) (+z) are missing"
         );
         assert!(of(Vec3::zeros(), -Vec3::x()).to_string().contains("34.5000 N m about (-1.000, 0.000, 0.000) (-x)"));
         let both = of(Vec3::x() * 0.6, Vec3::y() * 0.8).to_string();

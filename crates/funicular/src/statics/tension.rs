@@ -35,7 +35,7 @@ pub(super) use balanced_pull::balanced_pull;
 pub(crate) use centre::along::PlatformAlong;
 pub(crate) use centre::curve::{TauLimit, TauLimitKind, TensionCurve};
 pub(crate) use centre::rates::RatesRow;
-pub use centre::rates::{CableRates, CentreMotion, centre_rates};
+pub use centre::rates::{CentreMotion, CentreRates, centre_rates};
 pub(crate) use centre::{CentreCable, CentreLoad, CentreRow, CentreSearch, Potential};
 pub use centre::{CentreCertificate, TensionCentre, tension_centre};
 pub use payload::{PayloadBound, PayloadSide, RequestedPayload, payload_bound};

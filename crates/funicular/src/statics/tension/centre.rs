@@ -63,7 +63,8 @@ const MIN_START: f64 = 1e-3;
 /// Places between the limits at which the curvature is looked at where (40b5) proves nothing.
 const PLACES: usize = 16;
 
-/// Maximum number of cables whose tensions are proved not to exist without memory from the heap: that of a control loop.
+/// Maximum number of cables whose tensions are proved not to exist without memory from the heap: that of a control
+/// loop.
 const MAX_INLINE: usize = 16;
 
 /// Centre of the tensions at a pose.

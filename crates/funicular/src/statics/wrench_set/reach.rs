@@ -222,8 +222,8 @@ pub(in crate::statics) struct SharePoint {
 }
 
 impl DirectionalShare {
-    /// Contribution of a cable whose chord has this inclination; a unit force along the chord and one upwards contribute
-    /// `along` and `upward`.
+    /// Contribution of a cable whose chord has this inclination; a unit force along the chord and one upwards
+    /// contribute `along` and `upward`.
     fn new(along: f64, upward: f64, weight_per_length: f64, sin: f64) -> Self {
         Self {
             along,

@@ -105,7 +105,7 @@ fn a_thin_plate_between_two_poses_is_found_and_one_elsewhere_is_not() {
 fn a_rope_without_a_radius_does_not_pass_a_plate_unseen() {
     let mut robot = cogiro();
     for cable in &mut robot.cables {
-        cable.material.dimensions = Default::default();
+        cable.material.dimensions = funicular::robot::RopeDimensions::default();
     }
     let rest = resting(&robot)(&Pose::new([0.0, 0.0, 1.5], [0.0; 3])).unwrap();
     let ends = &rest.cables[0];

@@ -128,8 +128,8 @@ impl<'a> TensionCurve<'a> {
         }
     }
 
-    /// Coefficients of the limit of τ at which this cable is, along a motion [N]; `None` if the limit does not determine
-    /// it.
+    /// Coefficients of the limit of τ at which this cable is, along a motion [N]; `None` if the limit does not
+    /// determine it.
     pub(super) fn limit_along(&self, kind: TauLimitKind, platform: &PlatformAlong) -> Option<[f64; 3]> {
         let (fixed, tau) = (self.at_tension(), self.tau());
         let length = self.span.catenary.rope().unstrained_length;

@@ -271,8 +271,8 @@ impl<'a> TensionCurve<'a> {
     }
 
     /// Hangs the cable with the τ at which a tension has this value, or with the slackest τ if that is higher; true in
-    /// the latter case. The search has a start, and a relative step that is its last. `is_near` leaves the cable where it
-    /// was before that step, and changes τ alone.
+    /// the latter case. The search has a start, and a relative step that is its last. `is_near` leaves the cable where
+    /// it was before that step, and changes τ alone.
     fn search(
         &mut self,
         (start, last_step, is_near): (f64, f64, bool),

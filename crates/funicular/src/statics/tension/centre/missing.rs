@@ -34,7 +34,7 @@ pub(crate) struct MissingInDirection {
 }
 
 /// Cable as a straight line between its limits.
-struct StraightPull {
+struct StraightBetween {
     from: Vec6,
     along: Vec6,
     curve: CurveBetween,
@@ -44,7 +44,7 @@ impl CentreSearch<'_, '_> {
     /// Proof that no tensions within the limits balance the load, the exit points held where they are; `None` if there
     /// is none, or none was found. Reserves no memory.
     pub(crate) fn missing(&self) -> Option<MissingInDirection> {
-        let mut lines = ArrayVec::<StraightPull, MAX_INLINE>::new();
+        let mut lines = ArrayVec::<StraightBetween, MAX_INLINE>::new();
         for cable in &*self.cables {
             let line = self.line(cable);
             lines.try_push(line).ok()?;
@@ -81,7 +81,7 @@ impl CentreSearch<'_, '_> {
     }
 
     /// Missing wrench along a direction by upper bounds of the true curves; `None` if they do not prove it.
-    fn confirmed(&self, lines: &[StraightPull], y: &Vec6) -> Option<MissingInDirection> {
+    fn confirmed(&self, lines: &[StraightBetween], y: &Vec6) -> Option<MissingInDirection> {
         let direction = y.try_normalize(0.0)?;
         let own = direction.dot(&self.load.wrench);
         let (mut sum, mut size, mut at_maximum) = (own, own.abs(), 0_u32);
@@ -96,7 +96,7 @@ impl CentreSearch<'_, '_> {
         (sum < -ROUNDING * size).then_some(MissingInDirection { direction, size: -sum, at_maximum })
     }
 
-    fn line(&self, cable: &CentreCable<'_>) -> StraightPull {
+    fn line(&self, cable: &CentreCable<'_>) -> StraightBetween {
         let point = |tau: f64| {
             let span = cable.curve.span.at_parallel_tension(tau);
             let by_tau = span.catenary.by_parallel_tension();
@@ -117,12 +117,12 @@ impl CentreSearch<'_, '_> {
             sin: span.catenary.chord_direction()[1],
             ends,
         };
-        StraightPull { from: ends[0].wrench, along: ends[1].wrench - ends[0].wrench, curve }
+        StraightBetween { from: ends[0].wrench, along: ends[1].wrench - ends[0].wrench, curve }
     }
 }
 
 /// Derivatives of the negative dual by the multipliers: the balance that is left, and its matrix.
-fn dual(lines: &[StraightPull], fixed: &Vec6, y: &Vec6) -> (Vec6, Mat6) {
+fn dual(lines: &[StraightBetween], fixed: &Vec6, y: &Vec6) -> (Vec6, Mat6) {
     let (mut left, mut matrix) = (*fixed, Mat6::zeros());
     for line in lines {
         // Place between the limits, 0 to 1, at which the slope of both logarithms is that of the line.

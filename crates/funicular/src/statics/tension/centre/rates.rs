@@ -39,7 +39,7 @@ pub struct CentreMotion {
 
 /// First and second derivatives of a cable by time.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct CableRates {
+pub struct CentreRates {
     /// Unstrained length to the drum [m/s, m/s²].
     pub length: [f64; 2],
     /// Tension at the platform [N/s, N/s²].
@@ -62,7 +62,7 @@ pub(crate) struct RatesRow {
     /// Coefficients of t and t² of the slope of the Lagrangian.
     residual: [f64; 2],
     /// Result.
-    pub(crate) rates: CableRates,
+    pub(crate) rates: CentreRates,
 }
 
 /// Derivatives by time of the lengths and tensions of a centre, exact in both orders, along a motion of the platform.
@@ -98,7 +98,7 @@ pub fn centre_rates(
     robot: &Robot,
     centre: &TensionCentre,
     motion: &CentreMotion,
-) -> Result<Vec<CableRates>, StaticDerivativeError> {
+) -> Result<Vec<CentreRates>, StaticDerivativeError> {
     let (coordinates, pose) = (Coordinates::of(robot), &centre.equilibrium.pose);
     if let Some(cable) = robot.cables.iter().find(|cable| robot.has_supports() && cable.anchor.support.is_some()) {
         return Err(StaticDerivativeError::Support { cable: cable.name.clone() });
@@ -175,7 +175,7 @@ impl CentreSearch<'_, '_> {
             let (span, free_length) = at.along(Jet::of_time(row.tau), length, &row.inverse, 2);
             let [_, rate, half] = (free_length + at.length_beyond(&span)).coefficients();
             let [_, tension, tension_half] = dot(&span.force_w, &span.force_w).sqrt().coefficients();
-            row.rates = CableRates {
+            row.rates = CentreRates {
                 length: [rate, 2.0 * half],
                 tension_platform: [tension, 2.0 * tension_half],
                 tension_parallel: [row.tau[1], 2.0 * row.tau[2]],

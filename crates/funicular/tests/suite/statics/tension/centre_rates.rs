@@ -57,11 +57,11 @@ fn differences(of: impl Fn(f64) -> Option<f64>, step: f64) -> Option<[f64; 2]> {
 }
 
 /// Pose by its number.
-type Poses = fn(usize) -> Pose;
+type PoseByNumber = fn(usize) -> Pose;
 
 /// Robots with everything that derivatives follow: limits of all kinds, pulleys with upright and with inclined axes,
 /// winches that yield, wind on ropes, loads beside the origin, fewer degrees of freedom, ropes without weight.
-fn robots() -> Vec<(&'static str, Robot, Poses, StaticModel)> {
+fn robots() -> Vec<(&'static str, Robot, PoseByNumber, StaticModel)> {
     let winches = Robot::from_toml(funicular_robots::COGIRO_WINCHES).unwrap();
     let inside = |i| pose(i, [0.0, 0.0, 1.8], [2.5, 1.5, 0.8], 4.0);
     let mut inclined = winches.clone();
@@ -129,10 +129,10 @@ fn rates_and_accelerations_are_those_of_differences() {
                     of(&|there| there.equilibrium.cables[k].tension_platform),
                     of(&|there| there.tensions[k]),
                 ];
-                let of_all = |which: fn(&statics::CableRates) -> [f64; 2], order: usize| {
+                let of_all = |which: fn(&statics::CentreRates) -> [f64; 2], order: usize| {
                     found.iter().fold(0.0, |most: f64, rates| most.max(which(rates)[order].abs()))
                 };
-                let parts: [fn(&statics::CableRates) -> [f64; 2]; 3] =
+                let parts: [fn(&statics::CentreRates) -> [f64; 2]; 3] =
                     [|rates| rates.length, |rates| rates.tension_platform, |rates| rates.tension_parallel];
                 for (which, (part, wanted)) in parts.iter().zip(wanted).enumerate() {
                     let Some(wanted) = wanted else { continue };

@@ -371,8 +371,8 @@ fn cables_that_all_pull_down_are_told_with_their_cause() {
     assert_eq!(said(&robot, 1.5).0, OneSidedCause::EndsSwapped);
 }
 
-/// Proof of a pose beyond the limits, confirmed by the loads of random tensions within them, which a control loop computes
-/// with the true curves: along the direction each of these loads lacks at least what the proof says.
+/// Proof of a pose beyond the limits, confirmed by the loads of random tensions within them, which a control loop
+/// computes with the true curves: along the direction each of these loads lacks at least what the proof says.
 #[test]
 fn a_proof_holds_for_random_tensions_within_the_limits() {
     let robot = cogiro(0.064, 100.0, 2000.0);
