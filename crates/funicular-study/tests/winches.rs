@@ -1,6 +1,8 @@
 //! Winches of a robot: one for every cable against those of each, what asks for them, layers by hand, offers, poses
 //! that are not held, refusals.
 #![allow(missing_docs)]
+// Numbers of one run are compared bit for bit.
+#![allow(clippy::float_cmp)]
 
 use funicular_study::analyses::winches::{WinchRow, Winches};
 use funicular_study::{Error, ErrorKind, Request, Results, Silent, Watch, run};

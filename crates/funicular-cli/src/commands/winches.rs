@@ -4,6 +4,7 @@ use crate::output::Printed;
 use crate::table::{NONE, Table, significant, vector};
 use funicular_study::analyses::winches::{AskedRow, OfferRow, WinchRow, Winches};
 use funicular_study::text::with_unit;
+use std::fmt::Write as _;
 
 impl Printed for Winches {
     fn text(&self) -> String {
@@ -18,7 +19,7 @@ impl Printed for Winches {
             Table::of(&WinchRow::columns(), &self.winches),
         );
         if let Some(offers) = &self.offers {
-            text += &format!("\nWinches on offer\n{}", Table::of(&OfferRow::columns(), offers));
+            let _ = write!(text, "\nWinches on offer\n{}", Table::of(&OfferRow::columns(), offers));
         }
         text
     }
