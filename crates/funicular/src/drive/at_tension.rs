@@ -1,9 +1,9 @@
 //! Cable whose tension τ parallel to its chord is given: the conditions for its place on the pulley and for its length,
 //! and its forces, in numbers or in numbers with derivatives.
 //!
-//! The exit point follows from the direction of the cable, and this from the exit point. Newton's method on numbers with
-//! derivatives, with the derivatives of the conditions as plain numbers, makes one further order right in each step
-//! (docs/theory.md, equation (40b9)).
+//! The exit point follows from the direction of the cable, and this from the exit point. Newton's method on numbers
+//! with derivatives, with the derivatives of the conditions as plain numbers, makes one further order right in each
+//! step (docs/theory.md, equation (40b9)).
 
 use super::arc::{Beyond, Given, stretch_of, tension_of};
 use crate::math::dual::{Dual, Real, combined, dot};
@@ -223,7 +223,8 @@ impl<'a> AtTension<'a, f64> {
 
 impl<const N: usize> AtTension<'_, Jet<N>> {
     /// Cable with this tension along a motion. `inverse` is that of [`ByTension`] at the time zero and `length` the
-    /// free length there; as many steps as there are orders of derivatives. With the unstrained length of the free span.
+    /// free length there; as many steps as there are orders of derivatives. With the unstrained length of the free
+    /// span.
     pub(crate) fn along(
         &self,
         tau: Jet<N>,

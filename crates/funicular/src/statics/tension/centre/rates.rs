@@ -133,8 +133,8 @@ pub fn centre_rates(
 }
 
 impl CentreSearch<'_, '_> {
-    /// Derivatives of lengths and tensions by time, in one row per cable; false where they are not determined. `load` has
-    /// the coefficients of t and t² of the load, reduced.
+    /// Derivatives of lengths and tensions by time, in one row per cable; false where they are not determined. `load`
+    /// has the coefficients of t and t² of the load, reduced.
     pub(crate) fn rates(&self, platform: &PlatformAlong, load: &[Vec6; 2], rows: &mut [RatesRow]) -> bool {
         let mut matrix = Mat6::zeros();
         for (cable, row) in self.cables.iter().zip(&mut *rows) {

@@ -108,8 +108,8 @@ fn robots() -> Vec<(&'static str, Robot, PoseByNumber, StaticModel)> {
     ]
 }
 
-/// Both derivatives of lengths and tensions; the differences have an error of 1e-12 of the first and, from rounding, 1e-9
-/// of the second.
+/// Both derivatives of lengths and tensions; the differences have an error of 1e-12 of the first and, from rounding,
+/// 1e-9 of the second.
 #[test]
 fn rates_and_accelerations_are_those_of_differences() {
     for (name, robot, pose_of, model) in robots() {
@@ -181,8 +181,8 @@ impl OneCable {
     }
 }
 
-/// Weak duality: where the certificate holds, the tension of each cable minimises its part of the Lagrangian between its
-/// limits, computed without any derivative. Ten thousand poses have the certificate; every hundredth is looked at.
+/// Weak duality: where the certificate holds, the tension of each cable minimises its part of the Lagrangian between
+/// its limits, computed without any derivative. Ten thousand poses have the certificate; every hundredth is looked at.
 #[test]
 fn the_certificate_holds_on_ten_thousand_poses_and_its_tensions_are_the_lowest() {
     let (mut certified, mut without, mut looked_at) = (0, 0, 0);
