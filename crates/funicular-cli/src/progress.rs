@@ -20,7 +20,7 @@ const BETWEEN_LINES: Duration = Duration::from_secs(10);
 /// Items that are done, of those known to be needed, for the next line.
 static SHOWN: Mutex<Option<(usize, usize, &'static str)>> = Mutex::new(None);
 
-/// What was found so far, for the next line.
+/// Finds so far, for the next line.
 static NOTED: Mutex<String> = Mutex::new(String::new());
 
 /// Flag that is set while a thread writes lines.

@@ -1,8 +1,8 @@
 //! Catalogue of the numbers that `gradient`, `uncertainty`, `map`, `sweep` and `design` name, value and differentiate.
 //!
 //! A [`Measure`] is said once here: its names, its unit, its value and its gradient; one of a whole robot or of each
-//! cable is a row of [`MEASURES`]. Values and gradients of vibration come from the modes and responses that each command
-//! has anyway.
+//! cable is a row of [`MEASURES`]. Values and gradients of vibration come from the modes and responses that each
+//! command has anyway.
 
 use funicular::gradient::{GradientError, Gradients};
 use funicular::robot::{Pose, Robot, RobotChange};

@@ -541,7 +541,8 @@ macro_rules! column {
         crate::rows::columns_of($pattern, &[$of_part], Some(&crate::rows::texts($parts)), |row: &Self| &row.$field)
     };
     ($about:ident, $field:ident: $Type:ty, columns($($a:tt)*)) => {
-        <<$Type as crate::rows::RowPart>::Of>::columns($($a)*).within(|row: &Self| crate::rows::RowPart::part(&row.$field))
+        <<$Type as crate::rows::RowPart>::Of>::columns($($a)*)
+            .within(|row: &Self| crate::rows::RowPart::part(&row.$field))
     };
     ($about:ident, $field:ident: $Type:ty, $($other:tt)+) => {
         $($other)+
@@ -570,7 +571,7 @@ mod tests {
 
     rows! {
         /// Place of a point.
-        struct PlaceRow in tables(decimals: usize) read back {
+        struct PointPlace in tables(decimals: usize) read back {
             /// Position, {}.
             position_m: [f64; 3] => each(["x", "y", "z"], "{}_m").decimals("position", decimals);
         }
@@ -584,7 +585,7 @@ mod tests {
             /// Never negative.
             t_s: f64 => one.decimals("t", 1);
             /// Place.
-            place: PlaceRow = spread => columns(2);
+            place: PointPlace = spread => columns(2);
             /// Tension of cable {}.
             tensions_n: Vec<f64> = sparse => each(cables, "tension_{}_n").lowest("lowest", 2);
             /// Part of the limit.
@@ -593,7 +594,7 @@ mod tests {
     }
 
     fn row(tensions_n: Vec<f64>) -> PointRow {
-        PointRow { t_s: 0.25, place: PlaceRow { position_m: [1.0, -2.0, 3.0] }, tensions_n, used_part: None }
+        PointRow { t_s: 0.25, place: PointPlace { position_m: [1.0, -2.0, 3.0] }, tensions_n, used_part: None }
     }
 
     #[test]

@@ -157,8 +157,8 @@ fn wrong_requests_are_refused_with_the_reason() {
     let offers = |offer: Value| json!({"offers": [offer]});
     for (more, expected) in [
         (offers(json!({"name": "a", "tension_N": 3})), "did you mean `tension_n`?"),
-        (offers(json!({"speed_m_s": "fast"})), "`speed_m_s`"),
-        (offers(json!({"speed_m_s": -1})), "`speed_m_s`"),
+        (offers(json!({"name": "a", "speed_m_s": "fast"})), "`speed_m_s`"),
+        (offers(json!({"name": "a", "speed_m_s": -1})), "`speed_m_s`"),
         (json!({"offers": []}), "has no winches: give at least one"),
         (json!({"drum_width_m": 0.0}), "`drum_width_m`"),
         (json!({"grid": [{"axis": "w", "values": [0.0]}]}), "there is no axis `w`"),

@@ -271,7 +271,7 @@ impl<'a> Surroundings<'a> {
             PlatformBody::Given(body) => PlacedBody::on_platform(body, pose),
             PlatformBody::Hull(shape) => PlacedBody::of_shape(shape.clone(), pose),
         });
-        Placed { of: self, spans, platform: platform.collect() }
+        Placed { of: self, spans, platform: platform.collect(), tolerance: BODY_TOLERANCE }
     }
 
     fn required(&self, pair: ClearancePair) -> f64 {
@@ -325,6 +325,8 @@ struct Placed<'a> {
     of: &'a Surroundings<'a>,
     spans: Vec<FreeSpan<'a>>,
     platform: Vec<PlacedBody>,
+    /// Error of the distance of a cable from a body, by which it is too large at most [m].
+    tolerance: f64,
 }
 
 impl Placed<'_> {
@@ -381,12 +383,18 @@ impl Placed<'_> {
                 let near = cable_pair::nearest(one, other, enough + required + radii)?;
                 (near.distance - radii, near.points_w)
             }
-            ClearancePair::CableAndPlatform { cable, body } => {
-                self.spans[cable].nearest_on(&self.platform[body], SpanEnd::Platform, enough + required)?
-            }
-            ClearancePair::CableAndObstacle { cable, obstacle } => {
-                self.spans[cable].nearest_on(&self.of.obstacles[obstacle], SpanEnd::Anchor, enough + required)?
-            }
+            ClearancePair::CableAndPlatform { cable, body } => self.spans[cable].nearest_on(
+                &self.platform[body],
+                SpanEnd::Platform,
+                enough + required,
+                self.tolerance,
+            )?,
+            ClearancePair::CableAndObstacle { cable, obstacle } => self.spans[cable].nearest_on(
+                &self.of.obstacles[obstacle],
+                SpanEnd::Anchor,
+                enough + required,
+                self.tolerance,
+            )?,
             ClearancePair::PlatformAndObstacle { body, obstacle } => {
                 let (own, other) = (&self.platform[body], &self.of.obstacles[obstacle]);
                 if own.lower_bound_to(other) > enough + required {

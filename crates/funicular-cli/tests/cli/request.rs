@@ -6,7 +6,7 @@ use super::{robot, run, run_with, stderr, stdout, succeed};
 #[expect(clippy::too_many_lines, reason = "a table")]
 fn command_lines() -> Vec<Vec<String>> {
     let cogiro = robot("cogiro.toml");
-    let lines: [&[&str]; 26] = [
+    let lines: [&[&str]; 27] = [
         &["check", &cogiro],
         &["parameters", &cogiro, "--set", "platform.center_of_mass_m.x=0.1"],
         &["statics", &cogiro, "--pose", "1,2,1.5", "--tension-rule", "middle", "--max-tension-n", "1200"],
@@ -100,6 +100,7 @@ fn command_lines() -> Vec<Vec<String>> {
         ],
         &["loads", &cogiro, "--pose", "1,1,1.5", "--required-force-n", "100,100,100"],
         &["speeds", &cogiro, "--pose", "1,1,1.5", "--required-velocity-m-s", "1,1,0.5"],
+        &["winches", &cogiro, "--grid", "x=-1,1", "--grid", "z=1.5", "--required-velocity-m-s", "1,1,0.5"],
         &["clearance", &cogiro, "--pose", "1,1,1.5"],
         &[
             "trajectory",

@@ -356,5 +356,5 @@ fn the_centre_has_a_certificate_and_a_pose_beyond_the_limits_a_proof() {
     let outside = run(&["statics", &cogiro, "--pose", "6.5,0,1", "--tension-rule", "centre"]);
     let message = stderr(&outside);
     assert_eq!(outside.status.code(), Some(1), "{message}");
-    assert!(message.contains("; proof: even with cables ") && message.contains(" at the minimum "), "{message}");
+    assert!(message.contains("; proof: even with cable") && message.contains(" at the minimum "), "{message}");
 }

@@ -1,13 +1,8 @@
 //! Fields that the tables of several commands share.
 
 use super::shared::LimitNumbers;
+pub(crate) use super::shared::{ANGLES, AXES};
 use crate::columns::{Field, column, parts};
-
-/// Names of the components of a vector.
-pub(crate) const AXES: [&str; 3] = ["x", "y", "z"];
-
-/// Names of the angles of a pose.
-pub(crate) const ANGLES: [&str; 3] = ["roll", "pitch", "yaw"];
 
 /// Name of the cable of a row.
 pub(crate) fn cable_name<R>(name: impl Fn(&R) -> String + 'static) -> Field<R> {

@@ -1,6 +1,5 @@
 //! Rows that several commands share.
 
-use super::fields::{ANGLES, AXES};
 use crate::at_rest::AtRest;
 use crate::columns::Style;
 use crate::rows::{ReadBack, rows};
@@ -12,6 +11,12 @@ use funicular::modes;
 use funicular::pose_error::PoseDifference;
 use funicular::robot::{Load, Pose, WinchMode, Wind};
 use funicular::statics::{Limit, TensionMargin, TensionRange, TensionRule};
+
+/// Names of the components of a vector.
+pub(crate) const AXES: [&str; 3] = ["x", "y", "z"];
+
+/// Names of the angles of a pose.
+pub(crate) const ANGLES: [&str; 3] = ["roll", "pitch", "yaw"];
 
 rows! {
     /// Models used for a result, by the names that JSON has.

@@ -158,40 +158,14 @@ pub fn run(robot: Robot, request: &WinchesRequest, watch: &mut dyn Watch) -> Res
         bail!("winches give every pose its lengths: leave out ⟪hold_lengths_of_pose⟫");
     }
     let poses = poses(&robot, request)?;
-    let rule = at_rest::rule(&request.tensions)?.unwrap_or_default();
-    let model = request.state.static_model;
-
-    // The needs of all poses.
-    let (mut needs, mut held, mut not_held, mut done) = (None::<WinchNeeds>, 0, None, 0);
-    for pose in &poses {
-        if watch.is_cancelled() {
-            break;
-        }
-        match WinchNeeds::at(&robot, pose, model, &rule) {
-            Ok(found) => {
-                held += 1;
-                match &mut needs {
-                    None => needs = Some(found),
-                    Some(needs) => needs.merge(&found),
-                }
-            }
-            Err(WinchNeedsError::NoRates(error)) => return Err(no_solution(error)),
-            Err(WinchNeedsError::NotHeld { reason, .. }) if !reason.is_no_solution() => return Err((*reason).into()),
-            Err(error) => {
-                not_held = not_held.or(Some(NotHeldRow { pose: PoseRow::of(pose), reason: error.to_string() }));
-            }
-        }
-        done += 1;
-        watch.progress(done, poses.len(), "poses");
-    }
+    let NeedsOfPoses { needs, held, not_held, done } = needs_of(&robot, &poses, request, watch)?;
     let Some(needs) = needs else {
         let Some(NotHeldRow { reason, .. }) = not_held else { return Err(Cancelled.into()) };
-        let at = if done == 1 { "the pose" } else { "none of the poses" };
-        let held = if done == 1 { "does not hold" } else { "holds" };
-        bail!(NoSolution(format!("{at} {held} every required load: {reason}")));
+        let at = if done == 1 { "the pose does not hold" } else { "none of the poses holds" };
+        bail!(NoSolution(format!("{at} every required load: {reason}")));
     };
 
-    let winches: Vec<WinchRow> = rows_of(&robot, &needs, request.drum_width_m);
+    let winches = rows_of(&robot, &needs, request.drum_width_m);
     let mut warnings = Vec::new();
     if done < poses.len() {
         warnings.push(format!("stopped after {done} of {} poses: the winches are those of these poses", poses.len()));
@@ -204,18 +178,62 @@ pub fn run(robot: Robot, request: &WinchesRequest, watch: &mut dyn Watch) -> Res
             done - held
         ));
     }
+    let offers = request.offers.as_ref();
     Ok(Winches {
         robot: robot.name.clone(),
-        static_model: model.name(),
+        static_model: request.state.static_model.name(),
         poses: done,
         held,
         not_held,
         asked: asked(&robot, &needs),
-        offers: (request.offers.as_ref())
-            .map(|offers| offers.iter().map(|offer| OfferRow::of(offer, &winches[0])).collect()),
+        offers: offers.map(|offers| offers.iter().map(|offer| OfferRow::of(offer, &winches[0])).collect()),
         winches,
         warnings,
     })
+}
+
+/// Needs of the winches over poses.
+#[derive(Default)]
+struct NeedsOfPoses {
+    /// Needs of the poses that hold every required load; `None` without such a pose.
+    needs: Option<WinchNeeds>,
+    held: usize,
+    /// First pose that does not hold every required load.
+    not_held: Option<NotHeldRow>,
+    /// Number of poses before the work was stopped.
+    done: usize,
+}
+
+/// Needs of the winches over poses.
+///
+/// # Errors
+/// Limits that contradict each other, and an equilibrium without rates of its lengths.
+fn needs_of(robot: &Robot, poses: &[Pose], request: &WinchesRequest, watch: &mut dyn Watch) -> Result<NeedsOfPoses> {
+    let rule = at_rest::rule(&request.tensions)?.unwrap_or_default();
+    let mut found = NeedsOfPoses::default();
+    for pose in poses {
+        if watch.is_cancelled() {
+            break;
+        }
+        match WinchNeeds::at(robot, pose, request.state.static_model, &rule) {
+            Ok(needs) => {
+                found.held += 1;
+                match &mut found.needs {
+                    None => found.needs = Some(needs),
+                    Some(all) => all.merge(&needs),
+                }
+            }
+            Err(WinchNeedsError::NoRates(error)) => return Err(no_solution(error)),
+            Err(WinchNeedsError::NotHeld { reason, .. }) if !reason.is_no_solution() => return Err((*reason).into()),
+            Err(error) => {
+                let first = || NotHeldRow { pose: PoseRow::of(pose), reason: error.to_string() };
+                found.not_held = Some(found.not_held.take().unwrap_or_else(first));
+            }
+        }
+        found.done += 1;
+        watch.progress(found.done, poses.len(), "poses");
+    }
+    Ok(found)
 }
 
 /// Poses of a request: a grid about the pose of the state, a list, or this pose alone.

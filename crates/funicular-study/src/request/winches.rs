@@ -33,7 +33,7 @@ impl OfferedWinch {
     pub(crate) const NUMBERS: [&str; 7] =
         ["tension_n", "speed_m_s", "acceleration_m_s2", "torque_n_m", "power_w", "brake_power_w", "rope_m"];
 
-    /// What it bears or gives.
+    /// Numbers that it bears or gives.
     pub(crate) fn numbers(&self) -> [Option<f64>; 7] {
         let Self { name: _, tension_n, speed_m_s, acceleration_m_s2, torque_n_m, power_w, brake_power_w, rope_m } =
             *self;

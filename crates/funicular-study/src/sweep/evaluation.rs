@@ -307,7 +307,7 @@ impl PointEvaluation<'_> {
                 WinchNeedsError::NoRates(_) => Status::new("no-derivative", &error),
             })
         };
-        let none = || Status::new("no-winch", "no drum has a radius, which gives the torque of its motor");
+        let none = || Status::new("no-torque", "no drum has a radius, so there is no torque of a motor");
         let found = self.winches.get_or_init(find).as_ref().map_err(Clone::clone);
         let value = found.and_then(|needs| needs.of_one(need).map(|(_, of)| of.value).ok_or_else(none));
         self.push(Some(value), out);

@@ -51,6 +51,7 @@ pub const CODES: &[(&str, &str)] = &[
     ("dead-load", "a tension with the dead load is beyond its limit, so no required load counts"),
     ("required-load", "nothing is required, or nothing limits the required loads"),
     ("no-speed", "no velocity is required, or no winch limits the speed"),
+    ("no-torque", "no drum has a radius, so there is no torque of a motor"),
     ("no-gusts", "the robot file has no turbulence, or there is no linear response to it"),
 ];
 

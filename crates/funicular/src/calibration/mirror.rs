@@ -2,6 +2,7 @@
 //! line of a planar robot, its anchor may as well stand on the other side of it.
 
 use super::elastic::RowState;
+use super::fit::states_of;
 use super::frame::CalibrationFrame;
 use super::{Calibration, CalibrationFit, CalibrationUnknown, ITERATIONS_OF_START, MeasuredRow};
 use crate::math::{DMat, DVec, Vec3};
@@ -103,7 +104,10 @@ impl Calibration {
             // The true lengths are those of the minimum.
             let lengths = image.poses.iter().zip(&from.lengths);
             let states = lengths.map(|(pose, lengths)| RowState { pose: *pose, lengths: lengths.clone() }).collect();
-            let fit = self.fit_within(ITERATIONS_OF_START, &image.values, states, &frame.free);
+            let mut fit = self.fit_within(ITERATIONS_OF_IMAGE, &image.values, states, &frame.free);
+            if !fit.converged && fit.chi2 < ON_ITS_WAY * largest_chi2 {
+                fit = self.fit_within(ITERATIONS_OF_START, &fit.values, states_of(&fit), &frame.free);
+            }
             OtherMinimum { fit, mirrored }
         });
         let is_other =

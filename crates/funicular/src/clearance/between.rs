@@ -1,4 +1,4 @@
-//! What comes too near between known poses of a motion, whatever its course.
+//! Pairs that come too near between known poses of a motion, whatever its course.
 
 use super::bounded::Bounded;
 use super::moves::OF_SAG;
@@ -134,8 +134,8 @@ impl Surroundings<'_> {
         (0..self.robot.cables.len()).map(of).collect()
     }
 
-    /// Bound of the change of a pair's distance during a motion [m]. Seen from the platform, a point of a cable moves by
-    /// its share of the way of the anchor, and points farther along than the platform reaches are not too near.
+    /// Bound of the change of a pair's distance during a motion [m]. Seen from the platform, a point of a cable moves
+    /// by its share of the way of the anchor, and points farther along than the platform reaches are not too near.
     fn way_between(&self, pair: ClearancePair, way: &WayBetween, chords: &[[f64; 2]]) -> f64 {
         let WayBetween { translation, turn } = *way;
         let whole = self.way_of(pair, translation, turn);

@@ -1,7 +1,7 @@
 //! Ways on which nothing touches: whether a straight move is one, and a way through other poses where it is not.
 
 use super::moves::{MIN_STEP, OF_SAG, Station, least_between};
-use super::{Clearance, Surroundings};
+use super::{BODY_TOLERANCE, Clearance, Surroundings};
 use crate::path::StraightMove;
 use crate::robot::Pose;
 use crate::statics::Equilibrium;
@@ -39,7 +39,7 @@ impl Surroundings<'_> {
             };
             let exact = vec![f64::INFINITY; self.at(&rest).pairs().len()];
             let enough = enough.unwrap_or(&exact);
-            let station = self.station(fraction, &rest, of, enough);
+            let station = self.station(fraction, &rest, of, enough, BODY_TOLERANCE);
             let is_free = station.clearances.iter().flatten().all(Clearance::is_kept);
             is_free.then_some((station, rest))
         };

@@ -11,6 +11,10 @@ use std::rc::Rc;
 /// cables surely, and with sag as far as it changes evenly between two stations.
 pub const WAY_TOLERANCE: f64 = 2e-3;
 
+/// Error of the distances from bodies at places on the way [m], a part of [`WAY_TOLERANCE`]: a third of the steps of
+/// exact ones. What is told is exact.
+const OF_PLACES: f64 = 1e-4;
+
 /// Margin that a pair keeps beyond its way, so that a change of its sag leaves it settled [m].
 pub(super) const OF_SAG: f64 = 0.02;
 
@@ -223,8 +227,9 @@ impl Surroundings<'_> {
         let start = rest(0.0)?;
         let pairs = self.at(&start).pairs();
         let all: Vec<usize> = (0..pairs.len()).collect();
-        let exact = vec![f64::INFINITY; pairs.len()];
-        let ends = [self.station(0.0, &start, &all, &exact), self.station(1.0, &rest(1.0)?, &all, &exact)];
+        let any = vec![f64::INFINITY; pairs.len()];
+        let ends =
+            [self.station(0.0, &start, &all, &any, OF_PLACES), self.station(1.0, &rest(1.0)?, &all, &any, OF_PLACES)];
         let ways = self.ways_of(&pairs, straight);
 
         let mut found: Vec<Option<OnTheWay>> = vec![None; pairs.len()];
@@ -256,20 +261,52 @@ impl Surroundings<'_> {
                     known + way * (other.fraction - one.fraction) + OF_SAG
                 })
                 .collect();
-            let middle = Rc::new(self.station(fraction, &rest(fraction)?, &nearer, &enough));
+            let middle = Rc::new(self.station(fraction, &rest(fraction)?, &nearer, &enough, OF_PLACES));
             keep_least(&mut found, &middle);
             ahead.push(([middle.clone(), other], nearer.clone()));
             ahead.push(([one, middle], nearer));
         }
 
-        // Cables that change sides between two stations cross, unless one passes an end of the other.
+        self.tell_exactly(&mut found, &mut rest)?;
+        self.add_crossings(&mut found, sided, &mut rest)?;
+        Ok(found.into_iter().flatten().collect())
+    }
+
+    /// Gives pairs on the way the exact distances at their places, those of one place together.
+    fn tell_exactly<E>(
+        &self,
+        found: &mut [Option<OnTheWay>],
+        rest: &mut impl FnMut(f64) -> Result<Equilibrium, (f64, E)>,
+    ) -> Result<(), (f64, E)> {
+        let mut places: Vec<f64> = found.iter().flatten().map(|found| found.fraction).collect();
+        places.sort_by(f64::total_cmp);
+        places.dedup();
+        for place in places {
+            let rest = rest(place)?;
+            let at = self.at(&rest);
+            for found in found.iter_mut().flatten().filter(|found| found.fraction.total_cmp(&place).is_eq()) {
+                found.least = at.clearance(found.least.pair, f64::INFINITY).unwrap_or(found.least);
+            }
+        }
+        Ok(())
+    }
+
+    /// Adds the crossings of cables that change sides between two stations: they cross unless one passes an end of the
+    /// other.
+    fn add_crossings<E>(
+        &self,
+        found: &mut [Option<OnTheWay>],
+        sided: Vec<(usize, [Rc<Station>; 2])>,
+        rest: &mut impl FnMut(f64) -> Result<Equilibrium, (f64, E)>,
+    ) -> Result<(), (f64, E)> {
         for (k, neighbours) in sided {
             let Some(found) = &mut found[k] else { continue };
+            let pair = found.least.pair;
             let between = [neighbours[0].fraction, neighbours[1].fraction];
             let mut pair_at = |fraction: f64| {
                 let rest = rest(fraction)?;
                 let at = self.at(&rest);
-                Ok(at.clearance(pairs[k], f64::INFINITY).map(|found| (at.side(&found), found)))
+                Ok(at.clearance(pair, f64::INFINITY).map(|found| (at.side(&found), found)))
             };
             let side = |fraction: f64| Some(pair_at(fraction).ok()??.0);
             let crossing = bisected(between, neighbours[0].sides[k], side);
@@ -281,20 +318,27 @@ impl Surroundings<'_> {
                 }
             }
         }
-        Ok(found.into_iter().flatten().collect())
+        Ok(())
     }
 
     /// Distances of some pairs, by their numbers, at a place of a move. A margin that is surely larger than its finite
-    /// entry of `enough` is told as that.
-    pub(super) fn station(&self, fraction: f64, rest: &Equilibrium, of: &[usize], enough: &[f64]) -> Station {
-        let at = self.at(rest);
+    /// entry of `enough` is told as that. Distances from bodies are too large by the tolerance at most.
+    pub(super) fn station(
+        &self,
+        fraction: f64,
+        rest: &Equilibrium,
+        of: &[usize],
+        enough: &[f64],
+        tolerance: f64,
+    ) -> Station {
+        let at = Placed { tolerance, ..self.at(rest) };
         let pairs = at.pairs();
         let mut clearances: Vec<Option<Clearance>> = vec![None; pairs.len()];
         let mut margins: Vec<Option<f64>> = vec![None; pairs.len()];
         for k in of {
             clearances[*k] = at.clearance(pairs[*k], enough[*k]);
             let beyond = Some(enough[*k]).filter(|enough| enough.is_finite());
-            margins[*k] = clearances[*k].map(|found| found.margin()).or(beyond);
+            margins[*k] = clearances[*k].map(|found| found.margin() - tolerance).or(beyond);
         }
         let sides = clearances.iter().map(|found| found.map_or(0.0, |found| at.side(&found))).collect();
         let sagittas = at.sagittas();

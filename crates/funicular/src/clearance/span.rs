@@ -1,6 +1,5 @@
 //! Free span of a cable as a curve, its parts, and its distance from a body.
 
-use super::BODY_TOLERANCE;
 use super::arc::Arc;
 use super::bounded::Bounded;
 use super::solid::PlacedBody;
@@ -167,8 +166,15 @@ impl<'a> FreeSpan<'a> {
     }
 
     /// Distance of the surface of the cable from a body, on which one of its ends may be mounted, and the nearest
-    /// points; `None` if nothing is compared, or if the distance is surely above `enough`.
-    pub(super) fn nearest_on(&self, body: &PlacedBody, mounted: SpanEnd, enough: f64) -> Option<(f64, [Vec3; 2])> {
+    /// points; `None` if nothing is compared, or if the distance is surely above `enough`. It is too large by the
+    /// tolerance at most.
+    pub(super) fn nearest_on(
+        &self,
+        body: &PlacedBody,
+        mounted: SpanEnd,
+        enough: f64,
+        tolerance: f64,
+    ) -> Option<(f64, [Vec3; 2])> {
         let at = |point_w: &Vec3| {
             let far = body.lower_bound_to_segment(point_w, point_w);
             if far >= self.from_end { far } else { body.nearest_to_segment(point_w, point_w).distance }
@@ -188,7 +194,7 @@ impl<'a> FreeSpan<'a> {
         let consider = |arc: Arc, best: &mut (f64, [Vec3; 2]), queue: &mut BinaryHeap<Bounded<Arc>>| {
             // Between a long segment and many triangles distances are dear, from a point they are not.
             let half_length = 0.5 * (arc.points_w[1] - arc.points_w[0]).norm();
-            if is_mesh && arc.sagitta > 0.5 * BODY_TOLERANCE {
+            if is_mesh && arc.sagitta > 0.5 * tolerance {
                 let point_w = self.point(arc.middle);
                 let near = body.nearest_to_segment(&point_w, &point_w);
                 if near.distance < best.0 {
@@ -210,7 +216,7 @@ impl<'a> FreeSpan<'a> {
                 *best = (of_point.distance, [point_w, of_point.point_w]);
             }
             // A straight arc is its chord, whose nearest point is not known where it touches the body.
-            if arc.sagitta <= 0.5 * BODY_TOLERANCE && near.distance < best.0 {
+            if arc.sagitta <= 0.5 * tolerance && near.distance < best.0 {
                 let on_chord_w = arc.points_w[0] + (arc.points_w[1] - arc.points_w[0]) * near.fraction;
                 *best = (near.distance, [on_chord_w, near.point_w]);
             }
@@ -222,7 +228,7 @@ impl<'a> FreeSpan<'a> {
             if lower - self.radius > enough {
                 return None;
             }
-            if lower >= best.0 - BODY_TOLERANCE || arc.sagitta <= 0.5 * BODY_TOLERANCE {
+            if lower >= best.0 - tolerance || arc.sagitta <= 0.5 * tolerance {
                 break;
             }
             self.halves(&arc).into_iter().for_each(|half| consider(half, &mut best, &mut queue));

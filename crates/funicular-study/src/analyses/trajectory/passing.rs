@@ -1,4 +1,4 @@
-//! What the robot passes too near between the times at which it is computed.
+//! Pairs that come too near between the times at which the robot is computed.
 
 use super::Planned;
 use super::at_time::in_motion;

@@ -245,37 +245,24 @@ fn a_row_of_elastic_cables_with_two_exchanged_readings_is_named() {
     let cables = pair_of(&rows[wrong], &mut draws);
     rows[wrong].readings.swap(cables[0], cables[1]);
     let of = of_elastic_rows(&truth, rows, TAUT, &mut draws);
-    let begun = std::time::Instant::now();
     let found = found_wrong(&of);
-    println!("{} s", begun.elapsed().as_secs_f64());
     assert_eq!(found.iter().map(|row| row.row).collect::<Vec<_>>(), [wrong], "{found:?}");
     assert_eq!(found[0].exchange.map(|of| of.cables), Some(cables), "{found:?}");
 }
 
-/// Points in a plane leave elastic cables the mirror images of straight ones where tensions are too uncertain to tell
-/// on which side a cable pulls. Taut cables in balance tell it, and so do points that fill the room.
+/// Points in a plane leave straight cables mirror images. Elastic cables in balance would have to pull towards the other
+/// side: their images are fitted, and do not fit.
 #[test]
-fn mirror_images_of_elastic_cables_are_found_where_tensions_do_not_tell() {
-    let slack = MeasuredTensions { mean: 8.0, deviation: 30.0 };
+fn mirror_images_of_straight_cables_do_not_fit_cables_in_balance() {
     let mut draws = Draws(8);
-    let filling = camera_poses(20, &mut draws);
-    let mut flat = filling.clone();
+    let mut flat = camera_poses(20, &mut draws);
     for pose in &mut flat {
         pose.position_w.z = 2.0;
     }
-    for (poses, tensions, has_images) in [(&flat, slack, true), (&flat, TAUT, false), (&filling, slack, false)] {
-        let (truth, rows) = elastic(poses, tensions, &mut draws);
-        assert!(rows.len() > 12, "{}", rows.len());
-        let of = of_elastic_rows(&truth, rows, tensions, &mut draws);
-        let frame = of.frame(&FrameChoice::Anchors(Vec::new())).unwrap();
-        let begun = std::time::Instant::now();
-        let found = search(&of, &frame, 3, &mut |_, _| true).unwrap();
-        println!("{} s, χ² {}", begun.elapsed().as_secs_f64(), found.best.chi2);
-        let images: Vec<_> = found.others.iter().filter(|other| !other.mirrored.is_empty()).collect();
-        assert_eq!(!images.is_empty(), has_images, "{}: {}", tensions.mean, images.len());
-        for image in images {
-            assert!(image.fit.chi2 < found.best.chi2 + 60.0, "{} {}", image.fit.chi2, found.best.chi2);
-            assert!(of.telling_row(&found.best, &image.fit).is_some());
-        }
-    }
+    let (truth, rows) = elastic(&flat, TAUT, &mut draws);
+    assert!(rows.len() > 12, "{}", rows.len());
+    let of = of_elastic_rows(&truth, rows, TAUT, &mut draws);
+    let frame = of.frame(&FrameChoice::Anchors(Vec::new())).unwrap();
+    let found = search(&of, &frame, 1, &mut |_, _| true).unwrap();
+    assert!(found.best.converged && found.others.is_empty(), "{}", found.others.len());
 }
