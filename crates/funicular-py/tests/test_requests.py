@@ -101,6 +101,7 @@ MORE = [
     f"funicular sweep robots/cogiro.toml --vary platform.mass_kg=80,90 --quantity load-factor {REQUIRED}",
     f"funicular speeds robots/cogiro-winches.toml {TENSIONS} {STATE} {VELOCITIES}",
     "funicular speeds robots/cogiro-winches.toml --pose 1,2,1.5 --hold-lengths-of-pose --mass-kg 110",
+    f"funicular winches robots/cogiro-winches.toml --grid x=0:1:2 --grid z=1.5 --required-payload-max-kg 20 {VELOCITIES}",
     f"funicular map robots/cogiro-winches.toml --grid x=0:1:2 --grid z=1.5 --quantity speed-factor,speed-max:rz {VELOCITIES}",
     f"funicular sweep robots/cogiro-winches.toml --vary platform.mass_kg=90,95 --quantity motor-power {VELOCITIES}",
     f"funicular trajectory robots/cogiro.toml {TENSIONS} {STATE} --move-to 1.5,1,1.5,0,0,10 --via trajectory.csv --blend 0.5 {COURSE}",
@@ -328,7 +329,7 @@ def test_a_command_line_and_a_call_are_one_request(line: str, executable: str) -
 
 # Commands whose results are compared; the others make pages, files or rows, which have their own tests.
 COMPUTED = (
-    *("check", "parameters", "statics", "stiffness", "modes", "frf", "compare", "gradient", "payload", "loads", "speeds", "trajectory", "simulate", "clearance", "workspace", "pose-error", "cable"),
+    *("check", "parameters", "statics", "stiffness", "modes", "frf", "compare", "gradient", "payload", "loads", "speeds", "winches", "trajectory", "simulate", "clearance", "workspace", "pose-error", "cable"),
     *("settle", "gust", "reduce", "identify", "calibrate", "uncertainty"),
 )
 
@@ -365,7 +366,7 @@ def test_a_call_and_a_request_have_the_results_of_the_program(line: str, executa
     if command == "uncertainty":
         assert robot.uncertainty(**keywords).details == theirs
         return
-    if command in ("pose-error", "payload", "loads", "speeds", "trajectory", "simulate", "clearance", "workspace", "calibrate"):
+    if command in ("pose-error", "payload", "loads", "speeds", "winches", "trajectory", "simulate", "clearance", "workspace", "calibrate"):
         method = getattr(robot, command.replace("-", "_"))
         assert plain(method(**keywords)) == theirs
         return

@@ -28,6 +28,7 @@ from funicular.results import (
     SimulateResults,
     SpeedsResults,
     TrajectoryResults,
+    WinchesResults,
     WorkspaceResults,
 )
 
@@ -148,7 +149,7 @@ def speeds(of: Any, given: Given) -> SpeedsResults:
 
 
 @declared(Robot, "winches", positional=("grid", "pose"), others=_AS_REST)
-def winches(of: Any, given: Given) -> Results:
+def winches(of: Any, given: Given) -> WinchesResults:
     """Computes the winches that a robot needs over its poses, for everything that is required there.
 
     Returns
@@ -161,7 +162,7 @@ def winches(of: Any, given: Given) -> Results:
     StaticsError
         No pose holds every required load.
     """
-    return _results.of_answered(of._answer("winches", given))
+    return _results.of_answered(WinchesResults, of._answer("winches", given))
 
 
 @declared(Robot, "trajectory", positional=("path", "move_to", "pose"), without=("path",), others=_AS_REST, files=True)

@@ -1622,6 +1622,22 @@ class CableRow(Row):
     }
 
 
+class CentreRow(Row):
+    """Proof that the tensions of the rule `centre` are the only ones."""
+
+    convexity_min: float | None
+    """Least convexity at sixteen tensions of each cable for which the bound is no proof, positive where it is convex;
+    absent if the bound is a proof."""
+    curvature: float
+    """Bound of the curvature of the balance over that of the logarithms, and the value below which it is a proof."""
+    curvature_cable: str
+    """Name of the cable with this value."""
+    max_curvature: float
+    """Max curvature."""
+    unique: bool
+    """True if no other tensions are a centre."""
+
+
 class EquilibriumRow(Row):
     """Another equilibrium of the same lengths."""
 
@@ -2094,6 +2110,87 @@ class Section(Row):
     _PARTS: ClassVar[dict[str, type[Row]]] = {
         "rows": Comparison,
     }
+
+
+class AskedRow(Row):
+    """Largest value of a quantity, with what asks for it."""
+
+    angular_velocity_rad_s: NDArray[np.float64] | None
+    """Angular velocity [rad/s]."""
+    cable: str
+    """Cable."""
+    force_n: NDArray[np.float64]
+    """Required load in addition to the dead load, world axes [N]."""
+    moment_n_m: NDArray[np.float64]
+    """Moment [N m]."""
+    pose: PoseRow
+    """Pose of the platform."""
+    quantity: str
+    """`tension`, `speed`, `acceleration`, `torque`, `power` or `brake-power`."""
+    unit: str
+    """Unit of the value."""
+    value: float
+    """Value."""
+    velocity_m_s: NDArray[np.float64] | None
+    """Velocity of the platform; absent for a tension [m/s]."""
+
+    _PARTS: ClassVar[dict[str, type[Row]]] = {
+        "pose": PoseRow,
+    }
+
+
+class NotHeldRow(Row):
+    """Pose at which a required load is not held."""
+
+    pose: PoseRow
+    """Pose of the platform."""
+    reason: str
+    """Reason."""
+
+    _PARTS: ClassVar[dict[str, type[Row]]] = {
+        "pose": PoseRow,
+    }
+
+
+class OfferRow(Row):
+    """Winch on offer, compared with the winch that serves every cable."""
+
+    by: str | None
+    """quantity of this part."""
+    fits: bool
+    """true if it is enough for every cable, as far as it says what it gives."""
+    name: str
+    """name of the winch on offer."""
+    used: float | None
+    """largest needed part of what it gives, above 1 for a winch that is too small; absent if it says nothing."""
+
+
+class WinchRow(Row):
+    """Winch that is needed."""
+
+    acceleration_m_s2: float
+    """largest acceleration of the cable at the drum [m/s²]."""
+    brake_power_w: float
+    """largest mechanical power of the motor that brakes [W]."""
+    layers: int | None
+    """layers of rope on the drum, three spare turns included; absent without width and radius of the drum and diameter of
+    the rope."""
+    length_max_m: float
+    """largest unstrained length [m]."""
+    length_min_m: float
+    """least unstrained length [m]."""
+    name: str
+    """name of the cable, or `every cable` for a winch that serves all."""
+    power_w: float
+    """largest mechanical power of the motor that drives [W]."""
+    rope_m: float
+    """rope that goes on and off the drum between the extreme lengths [m]."""
+    speed_m_s: float
+    """largest speed of the cable at the drum [m/s]."""
+    tension_n: float
+    """largest tension at the drum [N]."""
+    torque_n_m: float | None
+    """largest torque of the motor; absent without a radius of the drum [N m]."""
 
 
 class ComparedSets(Row):
@@ -3018,6 +3115,8 @@ class StaticsResults(Results):
     """Another stable equilibrium, if a short search found one."""
     cables: list[CableRow]
     """Cables."""
+    centre: CentreRow | None
+    """Proof that the tensions of the rule `centre` are the only ones; absent for other rules."""
     equilibria: list[EquilibriumRow] | None
     """All equilibria that the search of `all` found, with the lowest energy first."""
     free_motions: list[FreeMotionRow] | None
@@ -3061,6 +3160,7 @@ class StaticsResults(Results):
     _PARTS: ClassVar[dict[str, type[Row]]] = {
         "another_stable_equilibrium": OtherStable,
         "cables": CableRow,
+        "centre": CentreRow,
         "equilibria": EquilibriumRow,
         "free_motions": FreeMotionRow,
         "friction_interval": FrictionRow,
@@ -3152,7 +3252,7 @@ class TrajectoryResults(Results):
     warnings: list[str]
     """Sentences that the user should know before trusting the numbers."""
     within_limits: bool
-    """True if every limit of tensions and winches is kept on the whole path, and that of distances at all rows."""
+    """True if every limit of tensions, winches and distances is kept on the whole path."""
 
     _PARTS: ClassVar[dict[str, type[Row]]] = {
         "extremes": Extreme,
@@ -3233,6 +3333,36 @@ class ValidateResults(Results):
 
     _PARTS: ClassVar[dict[str, type[Row]]] = {
         "sections": Section,
+    }
+
+
+class WinchesResults(Results):
+    """Results of `winches`."""
+
+    asked: list[AskedRow]
+    """Winch that serves every cable: what asks for each of its numbers."""
+    held: int
+    """Number of poses at which every required load is held; the others ask for no winch."""
+    not_held: NotHeldRow | None
+    """First pose at which a required load is not held."""
+    offers: list[OfferRow] | None
+    """Winches on offer; absent without offers."""
+    poses: int
+    """Number of poses."""
+    robot: str | None
+    """Name of the robot; absent if there are several."""
+    static_model: str
+    """Static model."""
+    warnings: list[str]
+    """Sentences that the user should know before trusting the numbers."""
+    winches: list[WinchRow]
+    """Winch that serves every cable, then that of each cable."""
+
+    _PARTS: ClassVar[dict[str, type[Row]]] = {
+        "asked": AskedRow,
+        "not_held": NotHeldRow,
+        "offers": OfferRow,
+        "winches": WinchRow,
     }
 
 
@@ -3325,5 +3455,6 @@ OF_COMMANDS: dict[str, type[Results]] = {
     "trajectory": TrajectoryResults,
     "uncertainty": UncertaintyResults,
     "validate": ValidateResults,
+    "winches": WinchesResults,
     "workspace": WorkspaceResults,
 }

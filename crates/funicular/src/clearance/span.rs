@@ -165,6 +165,18 @@ impl<'a> FreeSpan<'a> {
         self.parts[usize::from(left_out[0]) + 2 * usize::from(left_out[1])].get_or_init(find).as_ref()
     }
 
+    /// Part of the span that is compared with a body, on which one of its ends may be mounted.
+    fn part_beside(&self, body: &PlacedBody, mounted: SpanEnd) -> Option<&Arc> {
+        let at = |point_w: &Vec3| {
+            let far = body.lower_bound_to_segment(point_w, point_w);
+            if far >= self.from_end { far } else { body.nearest_to_segment(point_w, point_w).distance }
+        };
+        self.part(match mounted {
+            SpanEnd::Platform => [at(&self.ends_w[0]), f64::INFINITY],
+            SpanEnd::Anchor => [f64::INFINITY, at(&self.ends_w[1])],
+        })
+    }
+
     /// Distance of the surface of the cable from a body, on which one of its ends may be mounted, and the nearest
     /// points; `None` if nothing is compared, or if the distance is surely above `enough`. It is too large by the
     /// tolerance at most.
@@ -175,15 +187,7 @@ impl<'a> FreeSpan<'a> {
         enough: f64,
         tolerance: f64,
     ) -> Option<(f64, [Vec3; 2])> {
-        let at = |point_w: &Vec3| {
-            let far = body.lower_bound_to_segment(point_w, point_w);
-            if far >= self.from_end { far } else { body.nearest_to_segment(point_w, point_w).distance }
-        };
-        let part = self.part(match mounted {
-            SpanEnd::Platform => [at(&self.ends_w[0]), f64::INFINITY],
-            SpanEnd::Anchor => [f64::INFINITY, at(&self.ends_w[1])],
-        })?;
-
+        let part = self.part_beside(body, mounted)?;
         let mut best = (f64::INFINITY, [Vec3::zeros(); 2]);
         let mut queue = BinaryHeap::new();
         let [from_w, to_w] = part.points_w;

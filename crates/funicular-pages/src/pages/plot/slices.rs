@@ -104,6 +104,7 @@ fn colour_of(code: u8) -> &'static str {
         "required-load" => "#cfe6df",
         "interference" => "#e8b4a0",
         "no-speed" => "#c4d8d8",
+        "no-torque" => "#dcd3c4",
         "no-gusts" => "#d9d6ec",
         "negative-tension" => colour::VERMILION,
         "tension-limits" => colour::PURPLE,

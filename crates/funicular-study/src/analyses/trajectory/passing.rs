@@ -2,7 +2,6 @@
 
 use super::Planned;
 use super::at_time::in_motion;
-use super::samples::MotionSamples;
 use crate::error::Cancelled;
 use crate::watch::Watch;
 use anyhow::Result;
@@ -23,11 +22,16 @@ pub(super) enum Passing {
 }
 
 impl Passing {
-    /// Looks between the times of a motion; `None` if every pair keeps its required distance there.
+    /// Looks between the times of a motion whose equilibria are known; `None` if every pair keeps its required distance
+    /// there.
     ///
     /// # Errors
     /// A time at which the cables do not hold the platform, or [`Cancelled`].
-    pub(super) fn look(planned: &Planned, samples: &MotionSamples, watch: &mut dyn Watch) -> Result<Option<Self>> {
+    pub(super) fn look(
+        planned: &Planned,
+        known: &[(f64, &Equilibrium)],
+        watch: &mut dyn Watch,
+    ) -> Result<Option<Self>> {
         let around = Surroundings::of(planned.robot);
         let ways = WaysOfPath::of(&planned.path);
         let mut along = planned.along();
@@ -40,9 +44,7 @@ impl Passing {
             }
             Ok(in_motion(&mut along, planned, time, Side::After)?.equilibrium)
         };
-        let known: Vec<(f64, &Equilibrium)> =
-            samples.times.iter().zip(&samples.motions).map(|(time, motion)| (*time, &motion.equilibrium)).collect();
-        Ok(match around.too_near_between(&known, |times| ways.between(times), rest_at)? {
+        Ok(match around.too_near_between(known, |times| ways.between(times), rest_at)? {
             BetweenPlaces::Free => None,
             BetweenPlaces::TooNear { place, clearance } => Some(Self::TooNear { time: place, clearance }),
             BetweenPlaces::Undecided { place } => Some(Self::Undecided { time: place }),

@@ -74,7 +74,9 @@ impl MotionSamples {
         }
         let mut found = Self::of(planned, sampled, jumps);
         if planned.judged.clearance && found.nearest.iter().flatten().all(Clearance::is_kept) {
-            found.passing = Passing::look(planned, &found, watch)?;
+            let known: Vec<_> =
+                found.times.iter().zip(&found.motions).map(|(time, motion)| (*time, &motion.equilibrium)).collect();
+            found.passing = Passing::look(planned, &known, watch)?;
         }
         Ok(found)
     }

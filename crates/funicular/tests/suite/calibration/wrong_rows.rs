@@ -250,8 +250,8 @@ fn a_row_of_elastic_cables_with_two_exchanged_readings_is_named() {
     assert_eq!(found[0].exchange.map(|of| of.cables), Some(cables), "{found:?}");
 }
 
-/// Points in a plane leave straight cables mirror images. Elastic cables in balance would have to pull towards the other
-/// side: their images are fitted, and do not fit.
+/// Points in a plane leave straight cables mirror images. Elastic cables in balance would have to pull towards the
+/// other side: their images are fitted, and do not fit.
 #[test]
 fn mirror_images_of_straight_cables_do_not_fit_cables_in_balance() {
     let mut draws = Draws(8);
