@@ -1,5 +1,6 @@
 """Conversion of command lines to calls of Python: an option's name with _ in place of - is the keyword."""
 
+import csv
 import json
 import re
 import shlex
@@ -116,6 +117,8 @@ def call(line: str) -> tuple[str, list[str], dict[str, Any], dict[str, Any]]:
             keywords[key] = tomllib.loads(Path(next(rest)).read_text())
         elif word == "--quantity":
             keywords["quantities"] = next(rest).split(",")
+        elif word == "--offers":
+            keywords[key] = read_offers(next(rest))
         elif word in ("--poses", "--via"):
             keywords[key] = read_poses(next(rest))
         elif command == "design" and word == "--change":
@@ -136,6 +139,13 @@ def call(line: str) -> tuple[str, list[str], dict[str, Any], dict[str, Any]]:
     if command == "identify":
         keywords = identification(keywords)
     return command, files, keywords, changes
+
+
+def read_offers(name: str) -> list[dict[str, Any]]:
+    """Winches on offer, as keywords; empty cells are left out."""
+    with Path(name).open(newline="") as file:
+        rows = list(csv.DictReader(file))
+    return [{key: text if key == "name" else float(text) for key, text in row.items() if text} for row in rows]
 
 
 def chosen(text: str) -> dict[str, Any]:

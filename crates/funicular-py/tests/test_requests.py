@@ -102,6 +102,9 @@ MORE = [
     f"funicular speeds robots/cogiro-winches.toml {TENSIONS} {STATE} {VELOCITIES}",
     "funicular speeds robots/cogiro-winches.toml --pose 1,2,1.5 --hold-lengths-of-pose --mass-kg 110",
     f"funicular winches robots/cogiro-winches.toml --grid x=0:1:2 --grid z=1.5 --required-payload-max-kg 20 {VELOCITIES}",
+    f"funicular winches robots/cogiro-winches.toml {TENSIONS} {STATE} {VELOCITIES}",
+    f"funicular winches robots/cogiro-winches.toml --poses trajectory.csv --offers winches.csv --drum-width-m 0.2 {REQUIRED}",
+    "funicular winches robots/cogiro-winches.toml --pose 1,1,1.5 --tension-rule middle",
     f"funicular map robots/cogiro-winches.toml --grid x=0:1:2 --grid z=1.5 --quantity speed-factor,speed-max:rz {VELOCITIES}",
     f"funicular sweep robots/cogiro-winches.toml --vary platform.mass_kg=90,95 --quantity motor-power {VELOCITIES}",
     f"funicular trajectory robots/cogiro.toml {TENSIONS} {STATE} --move-to 1.5,1,1.5,0,0,10 --via trajectory.csv --blend 0.5 {COURSE}",
@@ -250,6 +253,7 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     (tmp_path / "waypoints.csv").write_text("x_m,y_m,z_m,roll_deg,pitch_deg,yaw_deg\n3.7,3.5,0,0,0,0\n1,1,0,0,0,0\n")
     (tmp_path / "near.csv").write_text("x_m,y_m,z_m,roll_deg,pitch_deg,yaw_deg\n0,0.05,0.5,0,1,0\n")
     (tmp_path / "path.csv").write_text("t_s,x_m,y_m,z_m,yaw_deg\n0,0,0,1.5,0\n1,0.5,0.2,1.5,5\n2,1,0,1.6,10\n")
+    (tmp_path / "winches.csv").write_text("name,tension_n,speed_m_s,power_w,rope_m\nsmall,800,1.2,900,\n7,3000,3,5000,60\n")
     (tmp_path / "gusts.csv").write_text("frequency_hz,along_m2_s,lateral_m2_s,up_m2_s\n0.01,40,20,10\n0.1,8,6,4\n1,0.2,0.2,0.1\n")
     (tmp_path / "windy.toml").write_text(windy())
     (tmp_path / "response.csv").write_text("frequency_hz,a1_re,a1_im\n1,-5.16e-4,0\n2,-2.55e-3,0\n2.5,-7e-3,2e-4\n")
@@ -270,7 +274,7 @@ def test_every_command_that_computes_has_a_line(executable: str) -> None:
                 of_command = [line for line in found if line.split()[1] == command]
                 used = any(option in line.split() for line in of_command)
                 same = ("--set", "--static-model", "--lengths-m", "--pose", "--in-plane-only")
-                excepted = (command, option) in (("loads", "--hold-lengths-of-pose"), ("reduce", "--to"))
+                excepted = (command, option) in (("loads", "--hold-lengths-of-pose"), ("winches", "--hold-lengths-of-pose"), ("reduce", "--to"))
                 if not used and not excepted and option not in (*same, "--cable-set", "--compare", "--compare-set"):
                     lacking.append((command, option))
     assert lacking == []

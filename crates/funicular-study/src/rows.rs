@@ -1,4 +1,4 @@
-//! Rows and results, each declared once: from [`rows!`] follow the struct, its JSON and the schema of it, its columns
+//! Rows and results, each declared once: from `rows!` follow the struct, its JSON and the schema of it, its columns
 //! in files and in tables for reading, and the reading of rows that a file holds.
 
 use crate::columns::{Cell, Field, ToCell};
@@ -38,7 +38,7 @@ pub struct RowKey {
     is_required: bool,
 }
 
-/// Rows or results that [`rows!`] declares.
+/// Rows or results that `rows!` declares.
 pub trait DeclaredRow {
     /// Keys in the order of the JSON, those of the parts among them.
     fn keys() -> Vec<RowKey>;
@@ -377,7 +377,7 @@ macro_rules! rows {
     };
 }
 
-/// Struct of [`rows!`] with its JSON.
+/// Struct of `rows!` with its JSON.
 macro_rules! structure {
     (
         [$($about:literal),+] [$($derive:path),*] $visibility:vis $Name:ident {
@@ -428,7 +428,7 @@ macro_rules! structure {
     };
 }
 
-/// Columns of [`rows!`], and the reading of their numbers.
+/// Columns of `rows!`, and the reading of their numbers.
 macro_rules! columns {
     ($visibility:vis $Name:ident ($($arg:ident: $Arg:ty),*) $before:tt $body:tt back) => {
         crate::rows::columns! { $visibility $Name ($($arg: $Arg),*) $before $body }
@@ -461,7 +461,7 @@ macro_rules! columns {
     };
 }
 
-/// Function that reads rows of [`rows!`] from the numbers of their columns.
+/// Function that reads rows of `rows!` from the numbers of their columns.
 macro_rules! read_back {
     (
         $Name:ident ($($arg:ident: $Arg:ty),*) {
@@ -485,7 +485,7 @@ macro_rules! read_back {
     };
 }
 
-/// Keys of one entry of [`rows!`].
+/// Keys of one entry of `rows!`.
 macro_rules! keys {
     ($field:ident: $Type:ty, [$($text:literal),*]) => {
         crate::rows::key::<$Type>(stringify!($field), &[$($text),*], false)
@@ -501,7 +501,7 @@ macro_rules! keys {
     };
 }
 
-/// Statement that adds one entry of [`rows!`] to a JSON object.
+/// Statement that adds one entry of `rows!` to a JSON object.
 macro_rules! put {
     ($map:ident, $value:expr, $field:ident) => {
         if !crate::rows::Described::is_absent($value) {
@@ -521,7 +521,7 @@ macro_rules! put {
     ($map:ident, $value:expr, $field:ident hidden) => {};
 }
 
-/// Column of one entry of [`rows!`], or the columns of a part.
+/// Column of one entry of `rows!`, or the columns of a part.
 macro_rules! column {
     ($about:ident, $field:ident: $Type:ty, one) => {
         crate::rows::columns_of(stringify!($field), $about, None, |row: &Self| &row.$field)
@@ -549,7 +549,7 @@ macro_rules! column {
     };
 }
 
-/// Value of one entry of [`rows!`] from numbers.
+/// Value of one entry of `rows!` from numbers.
 macro_rules! taken {
     ($numbers:ident, $field:ident: $Type:ty, columns($($a:tt)*)) => {
         <$Type>::read($numbers, $($a)*)?

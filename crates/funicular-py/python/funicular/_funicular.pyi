@@ -21,7 +21,7 @@ from funicular._pages import Page
 from funicular._results import Modes, ReducedModel, StateSpaceModel
 from funicular._uncertainty import Uncertainty
 from funicular._words import StaticModel, TensionRule, CableModel, Assembly, Winches, Hold, Per, Method, Goal, ExportFormat, Result
-from funicular.results import CableResults, CalibrateResults, ClearanceResults, CompareResults, GradientResults, GustResults, LoadsResults, PayloadResults, PoseErrorResults, SettleResults, SimulateResults, SpeedsResults, TrajectoryResults, WorkspaceResults
+from funicular.results import CableResults, CalibrateResults, ClearanceResults, CompareResults, GradientResults, GustResults, LoadsResults, PayloadResults, PoseErrorResults, SettleResults, SimulateResults, SpeedsResults, TrajectoryResults, WinchesResults, WorkspaceResults
 from typing import Literal, overload
 
 __all__ = ["__version__", "Analyses", "Answered", "Catenary", "Equilibrium", "Pose", "Robot", "SweepPlan", "SweepTable", "SweepWork", "answer", "argument", "check_files", "complete_request", "complex_numbers", "declarations", "figure_sizes", "imported", "interval", "matlab_file", "measurements_of_file", "merge_parts", "number", "numbers", "outputs_of_commands", "peaks", "plot_page", "real_numbers", "robot_of_source", "shown", "source_file", "suggested", "text_of", "try_file", "unit_of_name", "write_file", "write_unit"]
@@ -205,8 +205,8 @@ class Analyses:
         Parameters
         ----------
         of
-            Results: pose, lengths, tensions, rope-length, rope-mass, stiffness-min, load-factor, frequencies, damping,
-            response; separated by commas; frequencies if not given.
+            Results, separated by commas: pose, lengths, tensions, rope-length, rope-mass, stiffness-min, load-factor,
+            frequencies, damping, response; frequencies if not given.
         by
             Paths of the numbers, as `Robot.parameters` lists them; `*` stands for any key, as in `cables.*.anchor_m`,
             and a path to a table or vector for all numbers in it. All numbers if not given.
@@ -1164,8 +1164,8 @@ class Robot(Analyses):
         goal
             Goal of the design: `first-frequency` (highest first natural frequency, cables included); `platform`
             (highest first natural frequency of the platform on the static stiffness of its cables); `stiffness-min`
-            (highest minimum stiffness, as `statics` prints it); `rope-mass` (least mass of all ropes); `rope-length`
-            (least length of all ropes).
+            (highest minimum stiffness, as `statics` prints it); `rope-length` (least length of all ropes); `rope-mass`
+            (least mass of all ropes); `load-factor` (largest multiple of the required loads that is held).
         poses
             Poses (n, 3) or (n, 6): x, y, z [m], roll, pitch, yaw [degrees]; the worst one counts. If not given: `pose`,
             or the pose of the robot file.
@@ -1794,8 +1794,8 @@ class Robot(Analyses):
         tolerances
             Tolerances of numbers that are anywhere within ± their tolerance, in the same form.
         of
-            Results: pose, lengths, tensions, rope-length, rope-mass, stiffness-min, load-factor, frequencies, damping,
-            response; separated by commas; pose, tensions if not given.
+            Results, separated by commas: pose, lengths, tensions, rope-length, rope-mass, stiffness-min, load-factor,
+            frequencies, damping, response; pose, tensions if not given.
         hold
             Quantity that is held while the numbers deviate; with the pose held, the tensions parallel to the chords of
             more cables than degrees of freedom change least, or follow their rule: `lengths` (the unstrained lengths;
@@ -1844,6 +1844,62 @@ class Robot(Analyses):
             The robot has no equilibrium.
         FileError
             The file of the samples cannot be written, or belongs to other work.
+        """
+    def winches(self, /, grid: Mapping[str, ArrayLike] | None = None, pose: Pose | ArrayLike | None = None, *, poses: ArrayLike | None = None, offers: Any = None, drum_width_m: SupportsFloat | SupportsIndex | None = None, required_force_n: ArrayLike | None = None, required_moment_n_m: ArrayLike | None = None, required_shape: Literal['box', 'ellipsoid'] | None = None, required_payload_min_kg: SupportsFloat | SupportsIndex | None = None, required_payload_max_kg: SupportsFloat | SupportsIndex | None = None, required_payload_center_m: ArrayLike | None = None, required_payload_center_reach_m: ArrayLike | None = None, required_acceleration_m_s2: ArrayLike | None = None, required_angular_acceleration_rad_s2: ArrayLike | None = None, required_wind_speed_m_s: SupportsFloat | SupportsIndex | None = None, required_velocity_m_s: ArrayLike | None = None, required_angular_velocity_rad_s: ArrayLike | None = None, lengths_m: ArrayLike | None = None, hold_lengths_of_pose: bool = False, mass_kg: SupportsFloat | SupportsIndex | None = None, static_model: StaticModel = "catenary", force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, wind_m_s: ArrayLike | None = None, cable_load_n_per_m: ArrayLike | None = None, tension_rule: TensionRule | None = None, target_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None) -> WinchesResults:
+        """
+        Computes the winches that a robot needs over its poses, for everything that is required there.
+
+        Parameters
+        ----------
+        grid
+            Axis of the grid: x, y, z [m], roll, pitch, yaw [degrees], with N values from A to B, or with listed values
+            (repeatable); an axis that is not given keeps the value of the robot's state or of `pose`.
+        poses
+            List of poses instead of a grid: position [m] and roll, pitch, yaw [degrees].
+        offers
+            Winches on offer, to be compared with the needs: `name`, and what each bears or gives, `tension_n`,
+            `speed_m_s`, `acceleration_m_s2`, `torque_n_m`, `power_w`, `brake_power_w`, `rope_m`; what a winch does not
+            say is not compared.
+        drum_width_m
+            Width of the drums between their flanges [m], for the layers of rope.
+        required_force_n
+            Largest required force, both ways along each world axis [N].
+        required_moment_n_m
+            Largest required moment about the platform origin, both ways about each world axis [N m].
+        required_shape
+            Shape of the set of required forces and moments: `box` (every component varies by itself); `ellipsoid`
+            (ellipsoid with these half axes; a ball if they are equal); if not given: from the robot file, or box.
+        required_payload_min_kg
+            Minimum required payload [kg], which is always carried.
+        required_payload_max_kg
+            Maximum required payload [kg].
+        required_payload_center_m
+            Middle of the centres of mass of the required payload, platform frame [m].
+        required_payload_center_reach_m
+            Largest distance of the centre of mass of the payload from this middle, both ways along each axis of the
+            platform [m].
+        required_acceleration_m_s2
+            Largest required acceleration of the platform origin from rest, both ways along each world axis [m/s²].
+        required_angular_acceleration_rad_s2
+            Largest required angular acceleration from rest, both ways about each world axis [rad/s²].
+        required_wind_speed_m_s
+            Speed of the required wind from every horizontal direction, on platform and ropes [m/s].
+        required_velocity_m_s
+            Largest required velocity of the platform origin, both ways along each world axis [m/s].
+        required_angular_velocity_rad_s
+            Largest required angular velocity, both ways about each world axis [rad/s].
+
+        The other parameters are those of `Robot.equilibrium`.
+
+        Returns
+        -------
+        The keys of the program's JSON: `winches` with the numbers of one winch that serves every cable and of each cable,
+        `asked` with what asks for each number of the first, `poses`, `held`, `not_held`, and `offers` with the comparison.
+
+        Raises
+        ------
+        StaticsError
+            No pose holds every required load.
         """
     def workspace(self, /, at_least: Mapping[str, SupportsFloat | SupportsIndex] | None = None, at_most: Mapping[str, SupportsFloat | SupportsIndex] | None = None, grid: Mapping[str, ArrayLike] | None = None, *, step_m: SupportsFloat | SupportsIndex | None = None, orientations: Literal['all', 'some'] = "all", vertex_tolerance_m: SupportsFloat | SupportsIndex | None = None, rays: SupportsIndex | None = None, center_m: ArrayLike | None = None, section: Mapping[str, ArrayLike] | None = None, up_to_hz: SupportsFloat | SupportsIndex | None = None, platform_share: SupportsFloat | SupportsIndex | None = None, payload_center_m: ArrayLike | None = None, required_force_n: ArrayLike | None = None, required_moment_n_m: ArrayLike | None = None, required_shape: Literal['box', 'ellipsoid'] | None = None, required_payload_min_kg: SupportsFloat | SupportsIndex | None = None, required_payload_max_kg: SupportsFloat | SupportsIndex | None = None, required_payload_center_m: ArrayLike | None = None, required_payload_center_reach_m: ArrayLike | None = None, required_acceleration_m_s2: ArrayLike | None = None, required_angular_acceleration_rad_s2: ArrayLike | None = None, required_wind_speed_m_s: SupportsFloat | SupportsIndex | None = None, required_velocity_m_s: ArrayLike | None = None, required_angular_velocity_rad_s: ArrayLike | None = None, pose: Pose | ArrayLike | None = None, mass_kg: SupportsFloat | SupportsIndex | None = None, static_model: StaticModel = "catenary", force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, wind_m_s: ArrayLike | None = None, cable_load_n_per_m: ArrayLike | None = None, tension_rule: TensionRule | None = None, target_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, cable_model: CableModel | None = None, assembly: Assembly = "consistent", in_plane_only: bool = False, winches: Winches = "as-given", compare: Robot | None = None, threads: SupportsIndex | None = None, progress: Callable[[int, int], object] | None = None, figure: str | PathLike[str] | None = None, surface: str | PathLike[str] | Sequence[str | PathLike[str]] | None = None, page: str | PathLike[str] | None = None) -> WorkspaceResults:
         """
