@@ -7,7 +7,7 @@
 
 use crate::gradient::GradientError;
 use crate::math::{Vec3, Vec6};
-use crate::robot::{Constraint, Pose, Robot, State};
+use crate::robot::{Constraint, PlatformMotion, Pose, Robot, State};
 use crate::speeds::WinchSpeeds;
 use crate::statics::{self, CableState, Equilibrium, StaticModel, StaticsError, TensionRule};
 use thiserror::Error;
@@ -157,12 +157,13 @@ impl WinchNeeds {
     fn add_motion(&mut self, under: &UnderLoad, speeds: &WinchSpeeds) {
         let required = &under.robot.required;
         let [twists, accelerations] = [required.twists_w(), required.accelerations_w()];
+        let motion = &under.robot.platform.motion;
         let cables = self.cables.iter_mut().zip(speeds.winches()).zip(&under.rest.cables);
         for ((needs, winch), state) in cables {
             let pose = under.rest.pose;
             let with = |value, twist_w| LargestNeed { value, pose, load_w: under.load_w, twist_w };
             let fastest_w = twists.zip_map(&winch.by_twist, |half, rate| half * sign(rate));
-            let (bend, bending_w) = largest_bend(state, &twists);
+            let (bend, bending_w) = largest_bend(state, motion, &twists);
             let (speed, acceleration) = (winch.speed_in(&twists), winch.speed_in(&accelerations) + bend);
 
             let worst = winch.worst_up_to(speed, acceleration);
@@ -224,7 +225,7 @@ fn sign(value: f64) -> f64 {
 
 /// Largest acceleration of a straight cable while the platform moves with a constant twist of a box, given by its half
 /// widths [m/s²], and the twist: equation (40z14).
-fn largest_bend(state: &CableState, half_widths: &Vec6) -> (f64, Vec6) {
+fn largest_bend(state: &CableState, motion: &PlatformMotion, half_widths: &Vec6) -> (f64, Vec6) {
     let axes: Vec<usize> = (0..6).filter(|axis| half_widths[*axis] > 0.0).collect();
     let mut most = (0.0, Vec6::zeros());
     // Opposite twists bend alike: the sign of the first axis is free.
@@ -234,7 +235,7 @@ fn largest_bend(state: &CableState, half_widths: &Vec6) -> (f64, Vec6) {
             let is_negative = bit > 0 && corner >> (bit - 1) & 1 == 1;
             twist_w[*axis] = if is_negative { -half_widths[*axis] } else { half_widths[*axis] };
         }
-        let bend = bend(state, &twist_w).abs();
+        let bend = bend(state, &motion.allowed(&twist_w)).abs();
         if bend > most.0 {
             most = (bend, twist_w);
         }

@@ -218,6 +218,28 @@ fn wind_is_among_the_loads() {
     }
 }
 
+/// A velocity that the guide of a planar robot does not let through bends no rope.
+#[test]
+fn a_planar_robot_moves_in_its_plane_alone() {
+    let mut robot = Robot::from_toml(funicular_robots::KNTU_PLANAR).unwrap();
+    let pose = Pose::new([0.2, 0.1, 0.0], [0.0; 3]);
+    let across = [Vec3::x(), Vec3::y(), Vec3::z()]
+        .into_iter()
+        .find(|axis| !robot.platform.motion.can_follow(&Vec6::new(axis.x, axis.y, axis.z, 0.0, 0.0, 0.0)));
+    let along = Vec3::repeat(0.5) - across.unwrap() * 0.5;
+    let accelerations = |robot: &Robot| {
+        let found = needs(robot, &pose);
+        found.cables.iter().map(|cable| cable.of(WinchNeed::Acceleration).unwrap().value).collect::<Vec<f64>>()
+    };
+    robot.required.velocity_w = along;
+    let in_plane = accelerations(&robot);
+    assert!(in_plane.iter().all(|value| *value > 0.01), "{in_plane:?}");
+    robot.required.velocity_w = along + across.unwrap() * 3.0;
+    for (with, without) in accelerations(&robot).iter().zip(&in_plane) {
+        assert!((with - without).abs() < 1e-12, "{with} {without}");
+    }
+}
+
 #[test]
 fn a_load_that_is_not_held_is_named() {
     let mut robot = Robot::from_toml(funicular_robots::COGIRO).unwrap();
