@@ -187,6 +187,20 @@ fn requests() -> Vec<Value> {
         of("payload", &[&robot, &state, &tensions, &center]),
         of("loads", &[&robot, &state, &tensions, &required]),
         of("speeds", &[&robot, &state, &tensions, &velocities]),
+        of(
+            "winches",
+            &[
+                &robot,
+                &state,
+                &tensions,
+                &required,
+                &velocities,
+                &json!({
+                    "grid": [{"axis": "x", "values": [0.0]}], "drum_width_m": 0.3,
+                    "offers": [{"name": "large", "tension_n": 3000.0}],
+                }),
+            ],
+        ),
         of("trajectory", &[&robot, &state, &tensions, &motion]),
         of(
             "workspace",
