@@ -25,7 +25,7 @@ from typing import Any, ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from funicular._results import Results, Row
+from funicular._results import OF_COMMANDS, Results, Row
 '''
 
 # Columns of the text of documentation.
@@ -124,8 +124,8 @@ def made(schema: dict[str, Any]) -> str:
             name = f"{command.title().replace('-', '')}Results"
             wholes.append(classes.text(name, "Results", of, f"Results of `{command}`."))
             of_commands[command] = name
-    listed = "".join(f'    "{command}": {name},\n' for command, name in of_commands.items())
-    table = f"# Class of the results of each command.\nOF_COMMANDS: dict[str, type[Results]] = {{\n{listed}}}\n"
+    indented = "".join(f'        "{command}": {name},\n' for command, name in of_commands.items())
+    table = f"# Class of the results of each command.\nOF_COMMANDS.update(\n    {{\n{indented}    }}\n)\n"
     return "\n\n".join([HEAD, *classes.texts.values(), *wholes, table])
 
 

@@ -30,7 +30,7 @@ NAMES = {
     "funicular._sweeps": ("Sweep",),
     "funicular._uncertainty": ("Uncertainty",),
     "funicular._words": tuple(name for name in vars(funicular._words) if name[0].isupper() and name != "Literal"),
-    "funicular.results": tuple(of.__name__ for of in funicular.results.OF_COMMANDS.values()),
+    "funicular.results": tuple(of.__name__ for of in funicular._results.OF_COMMANDS.values()),
     "numpy": ("complex128", "float64"),
     "numpy.typing": ("ArrayLike", "NDArray"),
     "os": ("PathLike",),

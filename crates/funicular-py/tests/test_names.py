@@ -18,6 +18,7 @@ EXCEPTIONS: dict[str, dict[str, str]] = {
     },
     "Equilibrium": {
         "robot": "the robot as an object; its name stands in the key `robot`",
+        "unique_centre": "the key `unique` of `centre`",
         "held_pose": "the key `pose` of `held`",
         "support_displacement_m": "`displacement_m` of `supports`, as one array",
     },

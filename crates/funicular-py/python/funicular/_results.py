@@ -129,6 +129,9 @@ class Results(Row):
 
 Kind = TypeVar("Kind", bound=Results)
 
+# Class of the results of each command: `funicular.results`, whose classes are made of those here, fills it.
+OF_COMMANDS: dict[str, type[Results]] = {}
+
 
 def results(found: dict[str, Any]) -> Any:
     """Results with arrays in place of lists of numbers, of the class of their command."""
@@ -137,8 +140,6 @@ def results(found: dict[str, Any]) -> Any:
 
 def kind_of(found: Mapping[str, Any]) -> type[Results]:
     """Class of the results of a command."""
-    from funicular.results import OF_COMMANDS  # its classes are made of those here
-
     return OF_COMMANDS.get(found.get("command", ""), Results)
 
 
@@ -147,6 +148,11 @@ def of_answered(kind: type[Kind], answered: Answered) -> Kind:
     found: Kind = with_arrays(json.loads(answered.json()), kind)
     found._answered = answered
     return found
+
+
+def of_stopped(answered: Answered) -> Results:
+    """Results of work that was stopped, of the class of their command."""
+    return of_answered(kind_of(json.loads(answered.json())), answered)
 
 
 def _are_numbers(values: list[Any]) -> bool:

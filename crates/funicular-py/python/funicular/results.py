@@ -12,7 +12,7 @@ from typing import Any, ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from funicular._results import Results, Row
+from funicular._results import OF_COMMANDS, Results, Row
 
 
 class Axes(Row):
@@ -3432,29 +3432,31 @@ class WorkspaceResults(Results):
 
 
 # Class of the results of each command.
-OF_COMMANDS: dict[str, type[Results]] = {
-    "cable": CableResults,
-    "calibrate": CalibrateResults,
-    "check": CheckResults,
-    "clearance": ClearanceResults,
-    "compare": CompareResults,
-    "design": DesignResults,
-    "gradient": GradientResults,
-    "gust": GustResults,
-    "identify": IdentifyResults,
-    "loads": LoadsResults,
-    "modes": ModesResults,
-    "parameters": ParametersResults,
-    "payload": PayloadResults,
-    "pose-error": PoseErrorResults,
-    "settle": SettleResults,
-    "simulate": SimulateResults,
-    "speeds": SpeedsResults,
-    "statics": StaticsResults,
-    "stiffness": StiffnessResults,
-    "trajectory": TrajectoryResults,
-    "uncertainty": UncertaintyResults,
-    "validate": ValidateResults,
-    "winches": WinchesResults,
-    "workspace": WorkspaceResults,
-}
+OF_COMMANDS.update(
+    {
+        "cable": CableResults,
+        "calibrate": CalibrateResults,
+        "check": CheckResults,
+        "clearance": ClearanceResults,
+        "compare": CompareResults,
+        "design": DesignResults,
+        "gradient": GradientResults,
+        "gust": GustResults,
+        "identify": IdentifyResults,
+        "loads": LoadsResults,
+        "modes": ModesResults,
+        "parameters": ParametersResults,
+        "payload": PayloadResults,
+        "pose-error": PoseErrorResults,
+        "settle": SettleResults,
+        "simulate": SimulateResults,
+        "speeds": SpeedsResults,
+        "statics": StaticsResults,
+        "stiffness": StiffnessResults,
+        "trajectory": TrajectoryResults,
+        "uncertainty": UncertaintyResults,
+        "validate": ValidateResults,
+        "winches": WinchesResults,
+        "workspace": WorkspaceResults,
+    }
+)

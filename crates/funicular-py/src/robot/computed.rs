@@ -107,7 +107,7 @@ impl PyRobot {
 /// Exception that stopped work, with the results that are there as its attribute `partial_results`.
 fn with_part(py: Python<'_>, raised: PyErr, part: PyAnswered) -> PyErr {
     let attach = || {
-        let results = py.import("funicular._results")?.call_method1("of_answered", (part,))?;
+        let results = py.import("funicular._results")?.call_method1("of_stopped", (part,))?;
         raised.value(py).setattr("partial_results", results)
     };
     // An exception whose class has no room for attributes is raised without the results.
