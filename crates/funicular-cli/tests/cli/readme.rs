@@ -21,7 +21,11 @@ fn printed(line: &str, shown: &str) -> String {
     let expected = i32::from(after_warnings.is_some_and(|line| line.starts_with("error: ")));
     assert_eq!(output.status.code(), Some(expected), "{line}: {}", stderr(&output));
     // Progress depends on the speed of the machine.
-    let is_progress = |line: &str| line.contains(" after ") && line.ends_with("left for these");
+    let is_progress = |line: &str| {
+        let after =
+            |(_, time): (&str, &str)| time.split_once(" s").is_some_and(|(time, _)| time.parse::<u64>().is_ok());
+        line.starts_with("computing for ") || line.split_once(" after ").is_some_and(after)
+    };
     let told: String = stderr(&output).split_inclusive('\n').filter(|line| !is_progress(line.trim_end())).collect();
     told + stdout(&output)
 }
