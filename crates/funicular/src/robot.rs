@@ -30,6 +30,7 @@ pub(crate) use mesh::{from_vector, vector};
 pub use motion::{OutOfPlane, Plane, PlatformMotion};
 pub(crate) use pulley::Wheel;
 pub use pulley::{Pulley, PulleyContact};
+pub(crate) use required::stacked;
 pub use required::{LoadShape, RequiredLoads, RequiredLoadsError, RequiredPayload};
 pub use support::{DrumPlace, Support};
 pub use turbulence::{MeasuredSpectrum, MeasuredSpectrumError, Turbulence, TurbulenceSpectrum};

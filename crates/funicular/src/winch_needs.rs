@@ -77,7 +77,7 @@ pub struct CableNeeds {
 /// ```
 ///
 /// # References
-/// docs/theory.md, equations (40z13) and (40z14).
+/// docs/theory.md, equations (40z4a) and (40z4b).
 #[derive(Debug, Clone, PartialEq)]
 pub struct WinchNeeds {
     /// Needs of each cable.
@@ -224,7 +224,7 @@ fn sign(value: f64) -> f64 {
 }
 
 /// Largest acceleration of a straight cable while the platform moves with a constant twist of a box, given by its half
-/// widths [m/s²], and the twist: equation (40z14).
+/// widths [m/s²], and the twist: equation (40z4b).
 fn largest_bend(state: &CableState, motion: &PlatformMotion, half_widths: &Vec6) -> (f64, Vec6) {
     let axes: Vec<usize> = (0..6).filter(|axis| half_widths[*axis] > 0.0).collect();
     let mut most = (0.0, Vec6::zeros());

@@ -170,7 +170,7 @@ fn on_the_way(at_rest: &AtRest, around: &Surroundings, end: &Pose, watch: &mut d
         let [way, whole] = [pose, end].map(|pose| (pose.position_w - rest.pose.position_w).norm());
         let [turn, whole_turn] = [pose, end].map(|pose| pose.rot_wp.angle_to(&rest.pose.rot_wp));
         let part = if whole > 0.0 { way / whole } else { turn / whole_turn.max(f64::MIN_POSITIVE) };
-        // Its end is looked at first.
+        // The end of the way is looked at first.
         if part < 1.0 {
             watch.progress((PARTS as f64 * part) as usize, PARTS, "parts of the way");
         }

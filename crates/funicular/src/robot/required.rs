@@ -118,6 +118,7 @@ impl RequiredLoads {
     }
 }
 
-fn stacked(linear: &Vec3, angular: &Vec3) -> Vec6 {
+/// Six components of a motion: linear, then angular.
+pub(crate) fn stacked(linear: &Vec3, angular: &Vec3) -> Vec6 {
     Vec6::new(linear.x, linear.y, linear.z, angular.x, angular.y, angular.z)
 }

@@ -16,7 +16,7 @@ use funicular::robot::{PlatformMotion, Pose, Robot};
 const LATTICE: usize = 5;
 
 /// Maximum number of straight moves that a search examines: some ten seconds for a robot with eight sagging cables.
-const MOST_MOVES: usize = 1000;
+const MAX_MOVES: usize = 1000;
 
 rows! {
     /// Way from the pose of the state to the end of a move.
@@ -65,7 +65,7 @@ impl WayAround {
         let mut watched = |pose: &Pose| {
             if watch.is_cancelled() { Err(()) } else { rest_at(pose).map_err(|_| ()) }
         };
-        let found = around.free_way([&start, end], &candidates, MOST_MOVES, &mut watched);
+        let found = around.free_way([&start, end], &candidates, MAX_MOVES, &mut watched);
         if watch.is_cancelled() {
             return Err(Cancelled.into());
         }

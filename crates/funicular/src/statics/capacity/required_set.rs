@@ -2,7 +2,7 @@
 
 use crate::math::{Mat3, Mat6, Vec3, Vec6, skew};
 use crate::platform::{Coordinates, mass_matrix, wrench_of};
-use crate::robot::{LoadShape, Pose, RequiredLoads, Robot};
+use crate::robot::{LoadShape, Pose, RequiredLoads, Robot, stacked};
 
 /// Maximum number of loads that are tried one by one where all are wanted: each takes an equilibrium of some 50 µs.
 const MAX_TRIED: usize = 1024;
@@ -302,10 +302,6 @@ fn inertia_of_point(mass: f64, arm_w: &Vec3) -> Mat6 {
     put(3, 0, arm);
     put(3, 3, -arm * arm);
     matrix
-}
-
-fn stacked(linear: &Vec3, angular: &Vec3) -> Vec6 {
-    Vec6::new(linear.x, linear.y, linear.z, angular.x, angular.y, angular.z)
 }
 
 /// Both ends of an ascending range, or its only value.

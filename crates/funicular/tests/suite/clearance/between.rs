@@ -52,7 +52,7 @@ fn a_move_beside_balls_of_triangles_has_the_least_distances_of_samples() {
             assert!(clearance.distance >= least.distance - WAY_TOLERANCE, "{k}: {clearance:?} {least:?}");
         }
     }
-    // What is told is the distance at its place.
+    // Distances that are told are those at their places.
     for of in found.iter().filter(|of| of.least.pair.kind() == ClearanceKind::Obstacles) {
         let rest = resting(&robot)(&straight.pose(of.fraction)).unwrap();
         let there = of_pair(&around.clearances(&rest, None), of.least.pair);
