@@ -87,3 +87,15 @@ fn no_two_types_of_a_crate_have_one_name() {
     }
     assert!(shared.is_empty(), "give each type a name that says what it is:\n{}", shared.join("\n"));
 }
+
+/// Code and documents name equations by their numbers, so that a number means one equation.
+#[test]
+fn no_two_equations_of_the_theory_have_one_number() {
+    let theory = fs::read_to_string(root().join("../../docs/theory.md")).unwrap();
+    let mut numbers: Vec<&str> =
+        theory.split("\\tag{").skip(1).filter_map(|after| after.split_once('}')).map(|(number, _)| number).collect();
+    assert!(numbers.len() > 200, "{} equations", numbers.len());
+    numbers.sort_unstable();
+    let twice: Vec<&str> = numbers.windows(2).filter(|pair| pair[0] == pair[1]).map(|pair| pair[0]).collect();
+    assert!(twice.is_empty(), "give each equation a number of its own: {twice:?}");
+}
