@@ -32,6 +32,7 @@ pub mod analyses;
 pub mod at_rest;
 mod chosen_numbers;
 pub mod columns;
+mod differenced_goals;
 mod error;
 pub mod frequency_range;
 pub mod json;

@@ -195,6 +195,25 @@ pub(crate) static MIN_STIFFNESS: RobotMeasure = RobotMeasure {
     gradient: |at| at.min_stiffness(),
 };
 
+/// Largest multiple of the required loads that is held.
+static LOAD_FACTOR_MEASURE: RobotMeasure = RobotMeasure {
+    key: "load-factor",
+    name: "load factor",
+    column: "load_factor",
+    unit: "1",
+    // A map keeps what the other quantities of the required loads need as well.
+    quantity: None,
+    goal: Some(MeasureGoal { sign: 1.0, about: "Largest multiple of the required loads that is held" }),
+    value: |robot, rest| {
+        let capacity = LoadCapacity::at(robot, &rest.pose, rest.model, None).ok()?;
+        capacity.load_factor_value().ok()
+    },
+    gradient: |at| at.load_factor().map(|found| found.gradient),
+};
+
+/// The load factor as a measure of a robot.
+pub(crate) const LOAD_FACTOR: Measure = Measure::Robot(&LOAD_FACTOR_MEASURE);
+
 /// All groups, in the order of results.
 pub(crate) static MEASURES: [MeasureGroup; 10] = [
     MeasureGroup::Pose,
@@ -232,20 +251,7 @@ pub(crate) static MEASURES: [MeasureGroup; 10] = [
         gradient: |at| Ok(at.rope_mass()),
     }),
     MeasureGroup::Robot(&MIN_STIFFNESS),
-    MeasureGroup::Robot(&RobotMeasure {
-        key: "load-factor",
-        name: "load factor",
-        column: "load_factor",
-        unit: "1",
-        // A map keeps what the other quantities of the required loads need as well.
-        quantity: None,
-        goal: Some(MeasureGoal { sign: 1.0, about: "Largest multiple of the required loads that is held" }),
-        value: |robot, rest| {
-            let capacity = LoadCapacity::at(robot, &rest.pose, rest.model, None).ok()?;
-            capacity.load_factor_value().ok()
-        },
-        gradient: |at| at.load_factor().map(|found| found.gradient),
-    }),
+    MeasureGroup::Robot(&LOAD_FACTOR_MEASURE),
     MeasureGroup::Frequencies,
     MeasureGroup::Damping,
     MeasureGroup::Response,

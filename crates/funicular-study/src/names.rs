@@ -1,15 +1,17 @@
 //! Names of models, rules and terms in requests, on the command line and in Python.
 
+use crate::differenced_goals::{DIFFERENCED, DifferencedGoal};
 use crate::measure::{MEASURES, MIN_STIFFNESS, Measure, MeasureGoal, MeasureGroup, RobotMeasure};
 use funicular::cable::CableModel;
 use funicular::dynamics::Assembly;
 use funicular::gradient::Hold;
 use funicular::math::chosen_rows::RowCriterion;
 use funicular::path::CourseForm;
-use funicular::robot::{LoadShape, TurbulenceSpectrum, WinchMode};
+use funicular::robot::{LoadShape, Robot, TurbulenceSpectrum, WinchMode};
 use funicular::statics::{StaticModel, TensionRule};
 use funicular::suggest::nearest;
 use serde::{Deserialize, Deserializer, Serializer};
+use serde_json::{Value, json};
 
 /// Closed set of choices, each with a name.
 pub trait Named: Copy + PartialEq + Sized + 'static {
@@ -330,6 +332,10 @@ pub enum DesignGoal {
     Stiffness,
     /// Best value of a measure of the robot at rest.
     Measure(GoalMeasure),
+    /// Best value of what has no derivatives of its own.
+    Differenced(&'static DifferencedGoal),
+    /// Most poses at which the required loads are held.
+    Workspace,
 }
 
 /// Measure of the robot at rest with its goal.
@@ -341,12 +347,27 @@ pub struct GoalMeasure {
 }
 
 impl DesignGoal {
-    /// Number that improves; with [`Self::Platform`] that of the platform on the static stiffness of its cables.
-    pub(crate) fn measure(self) -> Measure {
+    /// Number that improves, with derivatives of its own; with [`Self::Platform`] that of the platform on the static
+    /// stiffness of its cables.
+    pub(crate) fn measure(self) -> Option<Measure> {
         match self {
-            Self::First | Self::Platform => Measure::Frequency(0),
-            Self::Stiffness => Measure::Robot(&MIN_STIFFNESS),
-            Self::Measure(of) => Measure::Robot(of.measure),
+            Self::First | Self::Platform => Some(Measure::Frequency(0)),
+            Self::Stiffness => Some(Measure::Robot(&MIN_STIFFNESS)),
+            Self::Measure(of) => Some(of.measure()),
+            Self::Differenced(_) | Self::Workspace => None,
+        }
+    }
+
+    /// Identity of the number that improves, as data.
+    pub(crate) fn identity(self, robot: &Robot) -> Value {
+        self.measure().map_or_else(|| json!({ "kind": self.name() }), |measure| measure.identity(robot))
+    }
+
+    /// Unit of the number that improves.
+    pub(crate) fn unit(self) -> &'static str {
+        match self {
+            Self::Differenced(of) => of.unit,
+            goal => goal.measure().map_or("1", Measure::unit),
         }
     }
 
@@ -357,21 +378,24 @@ impl DesignGoal {
             Self::Platform => "first natural frequency of the platform",
             Self::Stiffness => MIN_STIFFNESS.name,
             Self::Measure(of) => of.measure.name,
+            Self::Differenced(of) => of.name,
+            Self::Workspace => "share of the poses at which the required loads are held",
         }
     }
 
     /// Sign of an improvement.
     pub(crate) fn sign(self) -> f64 {
         match self {
-            Self::First | Self::Platform | Self::Stiffness => 1.0,
+            Self::First | Self::Platform | Self::Stiffness | Self::Workspace => 1.0,
             Self::Measure(of) => of.sign,
+            Self::Differenced(of) => of.sign,
         }
     }
 }
 
-/// Number of goals: three with a search of their own, and those of measures.
+/// Number of goals: four with a search of their own, those of differences, and those of measures.
 const GOAL_COUNT: usize = {
-    let (mut count, mut i) = (3, 0);
+    let (mut count, mut i) = (4 + DIFFERENCED.len(), 0);
     while i < MEASURES.len() {
         count += GoalMeasure::of(&MEASURES[i]).is_some() as usize;
         i += 1;
@@ -391,10 +415,26 @@ static GOALS: [DesignGoal; GOAL_COUNT] = {
         }
         i += 1;
     }
+    i = 0;
+    while i < DIFFERENCED.len() {
+        goals[count + i] = DesignGoal::Differenced(&DIFFERENCED[i]);
+        i += 1;
+    }
+    goals[count + i] = DesignGoal::Workspace;
     goals
 };
 
 impl GoalMeasure {
+    /// Number that improves.
+    pub(crate) fn measure(self) -> Measure {
+        Measure::Robot(self.measure)
+    }
+
+    /// Sign of an improvement.
+    pub(crate) fn sign(self) -> f64 {
+        self.sign
+    }
+
     /// Goal of a group of measures, if it has one.
     const fn of(group: &MeasureGroup) -> Option<Self> {
         match group {
@@ -417,6 +457,8 @@ impl Named for DesignGoal {
             Self::Platform => "platform",
             Self::Stiffness => MIN_STIFFNESS.key,
             Self::Measure(of) => of.measure.key,
+            Self::Differenced(of) => of.key,
+            Self::Workspace => "workspace",
         }
     }
 
@@ -426,6 +468,8 @@ impl Named for DesignGoal {
             Self::Platform => "Highest first natural frequency of the platform on the static stiffness of its cables",
             Self::Stiffness => "Highest minimum stiffness, as `statics` prints it",
             Self::Measure(of) => of.about,
+            Self::Differenced(of) => of.about,
+            Self::Workspace => "Most of the poses at which the required loads are held",
         }
     }
 }

@@ -30,7 +30,7 @@ mod winches;
 mod workspace;
 
 pub use calibrate::{CalibrateRequest, PriorValue};
-pub use design::{ChangeValue, DesignRequest};
+pub use design::{ChangeValue, DesignRequest, OfferedRope};
 pub use files::{ExportRequest, ImportRequest, NewRequest, SchemaRequest, TABLE_TOLERANCE_M};
 pub use given::check_given;
 pub(crate) use given::{check_scenario, read};

@@ -1,7 +1,7 @@
 //! Calibration from lengths whose poses are unknown: anchors, attachments, offsets and scale of the readings, and what
 //! else lies between them, found together with the pose of every row.
 //!
-//! The equations (96a) to (96k) are in section 18d of docs/theory.md. Straight rigid cables: a row of readings has more
+//! The equations (96a) to (96n) are in section 18d of docs/theory.md. Straight rigid cables: a row of readings has more
 //! cables than its pose has degrees of freedom; what is left of it after its pose is eliminated, its net rows, says
 //! something about the robot. Elastic cables have a true length each in every row, so that tensions or coordinates have
 //! to be measured as well.
@@ -21,6 +21,7 @@ mod proposal;
 mod row;
 mod search;
 mod spread;
+mod tool;
 mod unknowns;
 mod weak;
 mod wrong_rows;
@@ -32,9 +33,10 @@ pub use frame::{CalibrationFrame, FrameChoice};
 pub use from_nothing::anchors_from_lengths;
 pub use mirror::{OtherMinimum, TellingRow};
 pub use precision::{AnchorDistance, CalibrationPrecision, LeftOutRow};
-pub use proposal::{CandidatePose, ProposedPose, proposals};
+pub use proposal::{CandidatePose, ProposalAim, ProposedPose, proposals};
 pub use row::{MeasuredRow, ReadingDeviations};
 pub use search::{CalibrationSearch, search};
+pub use tool::{ToolDeviation, ToolRows};
 pub use unknowns::{CalibratedRobot, CalibrationUnknown};
 pub use weak::{CombinationPart, WeakCombination};
 pub use wrong_rows::{WrongRow, wrong_rows};

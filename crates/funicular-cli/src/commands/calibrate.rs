@@ -4,7 +4,7 @@ use super::profile_table::{Profiled, profiles};
 use crate::output::Printed;
 use crate::table::{Table, counted, significant};
 use funicular_study::analyses::calibrate::{
-    Calibrated, CalibratedValue, DistanceRow, LeftOut, ProposalRow, ReadingRow,
+    Calibrated, CalibratedValue, DistanceRow, LeftOut, ProposalRow, ReadingRow, ToolRow,
 };
 use std::fmt::Write as _;
 
@@ -44,6 +44,16 @@ impl Printed for Calibrated {
                 Table::of(&DistanceRow::columns(), &self.distances)
             );
         }
+        if let Some(accuracy) = &self.accuracy {
+            let _ = writeln!(
+                text,
+                "\nAccuracy of the tool in this frame, with the readings of the calibrated values\n{}",
+                Table::of(&ToolRow::columns(self.turns), &accuracy.poses)
+            );
+            for sentence in accuracy.sentences() {
+                let _ = writeln!(text, "{sentence}.");
+            }
+        }
         text += &weak(self);
         let _ = write!(text, "\nRows\n{}\n", Table::of(&ReadingRow::columns(self.turns), &self.rows));
         let _ = writeln!(text, "{} of {} arrived at this minimum.", self.arrivals, counted(self.starts, "start"));
@@ -68,7 +78,7 @@ impl Printed for Calibrated {
             let _ = write!(
                 text,
                 "\nPoses to measure next, one after the other\n{}",
-                Table::of(&ProposalRow::columns(self.turns, has_rules), &self.proposals)
+                Table::of(&ProposalRow::columns(self.turns, has_rules, self.accuracy.is_some()), &self.proposals)
             );
         }
         if let Some(LeftOut { candidates, by_tensions, by_clearance }) = self.left_out {

@@ -2,7 +2,7 @@
 
 use crate::output::Printed;
 use crate::table::{Table, counted, significant};
-use funicular_study::analyses::design::{ChosenValue, DemandRow, Designed};
+use funicular_study::analyses::design::{ChangeGain, ChosenValue, DemandRow, Designed, RopeTried};
 use funicular_study::text::{titled, with_unit};
 use std::fmt::Write as _;
 
@@ -29,6 +29,12 @@ impl Printed for Designed {
             let _ = write!(text, "\n{}", Table::of(&DemandRow::columns(), &self.demands));
         }
         let _ = write!(text, "\n{}", Table::of(&ChosenValue::columns(), &self.values));
+        if self.gains.len() > 1 {
+            let _ = write!(text, "\n{}", Table::of(&ChangeGain::columns(), &self.gains));
+        }
+        if !self.ropes.is_empty() {
+            let _ = write!(text, "\n{}", Table::of(&RopeTried::columns(), &self.ropes));
+        }
         text
     }
 }

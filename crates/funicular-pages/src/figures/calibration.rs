@@ -5,12 +5,15 @@ use super::chart::{Chart, Entry, Layer, Panel, Sample};
 use super::drawing::Stroke;
 use super::style::{AXIS_WIDTH, GREY, Symbol, SymbolShape};
 use crate::figure_style::{colour, rgb};
-use funicular_study::analyses::calibrate::{AnchorRow, Calibrated};
+use funicular_study::analyses::calibrate::{AnchorRow, Calibrated, ToolRow};
 use funicular_study::text::significant;
 use std::f64::consts::TAU;
 
 /// Number of points of an ellipse.
 const POINTS: u32 = 72;
+
+/// Width of the ellipses of the tool [pt].
+const TOOL_WIDTH: f64 = 0.6;
 
 /// View along a world axis.
 pub(crate) struct AxisView {
@@ -27,9 +30,33 @@ pub(crate) fn views(found: &Calibrated) -> Vec<AxisView> {
     }
 }
 
-/// Ellipse of two deviations of an anchor in a view, larger by a factor; empty without deviations.
-pub(crate) fn ellipse(anchor: &AnchorRow, [a, b]: [usize; 2], scale: f64) -> Vec<(f64, f64)> {
-    let Some(covariance) = anchor.covariance_m2 else { return Vec::new() };
+/// Point with a covariance, as two deviations in a view.
+pub(crate) struct UncertainPoint {
+    position_m: [f64; 3],
+    covariance_m2: Option<[[f64; 3]; 3]>,
+}
+
+impl From<&AnchorRow> for UncertainPoint {
+    fn from(row: &AnchorRow) -> Self {
+        Self { position_m: row.position_m, covariance_m2: row.covariance_m2 }
+    }
+}
+
+impl From<&ToolRow> for UncertainPoint {
+    fn from(row: &ToolRow) -> Self {
+        Self { position_m: row.position_m, covariance_m2: Some(row.covariance_m2) }
+    }
+}
+
+/// Poses of the accuracy of the tool.
+pub(crate) fn tool_rows(found: &Calibrated) -> &[ToolRow] {
+    found.accuracy.as_ref().map_or(&[], |accuracy| &accuracy.poses)
+}
+
+/// Ellipse of two deviations in a view, larger by a factor; empty without deviations.
+pub(crate) fn ellipse(of: impl Into<UncertainPoint>, [a, b]: [usize; 2], scale: f64) -> Vec<(f64, f64)> {
+    let UncertainPoint { position_m, covariance_m2 } = of.into();
+    let Some(covariance) = covariance_m2 else { return Vec::new() };
     // Lower Cholesky factor of the covariance in the view: it maps the unit circle to the ellipse.
     let l11 = covariance[a][a].max(0.0).sqrt();
     let l21 = if l11 > 0.0 { covariance[a][b] / l11 } else { 0.0 };
@@ -37,7 +64,7 @@ pub(crate) fn ellipse(anchor: &AnchorRow, [a, b]: [usize; 2], scale: f64) -> Vec
     let point = |k: u32| {
         let (sine, cosine) = (TAU * f64::from(k) / f64::from(POINTS)).sin_cos();
         let half = 2.0 * scale;
-        (anchor.position_m[a] + half * l11 * cosine, anchor.position_m[b] + half * (l21 * cosine + l22 * sine))
+        (position_m[a] + half * l11 * cosine, position_m[b] + half * (l21 * cosine + l22 * sine))
     };
     (0..=POINTS).map(point).collect()
 }
@@ -61,6 +88,10 @@ pub(super) fn chart(found: &Calibrated) -> Chart {
         },
         Entry { text: "rows".to_owned(), sample: symbol(SymbolShape::Circle, colour::GREEN) },
     ];
+    if found.accuracy.is_some() {
+        let sample = Sample::Line(Stroke::solid(rgb(colour::ORANGE), TOOL_WIDTH));
+        legend.push(Entry { text: "tool, as large".to_owned(), sample });
+    }
     if !found.proposals.is_empty() {
         let text = "to measure next".to_owned();
         legend.push(Entry { text, sample: symbol(SymbolShape::Diamond, colour::PURPLE) });
@@ -86,7 +117,8 @@ fn range(found: &Calibrated, axis: usize) -> (f64, f64) {
     let anchors = found.anchors.iter().flat_map(|row| [row.position_m[axis], row.start_m[axis]]);
     let rows = found.rows.iter().map(|row| row.position_m[axis]);
     let proposed = found.proposals.iter().map(|row| row.position_m[axis]);
-    let all = anchors.chain(rows).chain(proposed);
+    let tool = tool_rows(found).iter().map(|row| row.position_m[axis]);
+    let all = anchors.chain(rows).chain(proposed).chain(tool);
     let (low, high) = all.fold((f64::MAX, f64::MIN), |(low, high), x| (low.min(x), high.max(x)));
     let beside = BESIDE * (high - low).max(f64::MIN_POSITIVE);
     (low - beside, high + beside)
@@ -117,6 +149,10 @@ fn panel(found: &Calibrated, view: &AxisView, scale: f64) -> Panel {
             let stroke = Stroke::solid(rgb(colour::VERMILION), 1.2);
             layers.push(Layer::Line { points: vec![end(-1.0), end(1.0)], stroke });
         }
+    }
+    for row in tool_rows(found) {
+        let stroke = Stroke::solid(rgb(colour::ORANGE), TOOL_WIDTH);
+        layers.push(Layer::Line { points: ellipse(row, view.axes, scale), stroke });
     }
     let starts = found.anchors.iter().map(|row| at(row.start_m)).collect();
     layers.push(symbols(starts, SymbolShape::HollowCircle, colour::BLACK));

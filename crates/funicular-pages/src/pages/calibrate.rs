@@ -3,10 +3,12 @@
 use super::Shell;
 use super::figure::{PageFigure, axis, cable_line_style, colour, line, plain, points, with};
 use super::table::PageTable;
-use crate::figures::calibration::{AxisView, ellipse, views};
+use crate::figures::calibration::{AxisView, ellipse, tool_rows, views};
 use anyhow::Context as _;
 use askama::Template;
-use funicular_study::analyses::calibrate::{Calibrated, CalibratedValue, DistanceRow, ProposalRow, ReadingRow};
+use funicular_study::analyses::calibrate::{
+    Calibrated, CalibratedValue, DistanceRow, ProposalRow, ReadingRow, ToolRow,
+};
 use funicular_study::text::significant;
 use serde_json::{Value, json};
 
@@ -14,6 +16,7 @@ const CONTENTS: &[(&str, &str)] = &[
     ("anchors", "Anchors"),
     ("rows", "Rows"),
     ("precision", "Precision"),
+    ("accuracy", "Accuracy of the tool"),
     ("proposals", "What to measure next"),
     ("repeat", "How to repeat"),
 ];
@@ -31,6 +34,8 @@ struct CalibratePage<'a> {
     /// Linear equations of the rows, for the script of the page.
     refit: String,
     weak: Vec<String>,
+    /// Sentences on the accuracy of the tool, with their table.
+    accuracy: Option<(Vec<String>, PageTable)>,
     proposals: Option<PageTable>,
     script: &'static str,
     command_line: String,
@@ -59,8 +64,14 @@ pub fn page(found: &Calibrated, command_line: String) -> anyhow::Result<String> 
         // No `<` ends the script element that holds it.
         refit: serde_json::to_string(&found.refit_data())?.replace('<', "\\u003c"),
         weak: weak(found),
+        accuracy: found.accuracy.as_ref().map(|accuracy| {
+            let about = "Deviations of the platform in the frame of the values.";
+            let table = PageTable::of("table-accuracy", about, &ToolRow::columns(found.turns), &accuracy.poses);
+            (accuracy.sentences(), table)
+        }),
         proposals: (!found.proposals.is_empty()).then(|| {
-            PageTable::of("table-proposals", proposed, &ProposalRow::columns(found.turns, has_rules), &found.proposals)
+            let columns = ProposalRow::columns(found.turns, has_rules, found.accuracy.is_some());
+            PageTable::of("table-proposals", proposed, &columns, &found.proposals)
         }),
         script: concat!(include_str!("../../templates/refit.js"), include_str!("../../templates/calibrate.js")),
         command_line,
@@ -91,6 +102,11 @@ fn figure(found: &Calibrated, view: &AxisView, number: usize) -> PageFigure {
             let more = json!({ "legendgroup": "weakest", "showlegend": i == 0 });
             data.push(with(line("weakest combination", &x, &y, colour::VERMILION, "solid"), more));
         }
+    }
+    for (i, row) in tool_rows(found).iter().enumerate() {
+        let (x, y): (Vec<f64>, Vec<f64>) = ellipse(row, view.axes, scale).into_iter().unzip();
+        let more = json!({ "legendgroup": "tool", "showlegend": i == 0 });
+        data.push(with(line("tool, 2 deviations", &x, &y, colour::ORANGE, "solid"), more));
     }
     let (x, y) = of(&mut found.rows.iter().map(|row| row.position_m));
     data.push(points("rows", &x, &y, colour::GREEN, "circle"));

@@ -3,6 +3,7 @@
 //! docs/theory.md, section 18d, has the equations. `identify` takes measured results of states that are known; here
 //! every row brings its own unknown pose.
 
+mod accuracy;
 mod caveats;
 mod choice;
 mod drawn;
@@ -14,12 +15,14 @@ mod table;
 mod words;
 mod wrong;
 
+pub use accuracy::{HalvingRow, ToolAccuracy, ToolRow};
 pub use drawn::{AnchorRow, LinearRows, NetRows};
 pub use rows::LeftOut;
 pub use rows::{CableResidual, CalibratedValue, DistanceRow, MinimumRow, ProposalRow, ReadingRow, Walk, WeakRow};
 pub use table::check as check_readings;
 
-use super::{candidate_poses, found};
+use super::candidate_poses::{self, Candidates};
+use super::found;
 use crate::Watch;
 use crate::columns::{ResultTable, Tabled};
 use crate::error::{Cancelled, NoSolution};
@@ -46,6 +49,9 @@ const ASSUMED_DEVIATION: f64 = 1e-3;
 /// Names of the unknowns.
 pub const UNKNOWNS: [&str; 8] =
     ["anchors", "attachments", "offsets", "scale", "pulley-radii", "axial-stiffness", "mass", "support-stiffness"];
+
+/// Name of the platform's position in ⟪propose_for⟫.
+const TOOL: &str = "tool";
 
 /// Name of the inner frame.
 const INNER: &str = "inner";
@@ -77,6 +83,8 @@ rows! {
         /// Least number of proposed poses that reaches the wanted deviation; absent if none was wanted or no number
         /// does.
         pub poses_needed: Option<usize>;
+        /// Accuracy of the tool; absent if none was asked for, or if the readings do not tell it.
+        pub accuracy: Option<ToolAccuracy>;
         /// Sum of the squares of the residuals, divided by the deviations of the data.
         pub chi2: f64;
         /// Number of readings and measured coordinates.
@@ -144,15 +152,21 @@ pub fn run(request: &CalibrateRequest, watch: &mut dyn Watch) -> Result<Calibrat
     let is_proposed = request.propose > 0 || request.wanted_std_m.is_some();
     let needs = (is_proposed, "⟪propose⟫ or ⟪wanted_std_m⟫");
     let candidates = candidate_poses::wanted(needs, &request.grid, request.poses.as_ref(), &robot)?;
+    let keys = ["accuracy_grid", "accuracy_poses"];
+    let tool = candidate_poses::given(keys, &request.accuracy_grid, request.accuracy_poses.as_ref(), &robot)?;
+    if is_for_tool(request) && matches!(tool, Candidates::None) {
+        bail!("⟪propose_for⟫ {TOOL} needs the poses where the tool is used: give ⟪accuracy_grid⟫ or ⟪accuracy_poses⟫");
+    }
 
     // Unknowns and frame.
     let unknowns = unknowns(request, &robot)?;
-    for (key, names) in [("profile", &request.profile), ("propose_for", &request.propose_for)] {
-        choice::all_chosen(key, names, &unknowns, &robot)?;
-    }
-    let proposed_for = choice::all_chosen("propose_for", &request.propose_for, &unknowns, &robot)?;
-    let is_chosen = |k: usize| request.propose_for.is_empty() || proposed_for[k];
-    if request.wanted_std_m.is_some() && !(0..unknowns.len()).any(|k| is_chosen(k) && unknowns[k].is_length()) {
+    choice::all_chosen("profile", &request.profile, &unknowns, &robot)?;
+    let proposed_for = choice::proposed_for(request, &unknowns, &robot)?;
+    let is_chosen = |k: usize| proposed_for[k];
+    if !is_for_tool(request)
+        && request.wanted_std_m.is_some()
+        && !(0..unknowns.len()).any(|k| is_chosen(k) && unknowns[k].is_length())
+    {
         bail!("⟪wanted_std_m⟫ is a length, and none of the chosen values is one: leave it out, or name lengths");
     }
     let deviations = ReadingDeviations {
@@ -180,10 +194,15 @@ pub fn run(request: &CalibrateRequest, watch: &mut dyn Watch) -> Result<Calibrat
     }
     let found = found.ok_or_else(|| NoSolution(CalibrationError::NoMinimum { starts: request.starts }.to_string()))?;
 
-    let report = CalibrationReport::new(request, &of, &numbers, &frame, &found, &candidates)?;
+    let report = CalibrationReport::new(request, &of, &numbers, &frame, &found, [&candidates, &tool])?;
     let mut results = report.results(watch)?;
     results.warnings = caveats::warnings(&report, &results);
     Ok(results)
+}
+
+/// True if a proposal reduces the deviation of the platform.
+fn is_for_tool(request: &CalibrateRequest) -> bool {
+    request.propose_for.iter().any(|name| name == TOOL)
 }
 
 /// Refuses a reading that is no length, unless an unknown offset makes it one.

@@ -33,6 +33,30 @@ pub(crate) fn wanted(
     given_poses: Option<&Vec<[f64; 6]>>,
     robot: &Robot,
 ) -> Result<Candidates> {
+    of_keys((is_wanted, needs), ["grid", "poses"], given_grid, given_poses, robot)
+}
+
+/// Poses that a request gives by other keys than those of a proposal: a grid or a list, or none.
+///
+/// # Errors
+/// Both of them, an axis that does not exist or is there twice, or a pose that the platform cannot have.
+pub(crate) fn given(
+    keys: [&str; 2],
+    given_grid: &[Axis],
+    given_poses: Option<&Vec<[f64; 6]>>,
+    robot: &Robot,
+) -> Result<Candidates> {
+    let is_given = !given_grid.is_empty() || given_poses.is_some();
+    of_keys((is_given, ""), keys, given_grid, given_poses, robot)
+}
+
+fn of_keys(
+    (is_wanted, needs): (bool, &str),
+    [grid_key, poses_key]: [&str; 2],
+    given_grid: &[Axis],
+    given_poses: Option<&Vec<[f64; 6]>>,
+    robot: &Robot,
+) -> Result<Candidates> {
     if !is_wanted {
         if !given_grid.is_empty() || given_poses.is_some() {
             bail!("candidates need a number of poses: give {needs}");
@@ -40,7 +64,7 @@ pub(crate) fn wanted(
         return Ok(Candidates::None);
     }
     match (given_poses, given_grid.is_empty()) {
-        (Some(_), false) => bail!("⟪poses⟫ and ⟪grid⟫ are both given: leave out one of them"),
+        (Some(_), false) => bail!("⟪{poses_key}⟫ and ⟪{grid_key}⟫ are both given: leave out one of them"),
         (None, true) => bail!("a proposal needs candidates: give their ⟪grid⟫ or a list of ⟪poses⟫"),
         (Some(poses), true) => {
             let pose = |[x, y, z, roll, pitch, yaw]: &[f64; 6]| Pose::new([*x, *y, *z], [*roll, *pitch, *yaw]);
@@ -48,11 +72,11 @@ pub(crate) fn wanted(
             poses.iter().try_for_each(|pose| check_pose(robot, pose))?;
             Ok(Candidates::Poses(poses))
         }
-        (None, false) => grid(given_grid),
+        (None, false) => grid(grid_key, given_grid),
     }
 }
 
-fn grid(given: &[Axis]) -> Result<Candidates> {
+fn grid(key: &str, given: &[Axis]) -> Result<Candidates> {
     let mut values: [Vec<f64>; 6] = Default::default();
     let known = AXES.map(str::to_owned);
     for axis in given {
@@ -60,19 +84,19 @@ fn grid(given: &[Axis]) -> Result<Candidates> {
         let place = AXES
             .iter()
             .position(|of| *of == name)
-            .ok_or_else(|| anyhow!("⟪grid⟫: there is no axis `{name}`{}", suggestion(name, &known)))?;
+            .ok_or_else(|| anyhow!("⟪{key}⟫: there is no axis `{name}`{}", suggestion(name, &known)))?;
         if !values[place].is_empty() {
-            bail!("⟪grid⟫: the axis {name} is there twice");
+            bail!("⟪{key}⟫: the axis {name} is there twice");
         }
-        let steps = axis.steps().map_err(|reason| anyhow!("⟪grid⟫ {name}: {reason}"))?;
+        let steps = axis.steps().map_err(|reason| anyhow!("⟪{key}⟫ {name}: {reason}"))?;
         if steps.count() > MAX_CANDIDATES {
-            bail!("⟪grid⟫ {name} has {} values: give at most {MAX_CANDIDATES}", steps.count());
+            bail!("⟪{key}⟫ {name} has {} values: give at most {MAX_CANDIDATES}", steps.count());
         }
         values[place] = (0..steps.count()).map(|k| steps.at(k)).collect();
     }
     let count = values.iter().fold(1_usize, |count, of| count.saturating_mul(of.len().max(1)));
     if count > MAX_CANDIDATES {
-        bail!("⟪grid⟫ has {count} candidates: give at most {MAX_CANDIDATES}");
+        bail!("⟪{key}⟫ has {count} candidates: give at most {MAX_CANDIDATES}");
     }
     Ok(Candidates::Grid(values))
 }

@@ -2,32 +2,41 @@
 
 mod at_poses;
 mod band;
+mod choices;
+mod cures;
+mod differences;
 mod report;
 mod rows;
 mod search;
 mod variables;
 
-pub use report::{ChosenValue, DemandRow, DesignPose};
+pub use choices::{ExchangeRow, RopeTried};
+pub use report::{ChangeGain, ChosenValue, DemandRow, DesignPose};
 
-use super::found;
 use super::shared::Models;
+use super::{candidate_poses, found};
 use crate::Watch;
+use crate::at_rest::AtRest;
 use crate::columns::{ResultTable, Tabled};
 use crate::error::{Cancelled, NoSolution};
 use crate::names::{DesignGoal, Named};
-use crate::request::{self, DesignRequest};
+use crate::request::{self, ChangeValue, DesignRequest};
 use crate::rows::rows;
 use crate::table::Column;
 use crate::text::counted;
 use anyhow::{Result, anyhow, bail};
-use at_poses::RobotAtPoses;
+use at_poses::{RobotAtPoses, is_no_solution};
 use band::SidesTried;
+use choices::{best_rope, exchanges_in_words, reconnected};
+use cures::cures;
 use funicular::math::max_min::{Goal, MaxMinEnding, Settings};
+use funicular::math::rotation;
 use funicular::robot::parameters::Parameters;
-use funicular::robot::{Robot, State};
+use funicular::robot::{Pose, Robot, State};
+use funicular::statics::LoadCapacity;
 use report::DesignReport;
 use rows::{Evaluated, linearisation_of_goal};
-use search::{DesignSearch, SearchResult, TOLERANCE, try_other_sides};
+use search::{DesignSearch, SearchResult, TOLERANCE, Tried, try_other_sides};
 use serde_json::Value;
 use variables::{Variable, rounded, variables};
 
@@ -57,6 +66,12 @@ rows! {
         pub poses: Vec<DesignPose>;
         /// Chosen values.
         pub values: Vec<ChosenValue>;
+        /// Part of the gain of each entry of the changes.
+        pub gains: Vec<ChangeGain>;
+        /// Ropes that were tried.
+        pub ropes: Vec<RopeTried> = sparse;
+        /// Exchanges of attachments.
+        pub exchanges: Vec<ExchangeRow> = sparse;
         /// Demands, each at the pose where it is met least.
         pub demands: Vec<DemandRow> = sparse;
         /// Choices of the sides to which frequencies leave the band, if there were several.
@@ -93,64 +108,240 @@ found!(Designed, "design");
 /// Chooses values of a robot file.
 ///
 /// # Errors
-/// A request that contradicts itself or the robot; a pose without equilibrium; demands that no values within the bounds
-/// meet, with those that were reached; work that was stopped before its first step.
+/// A request that contradicts itself or the robot; a pose without equilibrium, with what would cure it; demands that no
+/// values within the bounds meet, with those that were reached; work that was stopped before its first step.
 pub fn run(request: &DesignRequest, watch: &mut dyn Watch) -> Result<Designed> {
     check(request)?;
+    // The robot of the file, whose errors are the user's.
     let file = request.robot.read()?;
     let parameters = Parameters::from_toml(&file.text).map_err(|error| anyhow!("{error}"))?;
-    let variables = &variables(&parameters, &request.change)?;
-    let poses = &RobotAtPoses::new(request, variables, request.robot.changed_text()?);
+    let listed = listed_poses(request, parameters.robot())?;
+    check_weights(request, listed.as_ref().map_or(1, Vec::len))?;
+    let mut run = DesignRun { request, listed, watch };
 
-    // The robot of the file, whose errors are the user's.
-    let start: Vec<f64> = variables.iter().map(|variable| variable.start).collect();
-    let first = poses.at_rest(parameters.robot().clone(), 0)?;
-    let models = Models::of(&first, linearisation_of_goal(request, first.equilibrium.model));
-    check_robot(&first.robot)?;
-    let before = &poses.evaluate(&start, &[])?;
-    if watch.is_cancelled() {
-        return Err(Cancelled.into());
+    let text = request.robot.changed_text()?;
+    let (text, exchanges) = if request.reconnect { reconnected(&mut run, text)? } else { (text, Vec::new()) };
+    let (chosen, ropes) = match &request.ropes {
+        Some(ropes) => best_rope(&mut run, &text, ropes)?,
+        None => (run.search(text)?, Vec::new()),
+    };
+    run.results(&chosen, exchanges, ropes)
+}
+
+/// Poses of a list or a grid; `None` for the pose of the state.
+fn listed_poses(request: &DesignRequest, robot: &Robot) -> Result<Option<Vec<[f64; 6]>>> {
+    if request.grid.is_empty() {
+        return Ok(request.poses.clone());
+    }
+    let middle = match (&request.state.pose, &robot.state) {
+        (Some(pose), _) => pose.to_robot()?,
+        (None, State::Pose(pose)) => *pose,
+        (None, _) => Pose::new([0.0; 3], [0.0; 3]),
+    };
+    let given = candidate_poses::given(["grid", "poses"], &request.grid, request.poses.as_ref(), robot)?;
+    let row = |pose: &Pose| {
+        let ([x, y, z], [roll, pitch, yaw]) = (pose.position_w.into(), rotation::to_roll_pitch_yaw_deg(&pose.rot_wp));
+        [x, y, z, roll, pitch, yaw]
+    };
+    Ok(Some(given.poses(robot, &middle)?.iter().map(row).collect()))
+}
+
+/// Searches of a request.
+struct DesignRun<'a> {
+    request: &'a DesignRequest,
+    /// Poses of a list or grid.
+    listed: Option<Vec<[f64; 6]>>,
+    watch: &'a mut dyn Watch,
+}
+
+/// Values that a search has chosen for a robot file.
+struct Chosen {
+    /// Text of the file with the values before.
+    text: String,
+    variables: Vec<Variable>,
+    settings: Settings,
+    before: Evaluated,
+    after: Evaluated,
+    result: SearchResult,
+    tried: Tried,
+}
+
+impl Chosen {
+    /// Value of the goal, larger for a better one.
+    fn value(&self) -> f64 {
+        self.settings.goal.value(&self.after.evaluation)
+    }
+}
+
+impl DesignRun<'_> {
+    /// Robots with values of this text at the poses.
+    fn at_poses<'b>(&'b self, text: &str, variables: &'b [Variable]) -> RobotAtPoses<'b> {
+        RobotAtPoses::new(self.request, variables, text.to_owned(), self.listed.clone())
     }
 
-    // The search, by the nearer sides of a band, then by other sides.
-    let settings = settings(request, variables);
-    let mut search = DesignSearch::new(request, poses, watch, before.evaluation.clone());
-    let nearer = search.run(&start, &settings).ok_or_else(|| anyhow!("the start has no results"))?;
-    let (mut chosen, tried) = try_other_sides(nearer, before, &mut search, (&start, &settings));
-    for (value, [low, high]) in chosen.found.x.iter_mut().zip(&settings.bounds) {
-        *value = rounded(*value).clamp(*low, *high);
+    /// Value of the goal with the values of a text, larger for a better one.
+    fn start_value(&self, text: &str) -> Result<f64> {
+        let parameters = Parameters::from_toml(text).map_err(|error| anyhow!("{error}"))?;
+        let variables = variables(&parameters, &self.request.change)?;
+        let start: Vec<f64> = variables.iter().map(|variable| variable.start).collect();
+        let evaluated = self.at_poses(text, &variables).evaluate(&start, &[])?;
+        Ok(settings(self.request, &variables).goal.value(&evaluated.evaluation))
     }
 
-    let after = &poses.evaluate(&chosen.found.x, &chosen.sides)?;
-    let (found, tried) = (&chosen.found, &tried);
-    let report = DesignReport { request, poses, variables, found, tried, before, after };
-    if !chosen.is_met() {
-        return Err(NoSolution(report.unmet()).into());
+    /// Robot at rest at the first pose that is held.
+    fn first_at_rest(&self, robot: Robot) -> Result<AtRest> {
+        let poses = self.at_poses("", &[]);
+        let mut first = poses.at_rest(robot.clone(), 0);
+        for pose in 1..poses.count() {
+            match &first {
+                Err(error) if poses.may_lose(error) => first = poses.at_rest(robot.clone(), pose),
+                _ => break,
+            }
+        }
+        first
     }
-    let warnings = warnings(request, poses, &chosen, after)?;
-    let goal_of = |evaluated: &Evaluated| request.goal.sign() * settings.goal.value(&evaluated.evaluation);
-    Ok(Designed {
-        robot: parameters.robot().name.clone(),
-        models,
-        goal: request.goal.name(),
-        goal_means: report.goal_means(),
-        measure: request.goal.measure().identity(parameters.robot()),
-        unit: request.goal.measure().unit(),
-        before: goal_of(before),
-        after: goal_of(after),
-        poses: report.pose_rows()?,
-        values: report.values(),
-        demands: report.demands(),
-        converged: found.ending == MaxMinEnding::Converged,
-        ending: report.ending(),
-        iterations: found.iterations,
-        evaluations: tried.evaluations,
-        limits: report.limits(),
-        robot_file: poses.text_with(&found.x)?,
-        band_sides: tried.sides.clone(),
-        history: chosen.history,
-        warnings,
-    })
+
+    /// Search for the best values of a text, by the nearer sides of a band, then by other sides.
+    ///
+    /// # Errors
+    /// As [`run`].
+    fn search(&mut self, text: String) -> Result<Chosen> {
+        let request = self.request;
+        let parameters = Parameters::from_toml(&text).map_err(|error| anyhow!("{error}"))?;
+        let variables = variables(&parameters, &request.change)?;
+        let start: Vec<f64> = variables.iter().map(|variable| variable.start).collect();
+        let first = self.first_at_rest(parameters.robot().clone());
+        let first = first.map_err(|error| self.with_cures(error, parameters.robot()))?;
+        check_robot(&first.robot)?;
+        check_goal(request, &first)?;
+        let poses = RobotAtPoses::new(request, &variables, text.clone(), self.listed.clone());
+        let before = poses.evaluate(&start, &[]).map_err(|error| self.with_cures(error, parameters.robot()))?;
+        if self.watch.is_cancelled() {
+            return Err(Cancelled.into());
+        }
+
+        let settings = settings(request, &variables);
+        let mut search = DesignSearch::new(request, &poses, &mut *self.watch, before.evaluation.clone());
+        let nearer = search.run(&start, &settings).ok_or_else(|| anyhow!("the start has no results"))?;
+        let (mut result, tried) = try_other_sides(nearer, &before, &mut search, (&start, &settings));
+        for (value, [low, high]) in result.found.x.iter_mut().zip(&settings.bounds) {
+            *value = rounded(*value).clamp(*low, *high);
+        }
+
+        let after = poses.evaluate(&result.found.x, &result.sides)?;
+        if !result.is_met() {
+            let (found, tried) = (&result.found, &tried);
+            let (variables, before, after) = (&variables, &before, &after);
+            let report = DesignReport { request, poses: &poses, variables, found, tried, before, after };
+            return Err(NoSolution(report.unmet()).into());
+        }
+        Ok(Chosen { text, variables, settings, before, after, result, tried })
+    }
+
+    /// Error of a pose that is not held, with what would cure it.
+    fn with_cures(&self, error: anyhow::Error, robot: &Robot) -> anyhow::Error {
+        if !is_no_solution(&error) {
+            return error;
+        }
+        let poses = self.at_poses("", &[]);
+        let found = (0..poses.count()).find_map(|pose| {
+            poses.at_rest(robot.clone(), pose).is_err().then(|| poses.placed(robot, pose).ok()).flatten()
+        });
+        let Some((placed, rule)) = found else { return error };
+        let State::Pose(pose) = placed.state else { return error };
+        let cures = cures(&placed, &pose, self.request.state.static_model, &rule);
+        if cures.is_empty() {
+            return error;
+        }
+        let lines: Vec<String> = cures.iter().map(|cure| format!("\n  {cure}")).collect();
+        NoSolution(format!("{error:#}\nEach of these alone would hold the pose:{}", lines.concat())).into()
+    }
+
+    /// Results from the chosen values.
+    fn results(&self, chosen: &Chosen, exchanges: Vec<ExchangeRow>, ropes: Vec<RopeTried>) -> Result<Designed> {
+        let request = self.request;
+        let Chosen { text, variables, settings, before, after, result, tried } = chosen;
+        let poses = &RobotAtPoses::new(request, variables, text.clone(), self.listed.clone());
+        let parameters = Parameters::from_toml(text)?;
+        let first = self.first_at_rest(parameters.robot().clone())?;
+        let found = &result.found;
+        let report = DesignReport { request, poses, variables, found, tried, before, after };
+        let goal_of = |evaluated: &Evaluated| request.goal.sign() * settings.goal.value(&evaluated.evaluation);
+        let gains = self.gains(chosen, poses)?;
+        let mut limits = report.limits();
+        limits.extend(exchanges_in_words(&exchanges, request.goal.unit()));
+        Ok(Designed {
+            robot: parameters.robot().name.clone(),
+            models: Models::of(&first, linearisation_of_goal(request, first.equilibrium.model)),
+            goal: request.goal.name(),
+            goal_means: report.goal_means(),
+            measure: request.goal.identity(parameters.robot()),
+            unit: request.goal.unit(),
+            before: goal_of(before),
+            after: goal_of(after),
+            poses: report.pose_rows()?,
+            values: report.values(),
+            gains,
+            ropes,
+            exchanges,
+            demands: report.demands(),
+            converged: found.ending == MaxMinEnding::Converged,
+            ending: report.ending(),
+            iterations: found.iterations,
+            evaluations: tried.evaluations,
+            limits,
+            robot_file: poses.text_with(&found.x)?,
+            band_sides: tried.sides.clone(),
+            history: result.history.clone(),
+            warnings: self.warnings(chosen, poses)?,
+        })
+    }
+
+    /// Part of the gain of each entry of ⟪change⟫: what is lost if its values alone go back.
+    fn gains(&self, chosen: &Chosen, poses: &RobotAtPoses<'_>) -> Result<Vec<ChangeGain>> {
+        let after = chosen.value();
+        let of_change = |(k, change): (usize, &ChangeValue)| {
+            let back = chosen.variables.iter().zip(&chosen.result.found.x);
+            let values: Vec<f64> =
+                back.map(|(variable, value)| if variable.change == k { variable.start } else { *value }).collect();
+            let without = match poses.evaluate(&values, &chosen.result.sides) {
+                Ok(evaluated) => Some(chosen.settings.goal.value(&evaluated.evaluation)),
+                Err(error) if is_no_solution(&error) => None,
+                Err(error) => return Err(error),
+            };
+            Ok(ChangeGain { change: change.path.clone(), gain: without.map(|without| after - without) })
+        };
+        self.request.change.iter().enumerate().map(of_change).collect()
+    }
+
+    /// Warnings about the models at the result, and about steps that were shortened.
+    fn warnings(&self, chosen: &Chosen, poses: &RobotAtPoses<'_>) -> Result<Vec<String>> {
+        let text = poses.text_with(&chosen.result.found.x)?;
+        let rest = self.first_at_rest(Parameters::from_toml(&text)?.robot().clone())?;
+        let linearisation = linearisation_of_goal(self.request, rest.equilibrium.model);
+        let demanded = chosen.after.poses.iter().filter_map(|pose| pose.frequency_hz);
+        let highest = demanded.chain(frequency_of(self.request, &chosen.after)).fold(0.0, f64::max);
+        let (_, mut warnings) = rest.dynamics(linearisation, highest)?;
+        if let Some(reason) = &chosen.result.refusal {
+            warnings.push(format!("some steps were shortened, because there {reason}"));
+        }
+        Ok(warnings)
+    }
+}
+
+/// Refuses a goal that the robot or other options contradict.
+fn check_goal(request: &DesignRequest, first: &AtRest) -> Result<()> {
+    let AtRest { robot, equilibrium, .. } = first;
+    if request.goal != DesignGoal::Workspace {
+        return Ok(());
+    }
+    if LoadCapacity::at(robot, &equilibrium.pose, equilibrium.model, None)?.requires_nothing() {
+        bail!(
+            "the goal workspace counts poses at which required loads are held, and none are: give the \
+             robot file [required] or [[required_loads]]"
+        );
+    }
+    Ok(())
 }
 
 /// Refuses a robot whose poses cannot be held.
@@ -163,7 +354,9 @@ fn check_robot(robot: &Robot) -> Result<()> {
         );
     }
     if !matches!(robot.state, State::Pose(_)) {
-        bail!("a design holds its poses: give ⟪poses⟫ or ⟪pose⟫, or the robot file a [state] with `position_m`");
+        bail!(
+            "a design holds its poses: give ⟪poses⟫, ⟪grid⟫ or ⟪pose⟫, or the robot file a [state] with `position_m`"
+        );
     }
     Ok(())
 }
@@ -185,49 +378,32 @@ fn settings(request: &DesignRequest, variables: &[Variable]) -> Settings {
     }
 }
 
-/// Warnings about the models at the result, and about steps that were shortened.
-fn warnings(
-    request: &DesignRequest,
-    poses: &RobotAtPoses<'_>,
-    chosen: &SearchResult,
-    after: &Evaluated,
-) -> Result<Vec<String>> {
-    let text = poses.text_with(&chosen.found.x)?;
-    let rest = poses.at_rest(Parameters::from_toml(&text)?.robot().clone(), 0)?;
-    let linearisation = linearisation_of_goal(request, rest.equilibrium.model);
-    let demanded = after.poses.iter().filter_map(|pose| pose.frequency_hz);
-    let highest = demanded.chain(frequency_of(request, after)).fold(0.0, f64::max);
-    let (_, mut warnings) = rest.dynamics(linearisation, highest)?;
-    if let Some(reason) = &chosen.refusal {
-        warnings.push(format!("some steps were shortened, because there {reason}"));
-    }
-    Ok(warnings)
-}
-
 /// Values of the goal at the poses, if it is a frequency [Hz].
 fn frequency_of<'a>(request: &DesignRequest, evaluated: &'a Evaluated) -> impl Iterator<Item = f64> + use<'a> {
     let is_frequency = matches!(request.goal, DesignGoal::First);
     evaluated.poses.iter().filter(move |_| is_frequency).map(|pose| pose.goal)
 }
 
-/// Checks state, poses, weights, iterations and demands of a request.
+/// Checks the number of poses and their weights.
+fn check_weights(request: &DesignRequest, count: usize) -> Result<()> {
+    if !(1..=MAX_POSES).contains(&count) {
+        bail!("⟪poses⟫: {count} poses are not possible: give 1 to {MAX_POSES}");
+    }
+    let Some(weights) = &request.weights else { return Ok(()) };
+    if request.goal == DesignGoal::Workspace {
+        bail!("⟪weights⟫ have no place in the goal workspace, which counts poses: leave them out");
+    }
+    if weights.len() != count {
+        bail!("⟪weights⟫: {} weights given for {}: give one per pose", weights.len(), counted(count, "pose"));
+    }
+    weights.iter().try_for_each(|weight| request::check_positive("weights", *weight))
+}
+
+/// Checks state, iterations and demands of a request.
 fn check(request: &DesignRequest) -> Result<()> {
-    let DesignRequest { state, poses, weights, .. } = request;
+    let DesignRequest { state, .. } = request;
     if state.lengths_m.is_some() || state.hold_lengths_of_pose {
         bail!("a design holds its poses: leave out ⟪lengths_m⟫ and ⟪hold_lengths_of_pose⟫, and give ⟪pose⟫ or ⟪poses⟫");
-    }
-    if let Some(poses) = poses
-        && !(1..=MAX_POSES).contains(&poses.len())
-    {
-        bail!("⟪poses⟫: {} poses are not possible: give 1 to {MAX_POSES}", poses.len());
-    }
-
-    if let Some(weights) = weights {
-        let count = poses.as_ref().map_or(1, Vec::len);
-        if weights.len() != count {
-            bail!("⟪weights⟫: {} weights given for {}: give one per pose", weights.len(), counted(count, "pose"));
-        }
-        weights.iter().try_for_each(|weight| request::check_positive("weights", *weight))?;
     }
     if !(1..=MAX_ITERATIONS).contains(&request.max_iterations) {
         let given = request.max_iterations;

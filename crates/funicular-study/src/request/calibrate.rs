@@ -66,12 +66,21 @@ declared! {
         /// Candidates of a proposal instead of a grid: position [m] and roll, pitch, yaw [degrees].
         poses: Option<Vec<[f64; 6]>> = None => (Poses).under("Proposal").excludes(&["grid"])
             .read_by(Reader::Poses, "the poses");
-        /// Numbers whose deviations the proposal reduces: kinds as in ⟪unknowns⟫, or paths of values.
+        /// Numbers whose deviations the proposal reduces: kinds as in ⟪unknowns⟫, or paths of values, or tool for the
+        /// position of the platform at the poses of ⟪accuracy_grid⟫.
         propose_for: Vec<String> = Vec::new() => (Texts).form("NAMES").under("Proposal").otherwise("all unknowns");
         /// Criterion of the proposal.
         #[serde(with = "crate::names")]
         propose_by: RowCriterion = RowCriterion::default() => (name::<RowCriterion>()).form("CRITERION")
             .under("Proposal");
+        /// Axis of the poses at which the deviation of the platform is told, as in ⟪grid⟫ (repeatable): a controller
+        /// commands the readings of the calibrated values there.
+        accuracy_grid: Vec<Axis> = Vec::new() => (List(ProgramForm::GridAxis)).form("AXIS=A:B:N|V,V,…")
+            .under("Accuracy of the tool");
+        /// Poses at which the deviation of the platform is told, instead of a grid: position [m] and roll, pitch, yaw
+        /// [degrees].
+        accuracy_poses: Option<Vec<[f64; 6]>> = None => (Poses).under("Accuracy of the tool")
+            .excludes(&["accuracy_grid"]).read_by(Reader::Poses, "the poses of the accuracy");
         /// Largest deviation that is wanted [m]: the least number of proposed poses that reaches it.
         wanted_std_m: Option<f64> = None => (Number(Positive)).under("Proposal");
         /// Tensions at the candidates of a proposal. Candidates without tensions within the limits are left out;
@@ -83,6 +92,8 @@ declared! {
         "funicular calibrate docs/calibration/machine.toml --readings docs/calibration/belts.csv",
         "funicular calibrate docs/calibration/machine.toml --readings docs/calibration/belts.csv --frame inner \\\n    \
          --propose 3 --grid x=0.4:4.2:9 --grid y=0.4:3.5:8",
+        "funicular calibrate docs/calibration/machine.toml --readings docs/calibration/belts.csv \\\n    \
+         --accuracy-grid x=0.4:4.2:9 --accuracy-grid y=0.4:3.5:8",
         "funicular calibrate robot.toml --readings lengths.csv --unknowns anchors,offsets --length-std-m 0.0005 \
          \\\n    --calibrated calibrated.toml",
         "funicular calibrate robot.toml --readings lengths.csv --static-model catenary --tension-range-n 20:120 \

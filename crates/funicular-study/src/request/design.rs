@@ -1,7 +1,7 @@
 //! Request of `design`: values of the robot file to be chosen, and what they have to achieve.
 
 use super::key::declared;
-use super::parts::{Model, RobotText, State, Tensions};
+use super::parts::{Axis, Model, RobotText, State, Tensions};
 use crate::names::DesignGoal;
 use serde::{Deserialize, Serialize};
 
@@ -24,8 +24,19 @@ declared! {
         /// Poses: position [m] and roll, pitch, yaw [degrees].
         poses: Option<Vec<[f64; 6]>> = None => (Poses).otherwise("the pose of the state").excludes(&["pose"])
             .read_by(Reader::Poses, "the poses");
+        /// Axis of a grid of poses: x, y, z [m], roll, pitch, yaw [degrees], with N values from A to B, or with listed
+        /// values (repeatable); an axis that is not given stays at the pose of the state.
+        grid: Vec<Axis> = Vec::new() => (List(ProgramForm::GridAxis)).form("AXIS=A:B:N|V,V,…").excludes(&["poses"]);
         /// Weights of the poses, for their mean instead of the worst pose.
         weights: Option<Vec<f64>> = None => (Commas(ProgramForm::Positive)).form("W1,W2,…");
+        /// Ropes to choose from for all cables: a table with the columns name, axial_stiffness_n, mass_kg_per_m and,
+        /// where known, diameter_m, minimum_tension_n, maximum_tension_n, breaking_load_n. The values are chosen for
+        /// each of them.
+        ropes: Option<Vec<OfferedRope>> = None => (Data(shape::objects)).under("Choices")
+            .read_by(Reader::Records, "the ropes");
+        /// Exchange the attachments of cables, two at a time, while the goal with the present values gains from it and
+        /// no further cables cross.
+        reconnect: bool = false => (Switch).under("Choices");
         /// Demand: first natural frequency at every pose of at least HZ.
         min_frequency_hz: Option<f64> = None => (Number(Positive)).under("Demands");
         /// Demand: minimum stiffness at every pose of at least K, as `statics` prints it [N/m].
@@ -69,4 +80,56 @@ pub struct ChangeValue {
     /// Largest change to both sides, instead of minimum and maximum.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub plus_minus: Option<f64>,
+}
+
+/// Rope to choose.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct OfferedRope {
+    /// Name.
+    pub name: String,
+    /// Axial stiffness EA [N].
+    pub axial_stiffness_n: f64,
+    /// Mass per length [kg/m].
+    pub mass_kg_per_m: f64,
+    /// Diameter [m].
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub diameter_m: Option<f64>,
+    /// Minimum tension of its cables [N].
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub minimum_tension_n: Option<f64>,
+    /// Maximum tension of its cables [N].
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub maximum_tension_n: Option<f64>,
+    /// Tension at which it breaks [N].
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub breaking_load_n: Option<f64>,
+}
+
+impl OfferedRope {
+    /// Keys of its numbers, which a material of the robot file has as well.
+    pub(crate) const NUMBERS: [&str; 6] = [
+        "axial_stiffness_n",
+        "mass_kg_per_m",
+        "diameter_m",
+        "minimum_tension_n",
+        "maximum_tension_n",
+        "breaking_load_n",
+    ];
+
+    /// Keys of the numbers that every rope has.
+    pub(crate) const NEEDED: [&str; 2] = ["axial_stiffness_n", "mass_kg_per_m"];
+
+    /// Keys with the values of this rope; none without a value.
+    pub(crate) fn values(&self) -> impl Iterator<Item = (&'static str, Option<f64>)> {
+        let values = [
+            Some(self.axial_stiffness_n),
+            Some(self.mass_kg_per_m),
+            self.diameter_m,
+            self.minimum_tension_n,
+            self.maximum_tension_n,
+            self.breaking_load_n,
+        ];
+        Self::NUMBERS.into_iter().zip(values)
+    }
 }

@@ -1,9 +1,9 @@
 //! Values that a request gives, checked against the declaration of its keys before they are read: their kinds, their
 //! ranges, and keys that need or exclude each other. Every front end passes through here.
 
-use super::OfferedWinch;
 use super::key::{Declared, Key, Kind, ProgramForm, Range};
 use super::{Experiment, commands, library_words, simulate};
+use super::{OfferedRope, OfferedWinch};
 use crate::names::{no_such, suggestion};
 use anyhow::{Result, anyhow, bail};
 use serde::de::DeserializeOwned;
@@ -124,6 +124,7 @@ fn of_data(name: &str, value: &Value) -> KeyCheck {
         "scenario" => scenario(value),
         "experiments" => experiments(value),
         "offers" => objects(value, &offer_keys()),
+        "ropes" => objects(value, &rope_keys()),
         "responses" => objects(value, &response_keys()),
         "frequencies" => objects(value, &frequency_keys()),
         "from_csv" => object(value, "a mapping with `path` and `text`", |given| keys_of_object(&file(), &[], given)),
@@ -277,6 +278,15 @@ fn scenario(value: &Value) -> KeyCheck {
 fn offer_keys() -> Vec<Key> {
     let gives = OfferedWinch::NUMBERS.map(|name| entry(name, Kind::Number(Range::Positive), false));
     std::iter::once(entry("name", Kind::Text, true)).chain(gives).collect()
+}
+
+/// Keys of a rope to choose.
+fn rope_keys() -> Vec<Key> {
+    let number = |name: &'static str| {
+        let is_needed = OfferedRope::NEEDED.contains(&name);
+        entry(name, Kind::Number(if is_needed { Range::NotNegative } else { Range::Positive }), is_needed)
+    };
+    std::iter::once(entry("name", Kind::Text, true)).chain(OfferedRope::NUMBERS.map(number)).collect()
 }
 
 fn response_keys() -> Vec<Key> {

@@ -3,7 +3,7 @@
 use super::elastic::RowState;
 use super::elimination::EliminatedRow;
 use super::frame::CalibrationFrame;
-use super::{CalibratedRobot, Calibration, CalibrationFit, CalibrationPrecision, MeasuredRow};
+use super::{CalibratedRobot, Calibration, CalibrationFit, CalibrationPrecision, MeasuredRow, ToolRows};
 use crate::math::chosen_rows::{ChosenRows, RowCriterion, choose_rows};
 use crate::math::{DMat, DVec};
 use crate::robot::Pose;
@@ -23,6 +23,15 @@ impl From<Pose> for CandidatePose {
     }
 }
 
+/// Quantity whose variance proposed poses reduce.
+#[derive(Debug, Clone, Copy)]
+pub enum ProposalAim<'a> {
+    /// Unknowns, with factors of their variances; a factor of stiffness or mass counts as one length of mean variance.
+    Unknowns(&'a [f64]),
+    /// Position of the platform at the poses of these rows (96n), the same weight for each.
+    Tool(&'a [ToolRows]),
+}
+
 /// Pose to measure.
 #[derive(Debug, Clone)]
 pub struct ProposedPose {
@@ -30,22 +39,23 @@ pub struct ProposedPose {
     pub candidate: usize,
     /// Readings of all cables at this pose with the present values [m].
     pub readings: Vec<f64>,
-    /// Root of the sum of the variances of the chosen lengths after this pose and those before it are measured [m].
+    /// Covariance of the unknowns after this pose and those before it are measured.
+    pub covariance: DMat,
+    /// Root of the sum of the variances of the lengths then, those of an aim at unknowns with their factors [m].
     pub total: f64,
     /// Standard deviation of each unknown then.
     pub deviations: Vec<f64>,
 }
 
-/// Chooses poses one after the other, each so that the criterion falls most. `weights` are factors of the variances,
-/// one per unknown; a factor of stiffness or mass counts as one length of mean variance. At each pose is measured what
-/// the rows have: readings of all cables, and the tensions and coordinates that any row has.
+/// Chooses poses one after the other, each so that the criterion falls most. At each pose is measured what the rows
+/// have: readings of all cables, and the tensions and coordinates that any row has.
 pub fn proposals(
     of: &Calibration,
     fit: &CalibrationFit,
     (frame, precision): (&CalibrationFrame, &CalibrationPrecision),
     candidates: &[CandidatePose],
     (count, criterion): (usize, RowCriterion),
-    weights: &[f64],
+    aim: ProposalAim<'_>,
 ) -> Vec<ProposedPose> {
     let robot = of.robot_at(&fit.values);
     let readings: Vec<Vec<f64>> = candidates.iter().map(|candidate| robot.readings(candidate)).collect();
@@ -66,19 +76,30 @@ pub fn proposals(
         let direction = frame.free.transpose() * DVec::from_column_slice(lost) * of.anchor_spread();
         covariance += &direction * direction.transpose();
     }
-    let sizes = of.natural_sizes(&(&frame.free * &covariance * frame.free.transpose()));
-    let weighted = DMat::from_fn(frame.free.nrows(), frame.free.ncols(), |i, j| {
-        weights[i] * sizes[i] * sizes[i] * frame.free[(i, j)]
-    });
-    let weight = frame.free.transpose() * weighted;
+    let over_unknowns = match aim {
+        ProposalAim::Unknowns(weights) => {
+            let sizes = of.natural_sizes(&(&frame.free * &covariance * frame.free.transpose()));
+            DMat::from_diagonal(&DVec::from_fn(weights.len(), |i, _| weights[i] * sizes[i] * sizes[i]))
+        }
+        ProposalAim::Tool(rows) => {
+            let squares = rows.iter().map(|row| row.position.transpose() * &row.position);
+            squares.fold(DMat::zeros(of.unknowns.len(), of.unknowns.len()), |sum, square| sum + square)
+        }
+    };
+    let weight = frame.free.transpose() * over_unknowns * &frame.free;
     let proposed = |ChosenRows { candidate, covariance }: ChosenRows| {
         let full = &frame.free * &covariance * frame.free.transpose();
-        let lengths = (0..weights.len()).filter(|&k| of.is_length(k));
+        let factor = |k: usize| match aim {
+            ProposalAim::Unknowns(weights) => weights[k],
+            ProposalAim::Tool(_) => 1.0,
+        };
+        let lengths = (0..full.nrows()).filter(|&k| of.is_length(k));
         ProposedPose {
             candidate,
             readings: readings[candidate].clone(),
-            total: lengths.map(|k| weights[k] * full[(k, k)]).sum::<f64>().max(0.0).sqrt(),
+            total: lengths.map(|k| factor(k) * full[(k, k)]).sum::<f64>().max(0.0).sqrt(),
             deviations: full.diagonal().iter().map(|variance| variance.max(0.0).sqrt()).collect(),
+            covariance: full,
         }
     };
     choose_rows(&covariance, &weight, &net, count, criterion).into_iter().map(proposed).collect()

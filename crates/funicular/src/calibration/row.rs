@@ -157,9 +157,8 @@ impl Calibration {
         let first = row.readings.iter().flatten().count();
         for (k, datum) in self.pose_data(row, pose).iter().enumerate() {
             for c in 0..by_pose.ncols() {
-                let motion = coordinates.expand(&Vec6::ith(c, 1.0));
-                by_pose[(first + k, c)] =
-                    datum.rate(&motion.fixed_rows::<3>(0).into(), &motion.fixed_rows::<3>(3).into());
+                let [translation, rotation] = coordinates.translation_and_rotation(&Vec6::ith(c, 1.0));
+                by_pose[(first + k, c)] = datum.rate(&translation, &rotation);
             }
         }
         RowTerms { residuals, by_unknowns, by_pose }

@@ -87,11 +87,18 @@ impl Coordinates {
         self.motion.expanded_matrix(&self.motion.reduced_matrix(matrix))
     }
 
+    /// Translation [m] and rotation [rad] of a small reduced motion.
+    #[inline]
+    pub(crate) fn translation_and_rotation(&self, step: &Vec6) -> [Vec3; 2] {
+        let step = self.expand(step);
+        [Vec3::new(step[0], step[1], step[2]), Vec3::new(step[3], step[4], step[5]) / self.ell]
+    }
+
     /// Pose after a small reduced motion: translations in metres, rotations times ℓ.
     #[inline]
     pub(crate) fn moved(&self, pose: &Pose, step: &Vec6) -> Pose {
-        let step = self.expand(step);
-        pose.moved(&Vec3::new(step[0], step[1], step[2]), &(Vec3::new(step[3], step[4], step[5]) / self.ell))
+        let [translation, rotation] = self.translation_and_rotation(step);
+        pose.moved(&translation, &rotation)
     }
 }
 

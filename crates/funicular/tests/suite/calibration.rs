@@ -5,12 +5,13 @@ mod more_unknowns;
 mod planes_and_trackers;
 mod published;
 mod starts;
+mod tool;
 mod wrong_rows;
 
 use funicular::calibration::{
     Calibration, CalibrationError, CalibrationFit, CalibrationFrame, CalibrationPrecision, CalibrationUnknown,
-    CandidatePose, CombinationPart, FrameChoice, MeasuredRow, ReadingDeviations, cable_exchange, encoder_of_other_sign,
-    proposals, search,
+    CandidatePose, CombinationPart, FrameChoice, MeasuredRow, ProposalAim, ReadingDeviations, cable_exchange,
+    encoder_of_other_sign, proposals, search,
 };
 use funicular::math::Vec3;
 use funicular::math::chosen_rows::RowCriterion;
@@ -130,7 +131,7 @@ fn the_best_seventh_waypoint_of_the_machine_is_that_of_the_separate_program() {
         (&frame, &precision),
         &as_candidates(&candidates),
         (4, RowCriterion::Variances),
-        &[1.0; 8],
+        ProposalAim::Unknowns(&[1.0; 8]),
     );
     let expected = [10.789284728505201, 2.8840135312273465, 2.101212252099524, 1.6298456577935716];
     for (pose, expected) in found.iter().zip(expected) {
@@ -183,8 +184,14 @@ fn a_planar_set_with_offsets_agrees_with_the_separate_program() {
     }
     for (candidate, expected) in PLANE_CANDIDATES.iter().zip(PLANE_AFTER_CANDIDATE) {
         let pose = Pose::new([candidate[0], candidate[1], 0.0], [0.0; 3]);
-        let found =
-            proposals(&of, &fit, (&frame, &precision), &[pose.into()], (1, RowCriterion::Variances), &[1.0; 12]);
+        let found = proposals(
+            &of,
+            &fit,
+            (&frame, &precision),
+            &[pose.into()],
+            (1, RowCriterion::Variances),
+            ProposalAim::Unknowns(&[1.0; 12]),
+        );
         assert!((found[0].total / expected - 1.0).abs() < 1e-3, "{} {expected}", found[0].total);
     }
 }
@@ -214,8 +221,14 @@ fn a_rigid_platform_with_eight_cables_agrees_with_the_separate_program() {
     for (k, expected) in RIGID_AFTER_CANDIDATE.iter().enumerate() {
         let [x, y, z] = RIGID_TURNS_DEG[k].map(f64::to_radians);
         let pose = Pose::new(RIGID_CANDIDATES[k], [0.0; 3]).moved(&Vec3::zeros(), &Vec3::new(x, y, z));
-        let found =
-            proposals(&of, &fit, (&frame, &precision), &[pose.into()], (1, RowCriterion::Variances), &[1.0; 32]);
+        let found = proposals(
+            &of,
+            &fit,
+            (&frame, &precision),
+            &[pose.into()],
+            (1, RowCriterion::Variances),
+            ProposalAim::Unknowns(&[1.0; 32]),
+        );
         assert!((found[0].total / expected - 1.0).abs() < 1e-3, "{} {expected}", found[0].total);
     }
     let walk = of.weak_walk(&fit, &frame, &precision, 1.0).unwrap();
@@ -411,7 +424,7 @@ fn a_ceiling_and_a_floor_do_not_determine_the_anchors() {
         (&frame, &precision),
         &as_candidates(&candidates),
         (1, RowCriterion::Variances),
-        &[1.0; 18],
+        ProposalAim::Unknowns(&[1.0; 18]),
     );
     assert!(found[0].candidate >= 6 && found[0].total < 0.2, "{found:?}");
     let in_plane = proposals(
@@ -420,7 +433,7 @@ fn a_ceiling_and_a_floor_do_not_determine_the_anchors() {
         (&frame, &precision),
         &as_candidates(&candidates[..6]),
         (3, RowCriterion::Variances),
-        &[1.0; 18],
+        ProposalAim::Unknowns(&[1.0; 18]),
     );
     assert!(in_plane[2].total > 1.0, "{in_plane:?}");
 

@@ -1,7 +1,8 @@
 //! Unknowns that a request names: by their kind, as in `unknowns`, or by the path of a value, as in results.
 
-use super::{UNKNOWNS, words};
+use super::{TOOL, UNKNOWNS, is_for_tool, words};
 use crate::names::suggestion;
+use crate::request::CalibrateRequest;
 use crate::set_values::{self, ANY};
 use anyhow::{Result, bail};
 use funicular::calibration::CalibrationUnknown;
@@ -45,6 +46,25 @@ pub(super) fn chosen(key: &str, name: &str, unknowns: &[CalibrationUnknown], rob
         );
     }
     Ok(found)
+}
+
+/// Mark for each unknown whose deviation a proposal reduces: all without names, or where the tool is named alone.
+///
+/// # Errors
+/// A name that no unknown has, or names beside that of the tool.
+pub(super) fn proposed_for(
+    request: &CalibrateRequest,
+    unknowns: &[CalibrationUnknown],
+    robot: &Robot,
+) -> Result<Vec<bool>> {
+    let names = &request.propose_for;
+    if is_for_tool(request) && names.len() > 1 {
+        bail!("⟪propose_for⟫: {TOOL} stands alone, because lengths and positions have no common weight");
+    }
+    if names.is_empty() || is_for_tool(request) {
+        return Ok(vec![true; unknowns.len()]);
+    }
+    all_chosen("propose_for", names, unknowns, robot)
 }
 
 /// Mark for each unknown, from a list of names.

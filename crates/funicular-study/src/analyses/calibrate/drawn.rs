@@ -66,7 +66,8 @@ impl Calibrated {
             high - low
         };
         let width = self.axes.iter().map(|axis| span(*axis)).fold(0.0, f64::max);
-        let variances = self.anchors.iter().filter_map(|row| row.covariance_m2);
+        let of_tool = self.accuracy.iter().flat_map(|accuracy| accuracy.poses.iter().map(|row| row.covariance_m2));
+        let variances = self.anchors.iter().filter_map(|row| row.covariance_m2).chain(of_tool);
         let largest = variances.flat_map(|of| [of[0][0], of[1][1], of[2][2]]).fold(0.0, f64::max);
         let wanted = LARGEST * width / (2.0 * largest.sqrt());
         if !wanted.is_finite() || wanted <= 1.0 {

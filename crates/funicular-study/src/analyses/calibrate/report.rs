@@ -1,12 +1,13 @@
 //! Results of a calibration from its minima.
 
-use super::choice::all_chosen;
+use super::accuracy::ToolPoses;
+use super::choice::{all_chosen, proposed_for};
 use super::rows::{
     CableResidual, CalibratedValue, DistanceRow, LeftOut, MinimumRow, ProposalRow, Reachable, ReadingRow, Walk, WeakRow,
 };
 
 use super::wrong::{self, FoundFit, Wrong};
-use super::{Calibrated, in_mm, words};
+use super::{Calibrated, in_mm, is_for_tool, words};
 use crate::Watch;
 use crate::analyses::candidate_poses::Candidates;
 use crate::analyses::profile::Profile;
@@ -18,7 +19,7 @@ use crate::text::{counted, significant};
 use anyhow::{Result, anyhow};
 use funicular::calibration::{
     Calibration, CalibrationFit, CalibrationFrame, CalibrationPrecision, CalibrationSearch, CalibrationUnknown,
-    OtherMinimum, WeakWalk, proposals,
+    OtherMinimum, ProposalAim, WeakWalk, proposals,
 };
 use funicular::math::{DMat, Vec3, rotation};
 use funicular::robot::Pose;
@@ -54,6 +55,8 @@ pub(super) struct CalibrationReport<'a> {
     paths: Vec<(String, &'static str)>,
     /// Candidates of a proposal.
     poses: Vec<Pose>,
+    /// Poses at which the accuracy of the tool is asked for.
+    pub(super) tool_at: Vec<Pose>,
     /// True for an unknown whose profile is wanted.
     profiled: Vec<bool>,
     /// True for an unknown whose deviation a proposal reduces.
@@ -70,7 +73,7 @@ impl<'a> CalibrationReport<'a> {
         numbers: &'a [usize],
         frame: &CalibrationFrame,
         found: &'a CalibrationSearch,
-        candidates: &Candidates,
+        [candidates, tool]: [&Candidates; 2],
     ) -> Result<Self> {
         let fit = &found.best;
         let frame = of.frame_about(frame, fit);
@@ -84,8 +87,6 @@ impl<'a> CalibrationReport<'a> {
             None => ((degrees > 0).then_some(ratio), student_95(degrees)),
         };
         let middle = middle(&fit.poses);
-        let marks = |key, names: &[String]| all_chosen(key, names, &of.unknowns, &of.robot);
-        let proposed_for = marks("propose_for", &request.propose_for)?;
         let mut report = Self {
             wrong: Wrong::default(),
             request,
@@ -96,8 +97,9 @@ impl<'a> CalibrationReport<'a> {
             quantile: quantile.unwrap_or(f64::NAN),
             paths: of.unknowns.iter().map(|unknown| words::path(&of.robot, unknown)).collect(),
             poses: candidates.poses(&of.robot, &middle)?,
-            profiled: marks("profile", &request.profile)?,
-            proposed_for: if request.propose_for.is_empty() { vec![true; of.unknowns.len()] } else { proposed_for },
+            tool_at: tool.poses(&of.robot, &middle)?,
+            profiled: all_chosen("profile", &request.profile, &of.unknowns, &of.robot)?,
+            proposed_for: proposed_for(request, &of.unknowns, &of.robot)?,
             source: &request.robot,
             frame,
             precision,
@@ -144,7 +146,8 @@ impl<'a> CalibrationReport<'a> {
         let has_lengths = (0..self.paths.len()).any(|k| self.of.is_length(k));
         let root = |covariance: &DMat| Some(self.factor? * self.of.total_of_lengths(covariance));
         let is_known = self.precision.lost.is_empty();
-        let (proposals, poses_needed, left_out) = self.proposals(watch)?;
+        let tool = self.tool_poses(watch)?;
+        let (proposals, poses_needed, left_out) = self.proposals(tool.as_ref(), watch)?;
         let residuals: Vec<f64> = rows.iter().flat_map(|row| row.residuals.iter().map(|of| of.residual_m)).collect();
         let squares: f64 = residuals.iter().map(|residual| residual * residual).sum();
         Ok(Calibrated {
@@ -180,6 +183,7 @@ impl<'a> CalibrationReport<'a> {
             rows,
             walk: walk.map(|walk| walk_row(&walk)),
             proposals,
+            accuracy: tool.and_then(|tool| self.accuracy(&tool)),
             left_out,
             poses_needed,
         })
@@ -359,13 +363,19 @@ impl<'a> CalibrationReport<'a> {
     }
 
     /// Proposed poses, the number of them that the wanted deviation needs, and the candidates that were left out.
-    fn proposals(&self, watch: &mut dyn Watch) -> Result<(Vec<ProposalRow>, Option<usize>, Option<LeftOut>)> {
+    fn proposals(
+        &self,
+        tool: Option<&ToolPoses>,
+        watch: &mut dyn Watch,
+    ) -> Result<(Vec<ProposalRow>, Option<usize>, Option<LeftOut>)> {
         let Some(factor) = self.factor.filter(|_| !self.poses.is_empty()) else { return Ok((Vec::new(), None, None)) };
         let Reachable { candidates, rules, left_out } = self.reachable(&self.poses, watch)?;
         let weights: Vec<f64> = self.proposed_for.iter().map(|chosen| if *chosen { 1.0 } else { 0.0 }).collect();
         let count = if self.request.wanted_std_m.is_some() { MAX_PROPOSALS } else { self.request.propose };
         let by = (count, self.request.propose_by);
-        let found = proposals(self.of, self.fit(), (&self.frame, &self.precision), &candidates, by, &weights);
+        let for_tool = tool.filter(|_| is_for_tool(self.request));
+        let aim = for_tool.map_or(ProposalAim::Unknowns(&weights), ToolPoses::aim);
+        let found = proposals(self.of, self.fit(), (&self.frame, &self.precision), &candidates, by, aim);
         // Factors of stiffness and mass are no lengths.
         let has_lengths = (0..weights.len()).any(|k| weights[k] > 0.0 && self.of.is_length(k));
         let row = |(n, of): (usize, &funicular::calibration::ProposedPose)| {
@@ -383,6 +393,7 @@ impl<'a> CalibrationReport<'a> {
                 tension_rule: rules[of.candidate],
                 total_m: has_lengths.then_some(factor * of.total),
                 largest_m: has_lengths.then_some(factor * of.deviations[largest]),
+                tool_m: tool.map(|tool| factor * tool.worst(&of.covariance)),
                 largest_of: if has_lengths { name.clone() } else { format!("{name} (±{} %)", percent(relative)) },
                 deviations: of
                     .deviations
@@ -394,7 +405,8 @@ impl<'a> CalibrationReport<'a> {
         };
         let mut rows: Vec<ProposalRow> = found.iter().enumerate().map(row).collect();
         let needed = self.request.wanted_std_m.and_then(|wanted| {
-            rows.iter().find(|row| row.largest_m.is_some_and(|largest| largest <= wanted)).map(|row| row.number)
+            let largest = |row: &ProposalRow| if for_tool.is_some() { row.tool_m } else { row.largest_m };
+            rows.iter().find(|row| largest(row).is_some_and(|largest| largest <= wanted)).map(|row| row.number)
         });
         rows.truncate(needed.unwrap_or(0).max(self.request.propose));
         Ok((rows, needed, left_out))

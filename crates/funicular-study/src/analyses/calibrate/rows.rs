@@ -177,7 +177,7 @@ rows! {
 
 rows! {
     /// Pose to measure next.
-    pub struct ProposalRow in tables(turns: bool, has_rules: bool) {
+    pub struct ProposalRow in tables(turns: bool, has_rules: bool, has_tool: bool) {
         /// Number of proposed poses up to this one.
         pub number: usize => one.plain("next");
         /// Position of the platform origin, {}.
@@ -211,6 +211,10 @@ rows! {
             => column("tension_rule", "", "rule of the tensions", |row: &Self| row.tension_rule)
                 .plain("tensions")
                 .read_if(has_rules);
+        /// Largest deviation of the position of the platform then, over the poses of its accuracy.
+        pub tool_m: Option<f64> => one
+            .shown("tool ±", "mm", |row, style| style.significant(row.tool_m.map(|worst| 1e3 * worst), 3))
+            .read_if(has_tool);
         /// Deviations of all values then, in their order.
         pub deviations: Vec<f64>;
     }

@@ -7,6 +7,7 @@ use super::search::{RELEVANT, TOLERANCE, Tried};
 use super::variables::Variable;
 use crate::chosen_numbers::at_bound;
 use crate::columns::{Style, column, only_read};
+use crate::names::DesignGoal;
 use crate::request::DesignRequest;
 use crate::rows::rows;
 use crate::text::{counted, significant, with_unit};
@@ -84,6 +85,18 @@ impl ChosenValue {
 }
 
 rows! {
+    /// Part of the gain of an entry of the changes.
+    pub struct ChangeGain in tables() {
+        /// Path of the values, as it was given.
+        pub change: String => one.plain("change");
+        /// Gain of the goal that is lost if these values alone go back to those of the file.
+        ///
+        /// Absent if a pose is not held then.
+        pub gain: Option<f64> => one.unit("").significant("lost without it", 3);
+    }
+}
+
+rows! {
     /// Demand at the pose where it is met least.
     pub struct DemandRow in tables() {
         /// Demand.
@@ -119,6 +132,9 @@ impl DesignReport<'_> {
     /// Goal in words.
     pub(super) fn goal_means(&self) -> String {
         let what = self.request.goal.in_words();
+        if self.request.goal == DesignGoal::Workspace {
+            return format!("{what} ({} in all)", counted(self.poses.count(), "pose"));
+        }
         let extreme = if self.request.goal.sign() > 0.0 { "lowest" } else { "largest" };
         match (&self.request.weights, self.poses.count()) {
             (_, 1) => what.to_owned(),
@@ -147,6 +163,10 @@ impl DesignReport<'_> {
 
     /// Shares of the poses in the optimum. The rows of the goal are in the order of the poses.
     fn shares(&self) -> Vec<f64> {
+        let count = self.poses.count();
+        if self.request.goal == DesignGoal::Workspace {
+            return vec![1.0 / count as f64; count];
+        }
         let mut of_rows = self.found.objective_shares.iter();
         let per_pose = self.after.rows_per_pose.iter();
         per_pose.map(|count| of_rows.by_ref().take(*count).sum()).collect()
@@ -163,7 +183,7 @@ impl DesignReport<'_> {
 
         let mut rows = Vec::with_capacity(shares.len());
         for (i, ((before, after), share)) in self.before.poses.iter().zip(&self.after.poses).zip(shares).enumerate() {
-            let (position_m, roll_pitch_yaw_deg) = if let Some(poses) = &self.request.poses {
+            let (position_m, roll_pitch_yaw_deg) = if let Some(poses) = &self.poses.listed {
                 let [x, y, z, roll, pitch, yaw] = poses[i];
                 ([x, y, z], [roll, pitch, yaw])
             } else {
@@ -289,9 +309,19 @@ impl DesignReport<'_> {
         )
     }
 
+    /// Sentence on the poses that are held before and after.
+    fn poses_held(&self) -> String {
+        let held = |of: &Evaluated| of.poses.iter().filter(|pose| pose.goal >= 1.0).count();
+        let (count, before, after) = (self.poses.count(), held(self.before), held(self.after));
+        format!(
+            "Of {count} poses {before} hold the required loads with the values of the file, and {after} with the \
+             chosen ones; the goal counts a pose whose load factor is near 1 in part"
+        )
+    }
+
     /// Sentence on the choices of the sides of a band.
     fn sides_tried(&self) -> Option<String> {
-        let unit = self.request.goal.measure().unit();
+        let unit = self.request.goal.unit();
         let choice = |(i, tried): (usize, &SidesTried)| {
             let numbers: Vec<String> = tried.below.iter().map(usize::to_string).collect();
             let nearer = if i == 0 { " (the nearer sides)" } else { "" };
@@ -316,11 +346,15 @@ impl DesignReport<'_> {
     /// Sentences on what limits the result: poses, demands and bounds.
     pub(super) fn limits(&self) -> Vec<String> {
         let mut sentences = Vec::new();
-        let unit = self.request.goal.measure().unit();
+        let unit = self.request.goal.unit();
         let better = if self.request.goal.sign() > 0.0 { "more" } else { "less" };
 
         let shares = self.shares();
-        if shares.len() > 1 && self.request.weights.is_none() {
+        let is_sum = self.request.goal == DesignGoal::Workspace;
+        if is_sum {
+            sentences.push(self.poses_held());
+        }
+        if shares.len() > 1 && self.request.weights.is_none() && !is_sum {
             let limiting: Vec<String> =
                 (1..).zip(&shares).filter(|(_, share)| **share > RELEVANT).map(|(pose, _)| pose.to_string()).collect();
             let noun = if limiting.len() == 1 { "pose" } else { "poses" };

@@ -1,9 +1,11 @@
 //! Results of one pose and their derivatives by the values, as rows of a linear problem.
 
 use super::band::{self, BandCounts};
+use super::differences::{Ends, smooth_share};
 use crate::analyses::gradient::{held, no_solution};
 use crate::at_rest::{self, AtRest};
-use crate::measure::Measure;
+use crate::differenced_goals::{DifferencedGoal, GoalPart};
+use crate::measure::{LOAD_FACTOR, Measure};
 use crate::names::DesignGoal;
 use crate::request::DesignRequest;
 use anyhow::{Result, anyhow};
@@ -40,7 +42,18 @@ pub(crate) enum DemandKind {
 }
 
 /// Derivatives of a result by every value.
-type Slopes = Vec<f64>;
+pub(super) type Slopes = Vec<f64>;
+
+/// Number of worst parts of a goal of differences that have rows: more than can become the worst one within a step.
+const PARTS: usize = 16;
+
+/// Change of a robot per unit of a value.
+pub(super) enum Direction {
+    /// Rates of the robot's numbers, for derivatives.
+    Exact(RobotChange),
+    /// A limit of tensions, which has none: differences alone.
+    Limit,
+}
 
 /// Results at one pose.
 #[derive(Debug, Clone, Copy, Default)]
@@ -69,8 +82,10 @@ pub(crate) struct Evaluated {
 }
 
 impl Evaluated {
-    /// Adds the rows of the next pose. `directions` are the changes of the robot per unit of each value. `below` is the
-    /// number of frequencies that have to go below the band to avoid; without it each goes to its nearer side.
+    /// Adds the rows of the next pose. `directions` are the changes of the robot per unit of each value, `ends` the
+    /// robot at rest on both sides of values whose derivatives are differences. `below` is the number of frequencies
+    /// that have to go below the band to avoid; without it each goes to its nearer side. `count` is the number of all
+    /// poses.
     ///
     /// # Errors
     /// Results without derivatives, or without modes.
@@ -78,17 +93,18 @@ impl Evaluated {
         &mut self,
         request: &DesignRequest,
         at_rest: &AtRest,
-        directions: &[RobotChange],
-        below: Option<usize>,
+        (directions, ends): (&[Direction], &[Option<Ends>]),
+        (count, below): (usize, Option<usize>),
     ) -> Result<()> {
         let gradients = held(at_rest, Hold::Rule)?;
         let group = if request.weights.is_some() { self.poses.len() } else { 0 };
         let linearisation = at_rest::linearisation(&request.model, at_rest.equilibrium.model);
-        let rows = PoseRows { request, at_rest, gradients: &gradients, linearisation, directions, group };
+        let rows =
+            PoseRows { request, at_rest, gradients: &gradients, linearisation, directions, ends, group, poses: count };
 
         let (goal, objectives) = rows.goal()?;
         self.rows_per_pose.push(objectives.len());
-        self.evaluation.objectives.extend(objectives);
+        self.add_objectives(request, objectives);
 
         let mut values = PoseValues { goal, ..PoseValues::default() };
         if let Some(limit) = request.min_frequency_hz {
@@ -108,6 +124,29 @@ impl Evaluated {
         Ok(())
     }
 
+    /// Adds a pose that is not held: it has no part in the share of the poses that are.
+    pub(crate) fn add_lost_pose(&mut self, variables: usize) {
+        self.rows_per_pose.push(0);
+        self.poses.push(PoseValues::default());
+        if self.evaluation.objectives.is_empty() {
+            let gradient = vec![0.0; variables];
+            self.evaluation.objectives.push(LinearisedFunction { value: 0.0, gradient, group: 0 });
+        }
+    }
+
+    /// Adds rows of the goal; shares of poses are summed in one row.
+    fn add_objectives(&mut self, request: &DesignRequest, rows: Vec<LinearisedFunction>) {
+        let is_sum = request.goal == DesignGoal::Workspace;
+        let (Some(sum), true) = (self.evaluation.objectives.first_mut(), is_sum) else {
+            self.evaluation.objectives.extend(rows);
+            return;
+        };
+        for row in rows {
+            sum.value += row.value;
+            sum.gradient.iter_mut().zip(row.gradient).for_each(|(all, of)| *all += of);
+        }
+    }
+
     fn add_demands(&mut self, kind: DemandKind, rows: Vec<LinearisedFunction>) {
         self.demands.extend(rows.iter().map(|_| kind));
         self.evaluation.demands.extend(rows);
@@ -122,15 +161,23 @@ struct PoseRows<'a> {
     /// Linearisation for the demands.
     linearisation: Linearisation,
     /// Changes of the robot per unit of each value.
-    directions: &'a [RobotChange],
+    directions: &'a [Direction],
+    /// Robot on both sides of each value whose derivatives are differences.
+    ends: &'a [Option<Ends>],
     /// Group of the rows of the goal.
     group: usize,
+    /// Number of all poses.
+    poses: usize,
 }
 
 impl PoseRows<'_> {
-    /// Derivatives of a result by every value, from its gradient.
+    /// Derivatives of a result by every value, from its gradient; zero for a limit of tensions.
     fn along(&self, gradient: &RobotChange) -> Slopes {
-        self.directions.iter().map(|direction| gradient.dot(direction)).collect()
+        let along = |direction: &Direction| match direction {
+            Direction::Exact(change) => gradient.dot(change),
+            Direction::Limit => 0.0,
+        };
+        self.directions.iter().map(along).collect()
     }
 
     /// LinearisedFunction of a result, multiplied by a factor.
@@ -151,9 +198,23 @@ impl PoseRows<'_> {
                 smallest_first(&self.lowest(of_goal)?)
             }
             DesignGoal::Stiffness => smallest_first(&self.stiffnesses()?),
-            goal @ DesignGoal::Measure(_) => {
-                let (value, slopes) = self.at_rest(goal.measure())?;
-                (value, vec![self.row(value, &slopes, goal.sign())])
+            DesignGoal::Measure(of) => {
+                let (value, slopes) = self.at_rest(of.measure())?;
+                (value, vec![self.row(value, &slopes, of.sign())])
+            }
+            DesignGoal::Differenced(of) => {
+                let mut parts = self.differenced(of)?;
+                parts.sort_by(|a, b| (of.sign * a.0).total_cmp(&(of.sign * b.0)));
+                let rows = parts.iter().take(PARTS).map(|(value, slopes)| self.row(*value, slopes, of.sign)).collect();
+                (parts.first().map_or(0.0, |(value, _)| *value), rows)
+            }
+            DesignGoal::Workspace => {
+                let Ok((factor, slopes)) = self.at_rest(LOAD_FACTOR) else { return Ok((0.0, Vec::new())) };
+                // Every pose adds its share to the row of the first one.
+                let (share, rate) = smooth_share(factor);
+                let part = 1.0 / self.poses as f64;
+                let gradient = slopes.iter().map(|slope| part * rate * slope).collect();
+                (factor, vec![LinearisedFunction { value: part * share, gradient, group: 0 }])
             }
         })
     }
@@ -240,7 +301,31 @@ impl PoseRows<'_> {
         let gradient = Measure::static_gradients(&[measure], self.gradients).pop().flatten().ok_or_else(none)?;
         let gradient = gradient.map_err(no_solution)?;
         let value = measure.static_value(robot, equilibrium, &equilibrium.pose).ok_or_else(none)?;
-        Ok((value, self.along(&gradient)))
+        let mut slopes = self.along(&gradient);
+        for (slope, ends) in slopes.iter_mut().zip(self.ends) {
+            if let Some(ends) = ends {
+                let at = |of: &AtRest| measure.static_value(&of.robot, &of.equilibrium, &of.equilibrium.pose);
+                *slope = ends.slope(value, at);
+            }
+        }
+        Ok((value, slopes))
+    }
+
+    /// Values of all parts of a goal, with their derivatives as differences.
+    fn differenced(&self, goal: &DifferencedGoal) -> Result<Vec<(f64, Slopes)>> {
+        let parts_of = |of: &AtRest| (goal.values)(&of.robot, &of.equilibrium, &of.rule.clone().unwrap_or_default());
+        let parts = parts_of(self.at_rest)?;
+        let mut rows: Vec<(f64, Slopes)> = parts.iter().map(|(_, value)| (*value, Vec::new())).collect();
+        for ends in self.ends.iter().flatten() {
+            let [low, high] = ends.at_rest.each_ref().map(|end| end.as_ref().and_then(|end| parts_of(end).ok()));
+            for ((part, value), row) in parts.iter().zip(&mut rows) {
+                let at = |parts: &Option<Vec<(GoalPart, f64)>>| {
+                    parts.as_ref()?.iter().find(|(other, _)| other == part).map(|(_, value)| *value)
+                };
+                row.1.push(ends.slope_of([at(&low), at(&high)], *value));
+            }
+        }
+        Ok(rows)
     }
 }
 

@@ -10,6 +10,9 @@ use funicular::robot::parameters::Parameters;
 /// seconds beyond.
 const MAX_VARIABLES: usize = 300;
 
+/// Keys of the limits of tensions, by which some goals have differences.
+const LIMITS: [&str; 2] = ["minimum_tension_n", "maximum_tension_n"];
+
 /// Value that a design may change.
 #[derive(Debug, Clone)]
 pub(crate) struct Variable {
@@ -21,6 +24,10 @@ pub(crate) struct Variable {
     pub(crate) start: f64,
     /// Minimum and maximum.
     pub(crate) bounds: [f64; 2],
+    /// Place in the request of what names it.
+    pub(crate) change: usize,
+    /// True for a limit of tensions, by which results have no derivatives but differences.
+    pub(crate) is_limit: bool,
 }
 
 /// Values to change, in the order of the request.
@@ -37,10 +44,15 @@ pub(crate) fn variables(parameters: &Parameters, change: &[ChangeValue]) -> Resu
     }
     let limit = (MAX_VARIABLES, "change");
     let chosen = chosen_numbers(parameters, "change", change, |wanted| &wanted.path, limit)?;
-    chosen.iter().map(|(number, wanted)| variable(parameters, number, wanted)).collect()
+    let place = |wanted: &ChangeValue| change.iter().position(|of| std::ptr::eq(of, wanted)).unwrap_or(0);
+    chosen.iter().map(|(number, wanted)| variable(parameters, number, (wanted, place(wanted)))).collect()
 }
 
-fn variable(parameters: &Parameters, number: &ChosenNumber<'_>, wanted: &ChangeValue) -> Result<Variable> {
+fn variable(
+    parameters: &Parameters,
+    number: &ChosenNumber<'_>,
+    (wanted, change): (&ChangeValue, usize),
+) -> Result<Variable> {
     let ChosenNumber { index, parameter, .. } = *number;
     let (path, start, range) = (parameter.path(), parameter.value, parameter.range);
     number.check_given()?;
@@ -50,7 +62,8 @@ fn variable(parameters: &Parameters, number: &ChosenNumber<'_>, wanted: &ChangeV
             number.refuse("the poses of a design are held, and the lengths follow from them; change another value")
         );
     }
-    if parameters.change(index).is_none() {
+    let is_limit = LIMITS.contains(&parameter.key);
+    if !is_limit && parameters.change(index).is_none() {
         return Err(number.refuse("results have no derivatives by this value, so that a design cannot choose it"));
     }
 
@@ -69,7 +82,7 @@ fn variable(parameters: &Parameters, number: &ChosenNumber<'_>, wanted: &ChangeV
         }
     };
     number.check_bounds(bounds, [low, high])?;
-    Ok(Variable { index, path, unit: parameter.unit, start, bounds })
+    Ok(Variable { index, path, unit: parameter.unit, start, bounds, change, is_limit })
 }
 
 impl Variable {

@@ -238,8 +238,15 @@ fn a_proposed_pose_of_elastic_cables_leaves_what_a_row_there_leaves() {
     let rest = statics::forward(&robot.robot, &lengths, StaticModel::Catenary, Some(&pose)).unwrap();
     let candidate = CandidatePose { pose: rest.pose, lengths };
     let weights = vec![1.0; fit.values.len()];
-    let proposed =
-        proposals(&of, &fit, (&frame, &precision), &[candidate], (1, RowCriterion::Variances), &weights).remove(0);
+    let proposed = proposals(
+        &of,
+        &fit,
+        (&frame, &precision),
+        &[candidate],
+        (1, RowCriterion::Variances),
+        ProposalAim::Unknowns(&weights),
+    )
+    .remove(0);
 
     // The same readings and tensions as a row: the minimum stays, and its covariance is that of the proposal.
     let mut with = of.clone();
