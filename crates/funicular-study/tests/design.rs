@@ -1,5 +1,8 @@
 //! Design: optima against random designs, multipliers against wider bounds, demands, modes that cross, and refusals.
 
+#[path = "design/goals.rs"]
+mod goals;
+
 use funicular_study::analyses::design::Designed;
 use funicular_study::{Error, ErrorKind, Request, Results, Silent, Watch, run};
 use serde_json::{Value, json};
@@ -401,7 +404,7 @@ fn wrong_designs_are_refused_with_the_reason() {
         (json!({"change": z, "pose": [0, 0, 1.5], "avoid_hz": [3.0, 2.0]}), "is not below the last one"),
         (json!({"change": z, "pose": [0, 0, 1.5], "tension_rule": "stiffest", "target_tension_n": null}), "`stiffest`"),
         (json!({"change": z}), "give a pose"),
-        (json!({"change": z, "target_tension_n": null}), "a design holds its poses: give --poses or --pose"),
+        (json!({"change": z, "target_tension_n": null}), "a design holds its poses: give --poses, --grid or --pose"),
         (json!({"change": z, "pose": [0, 0, 1.5], "max_iterations": 0}), "give a whole number from 1"),
     ] {
         let error = designed(&more).err().unwrap_or_else(|| panic!("{more}"));

@@ -27,7 +27,7 @@ use crate::text::counted;
 use anyhow::{Result, anyhow, bail};
 use at_poses::{RobotAtPoses, is_no_solution};
 use band::SidesTried;
-use choices::{best_rope, exchanges_in_words, reconnected};
+use choices::{Exchanges, best_rope, reconnected};
 use cures::cures;
 use funicular::math::max_min::{Goal, MaxMinEnding, Settings};
 use funicular::math::rotation;
@@ -120,7 +120,7 @@ pub fn run(request: &DesignRequest, watch: &mut dyn Watch) -> Result<Designed> {
     let mut run = DesignRun { request, listed, watch };
 
     let text = request.robot.changed_text()?;
-    let (text, exchanges) = if request.reconnect { reconnected(&mut run, text)? } else { (text, Vec::new()) };
+    let (text, exchanges) = if request.reconnect { reconnected(&mut run, text)? } else { (text, Exchanges::default()) };
     let (chosen, ropes) = match &request.ropes {
         Some(ropes) => best_rope(&mut run, &text, ropes)?,
         None => (run.search(text)?, Vec::new()),
@@ -214,6 +214,7 @@ impl DesignRun<'_> {
         let first = first.map_err(|error| self.with_cures(error, parameters.robot()))?;
         check_robot(&first.robot)?;
         check_goal(request, &first)?;
+        check_limits(request, &variables)?;
         let poses = RobotAtPoses::new(request, &variables, text.clone(), self.listed.clone());
         let before = poses.evaluate(&start, &[]).map_err(|error| self.with_cures(error, parameters.robot()))?;
         if self.watch.is_cancelled() {
@@ -253,12 +254,11 @@ impl DesignRun<'_> {
         if cures.is_empty() {
             return error;
         }
-        let lines: Vec<String> = cures.iter().map(|cure| format!("\n  {cure}")).collect();
-        NoSolution(format!("{error:#}\nEach of these alone would hold the pose:{}", lines.concat())).into()
+        NoSolution(format!("{error:#}; each of these alone would hold the pose: {}", cures.join("; "))).into()
     }
 
     /// Results from the chosen values.
-    fn results(&self, chosen: &Chosen, exchanges: Vec<ExchangeRow>, ropes: Vec<RopeTried>) -> Result<Designed> {
+    fn results(&self, chosen: &Chosen, exchanges: Exchanges, ropes: Vec<RopeTried>) -> Result<Designed> {
         let request = self.request;
         let Chosen { text, variables, settings, before, after, result, tried } = chosen;
         let poses = &RobotAtPoses::new(request, variables, text.clone(), self.listed.clone());
@@ -269,7 +269,7 @@ impl DesignRun<'_> {
         let goal_of = |evaluated: &Evaluated| request.goal.sign() * settings.goal.value(&evaluated.evaluation);
         let gains = self.gains(chosen, poses)?;
         let mut limits = report.limits();
-        limits.extend(exchanges_in_words(&exchanges, request.goal.unit()));
+        limits.extend(exchanges.in_words(request.goal.unit()));
         Ok(Designed {
             robot: parameters.robot().name.clone(),
             models: Models::of(&first, linearisation_of_goal(request, first.equilibrium.model)),
@@ -283,7 +283,7 @@ impl DesignRun<'_> {
             values: report.values(),
             gains,
             ropes,
-            exchanges,
+            exchanges: exchanges.rows,
             demands: report.demands(),
             converged: found.ending == MaxMinEnding::Converged,
             ending: report.ending(),
@@ -327,6 +327,22 @@ impl DesignRun<'_> {
         }
         Ok(warnings)
     }
+}
+
+/// Refuses limits of tensions as values where results have no derivatives by them.
+fn check_limits(request: &DesignRequest, variables: &[Variable]) -> Result<()> {
+    let Some(limit) = variables.iter().find(|variable| variable.is_limit) else { return Ok(()) };
+    let has_demands =
+        request.min_frequency_hz.is_some() || request.min_stiffness_n_per_m.is_some() || request.avoid_hz.is_some();
+    let is_of_modes = matches!(request.goal, DesignGoal::First | DesignGoal::Platform | DesignGoal::Stiffness);
+    if has_demands || is_of_modes {
+        bail!(
+            "⟪change⟫ {}: frequencies and stiffnesses have no derivatives by limits of tensions; choose a ⟪goal⟫ such \
+             as load-factor, workspace or winch-power, without demands",
+            limit.path
+        );
+    }
+    Ok(())
 }
 
 /// Refuses a goal that the robot or other options contradict.

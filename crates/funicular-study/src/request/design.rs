@@ -107,7 +107,7 @@ pub struct OfferedRope {
 }
 
 impl OfferedRope {
-    /// Keys of its numbers, which a material of the robot file has as well.
+    /// Keys of its numbers.
     pub(crate) const NUMBERS: [&str; 6] = [
         "axial_stiffness_n",
         "mass_kg_per_m",
@@ -120,16 +120,20 @@ impl OfferedRope {
     /// Keys of the numbers that every rope has.
     pub(crate) const NEEDED: [&str; 2] = ["axial_stiffness_n", "mass_kg_per_m"];
 
-    /// Keys with the values of this rope; none without a value.
-    pub(crate) fn values(&self) -> impl Iterator<Item = (&'static str, Option<f64>)> {
+    /// Keys of a material of the robot file with the values of this rope. A material has its stiffness, or a diameter
+    /// with the modulus of its full circle.
+    pub(crate) fn material(&self) -> impl Iterator<Item = (&'static str, f64)> {
+        let circle = |diameter: f64| 0.25 * std::f64::consts::PI * diameter * diameter;
+        let of_circle = self.diameter_m.map(|diameter| self.axial_stiffness_n / circle(diameter));
         let values = [
-            Some(self.axial_stiffness_n),
-            Some(self.mass_kg_per_m),
-            self.diameter_m,
-            self.minimum_tension_n,
-            self.maximum_tension_n,
-            self.breaking_load_n,
+            ("axial_stiffness_n", self.diameter_m.is_none().then_some(self.axial_stiffness_n)),
+            ("youngs_modulus_pa", of_circle),
+            ("diameter_m", self.diameter_m),
+            ("mass_kg_per_m", Some(self.mass_kg_per_m)),
+            ("minimum_tension_n", self.minimum_tension_n),
+            ("maximum_tension_n", self.maximum_tension_n),
+            ("breaking_load_n", self.breaking_load_n),
         ];
-        Self::NUMBERS.into_iter().zip(values)
+        values.into_iter().filter_map(|(key, value)| Some((key, value?)))
     }
 }

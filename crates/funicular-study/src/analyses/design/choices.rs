@@ -5,7 +5,7 @@ use crate::error::Cancelled;
 use crate::request::OfferedRope;
 use crate::rows::rows;
 use crate::set_values::{self, Assignment};
-use crate::text::significant;
+use crate::text::{significant, with_unit};
 use anyhow::{Result, anyhow, bail};
 use funicular::clearance::Surroundings;
 use funicular::robot::parameters::Parameters;
@@ -19,6 +19,10 @@ const MIN_GAIN: f64 = 1e-6;
 
 /// Largest number of rounds of exchanges; each robot of the library ends after four or fewer.
 const MAX_ROUNDS: usize = 50;
+
+/// Keys of a material that belong to the section of its rope.
+const OF_SECTION: [&str; 5] =
+    ["axial_stiffness_n", "youngs_modulus_pa", "area_m2", "diameter_m", "dynamic_axial_stiffness_n"];
 
 rows! {
     /// Rope that was tried.
@@ -53,10 +57,11 @@ rows! {
 ///
 /// # Errors
 /// A robot whose cables end in one point, or work that was stopped.
-pub(super) fn reconnected(run: &mut DesignRun<'_>, text: String) -> Result<(String, Vec<ExchangeRow>)> {
-    let Some(mut value) = run.start_value(&text).ok() else { return Ok((text, Vec::new())) };
+pub(super) fn reconnected(run: &mut DesignRun<'_>, text: String) -> Result<(String, Exchanges)> {
+    let Ok(mut value) = run.start_value(&text) else { return Ok((text, Exchanges::default())) };
     let mut best_text = text;
-    let mut exchanges = Vec::new();
+    let sign = run.request.goal.sign();
+    let mut exchanges = Exchanges { before: sign * value, rows: Vec::new() };
     let parameters = Parameters::from_toml(&best_text)?;
     let names: Vec<String> = parameters.robot().cables.iter().map(|cable| cable.name.clone()).collect();
     let crossings = run.crossings(&best_text)?;
@@ -79,7 +84,7 @@ pub(super) fn reconnected(run: &mut DesignRun<'_>, text: String) -> Result<(Stri
         let Some((after, exchanged, [i, j])) = best else { break };
         (value, best_text) = (after, exchanged);
         let cables = [names[i].clone(), names[j].clone()];
-        exchanges.push(ExchangeRow { cables, after: run.request.goal.sign() * after });
+        exchanges.rows.push(ExchangeRow { cables, after: sign * after });
     }
     Ok((best_text, exchanges))
 }
@@ -170,18 +175,24 @@ fn materials(text: &str) -> Result<Vec<String>> {
     Ok(materials.map(|of| of.iter().map(|(name, _)| name.to_owned()).collect()).unwrap_or_default())
 }
 
-/// Text with the values of a rope in every material.
+/// Text with the values of a rope in every material, instead of those of its section; limits of tensions that the rope
+/// does not have stay.
 fn with_rope(text: &str, materials: &[String], rope: &OfferedRope) -> Result<String> {
+    let mut document: DocumentMut = text.parse()?;
     let mut assignments = Vec::new();
     for material in materials {
-        for (key, value) in rope.values() {
-            let Some(value) = value else { continue };
+        let table = document.get_mut("materials").and_then(|of| of.get_mut(material)).and_then(Item::as_table_like_mut);
+        if let Some(table) = table {
+            OF_SECTION.iter().for_each(|key| drop(table.remove(key)));
+        }
+        for (key, value) in rope.material() {
             let path =
                 set_values::path(&format!("materials.{material}.{key}")).map_err(|reason| anyhow!("{reason}"))?;
             assignments.push(path.with("⟪ropes⟫", value));
         }
     }
-    set_values::apply(text, &assignments).map_err(|error| anyhow!("⟪ropes⟫, rope {}: {error}", rope.name))
+    set_values::apply(&document.to_string(), &assignments)
+        .map_err(|error| anyhow!("⟪ropes⟫, rope {}: {error}", rope.name))
 }
 
 impl DesignRun<'_> {
@@ -193,13 +204,23 @@ impl DesignRun<'_> {
     }
 }
 
-/// Sentence on the exchanges.
-pub(super) fn exchanges_in_words(exchanges: &[ExchangeRow], unit: &str) -> Option<String> {
-    let last = exchanges.last()?;
-    let pairs: Vec<String> = exchanges.iter().map(|row| format!("{} and {}", row.cables[0], row.cables[1])).collect();
-    Some(format!(
-        "Attachments exchanged: {}; the goal with the values of the file is then {}",
-        pairs.join(", then "),
-        crate::text::with_unit(&significant(last.after, 5), unit)
-    ))
+/// Exchanges of attachments, with the value of the goal before them.
+#[derive(Default)]
+pub(super) struct Exchanges {
+    before: f64,
+    pub(super) rows: Vec<ExchangeRow>,
+}
+
+impl Exchanges {
+    /// Sentence on the exchanges.
+    pub(super) fn in_words(&self, unit: &str) -> Option<String> {
+        let last = self.rows.last()?;
+        let pairs: Vec<String> =
+            self.rows.iter().map(|row| format!("{} and {}", row.cables[0], row.cables[1])).collect();
+        let [before, after] = [self.before, last.after].map(|value| with_unit(&significant(value, 5), unit));
+        Some(format!(
+            "Attachments exchanged: {}: from {before} to {after}, before any value changes",
+            pairs.join(", then ")
+        ))
+    }
 }

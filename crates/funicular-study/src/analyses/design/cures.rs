@@ -10,8 +10,8 @@ use funicular::statics::{self, StaticModel, TensionRule};
 /// Number of remedies that are told.
 const TOLD: usize = 6;
 
-/// Relative accuracy of the size of a change.
-const ACCURACY: f64 = 0.01;
+/// Accuracy of the size of a change, relative to it; told are three digits.
+const ACCURACY: f64 = 1e-3;
 
 /// Largest factor of a maximum tension, and the reciprocal of the least one of a minimum and of the mass.
 const MAX_FACTOR: f64 = 10.0;
