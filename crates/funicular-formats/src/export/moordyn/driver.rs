@@ -162,7 +162,7 @@ impl MoorDynCourse {
 /// A cable that fails twice, or the last one.
 fn cuts(at_rest: &AtRest, events: &ScenarioEvents) -> Result<Vec<(f64, usize)>> {
     let cut = |event: &SimulationEvent| match *event {
-        SimulationEvent::Cut { cable, at: CutAt::Time(time) } => Some((time, cable)),
+        SimulationEvent::Cut { cable, at: CutAt::Time(time), .. } => Some((time, cable)),
         _ => None,
     };
     let mut found: Vec<(usize, f64, usize)> =
