@@ -55,8 +55,8 @@ pub(crate) fn interruptible_in_steps<T: Send + 'static>(
 
 /// Runs work on a new thread while the calling thread checks for signals; Ctrl-C sets the flag that the work looks at.
 ///
-/// The work ends at its next look and gives what it has, beside the exception. The exception of a second Ctrl-C comes at
-/// once, and the result is dropped.
+/// The work ends at its next look and gives what it has, beside the exception. The exception of a second Ctrl-C comes
+/// at once, and the result is dropped.
 pub(crate) fn interruptible_by_flag<T: Send + 'static>(
     py: Python<'_>,
     work: impl FnOnce(&AtomicBool) -> T + Send + 'static,
@@ -64,15 +64,20 @@ pub(crate) fn interruptible_by_flag<T: Send + 'static>(
     let stop = Stop::default();
     let flag = Arc::clone(&stop.0);
     let mut raised = None;
-    let found = until_signal(py, &stop, move || work(&flag), |error| match raised.replace(error) {
-        Some(first) => raised.replace(first),
-        None => None,
-    })?;
+    let found = until_signal(
+        py,
+        &stop,
+        move || work(&flag),
+        |error| match raised.replace(error) {
+            Some(first) => raised.replace(first),
+            None => None,
+        },
+    )?;
     Ok((found, raised))
 }
 
-/// Runs work on a new thread until it ends or a signal comes, which sets `stop`. `keep` takes the exception of a signal,
-/// and gives back the one that ends the wait.
+/// Runs work on a new thread until it ends or a signal comes, which sets `stop`. `keep` takes the exception of a
+/// signal, and gives back the one that ends the wait.
 fn until_signal<T: Send + 'static>(
     py: Python<'_>,
     stop: &Stop,

@@ -299,8 +299,8 @@ impl Pose {
         Self { position_w: Vec3::from(position_w), rot_wp: rotation::from_roll_pitch_yaw_deg(roll, pitch, yaw) }
     }
 
-    /// Pose of a body along the line between two points: its origin halfway, its z axis from the first to the second, its
-    /// x axis across z of the frame of the points, or along x if the line is along z.
+    /// Pose of a body along the line between two points: its origin halfway, its z axis from the first to the second,
+    /// its x axis across z of the frame of the points, or along x if the line is along z.
     pub fn between(from: &Vec3, to: &Vec3) -> Self {
         /// Sine of the angle to z below which a line counts as parallel to it.
         const PARALLEL: f64 = 1e-9;

@@ -3,7 +3,9 @@
 use crate::output::Printed;
 use crate::table::{self, Table, decimals_or_none, short, vector};
 use funicular::robot::{Constraint, PlatformMotion};
-use funicular_study::analyses::check::{Checked, CheckedBody, CheckedCable, CheckedPlatform, CheckedRope, CheckedWinch};
+use funicular_study::analyses::check::{
+    Checked, CheckedBody, CheckedCable, CheckedPlatform, CheckedRope, CheckedWinch,
+};
 use std::fmt::Write;
 
 impl Printed for Checked {

@@ -60,8 +60,8 @@ impl BodySurface {
     }
 }
 
-/// Distance of a half space from the middle of the anchors, over their radius, up to which it is drawn: a plane far away
-/// would make the robot small.
+/// Distance of a half space from the middle of the anchors, over their radius, up to which it is drawn: a plane far
+/// away would make the robot small.
 const MAX_AWAY: f64 = 2.0;
 
 /// Square in the plane of a half space as large as the anchors' room, at the place nearest to their middle; none for a

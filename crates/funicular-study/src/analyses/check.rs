@@ -6,13 +6,12 @@ mod required;
 use super::fields::AXES;
 use super::found;
 use super::shared::{LoadRow, WindRow};
-pub use bodies::{CheckedBody, CheckedClearance};
-pub use required::CheckedRequired;
 use crate::columns::{ResultTable, Tabled, only_read, parts};
 use crate::rows::rows;
 use crate::table::Column;
 use crate::text::NONE;
 use crate::text::short;
+pub use bodies::{CheckedBody, CheckedClearance};
 use funicular::math::rotation;
 use funicular::robot::{
     Cable, Control, Damping, GuideWheel, PlatformMotion, Pulley, PulleyFriction, Robot, State, Support, TensionLimits,
@@ -20,6 +19,7 @@ use funicular::robot::{
 };
 use funicular::statics::{self, CableState, StaticModel};
 use funicular::warnings::{self, Warning, plausibility};
+pub use required::CheckedRequired;
 use std::f64::consts::TAU;
 
 rows! {

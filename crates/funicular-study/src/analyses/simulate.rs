@@ -317,9 +317,8 @@ impl Course<'_> {
             let sample = simulation.at(*time).map_err(|error| events.told(error))?;
             picture.keep(&mut simulation, &sample, k, times.len());
             let curves = if around.is_some() { simulation.curves_w(*time) } else { Vec::new() };
-            let clearance = around
-                .as_ref()
-                .and_then(|around| Some((around, nearest_of_sample(around, robot, &sample, &curves)?)));
+            let clearance =
+                around.as_ref().and_then(|around| Some((around, nearest_of_sample(around, robot, &sample, &curves)?)));
             below.look(*time, &sample.pose, &curves);
             if let Some((around, clearance)) = clearance
                 && nearest.as_ref().is_none_or(|nearest| clearance.margin() < nearest.margin_m)
@@ -340,8 +339,8 @@ impl Course<'_> {
     }
 }
 
-/// Pair with the least margin at one time. A cable that has failed falls, so that its distance from a floor says nothing;
-/// [`BelowGround`] tells where it is.
+/// Pair with the least margin at one time. A cable that has failed falls, so that its distance from a floor says
+/// nothing; [`BelowGround`] tells where it is.
 fn nearest_of_sample(
     around: &Surroundings,
     robot: &Robot,

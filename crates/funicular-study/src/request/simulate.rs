@@ -200,8 +200,8 @@ declared! {
         /// Tension at either end at which it fails [N].
         #[serde(skip_serializing_if = "Option::is_none")]
         at_tension_n: Option<f64> = None => (Number(Finite));
-        /// Unstrained length between the platform and the place where it fails [m]; 0 at the platform. Both halves swing
-        /// on.
+        /// Unstrained length between the platform and the place where it fails [m]; 0 at the platform. Both halves
+        /// swing on.
         #[serde(skip_serializing_if = "is_zero")]
         place_m: f64 = 0.0 => (Number(Finite));
     }

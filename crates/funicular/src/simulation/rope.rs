@@ -446,8 +446,8 @@ impl RopeMesh {
         (e as f64 + self.basis.nodes[node - e * self.basis.degree]) / self.elements as f64
     }
 
-    /// Velocities that the nodes have because σ moves along the rope while its length changes: σ L'/L times the slope of
-    /// the rope. Where two elements meet the slope is that of the middle.
+    /// Velocities that the nodes have because σ moves along the rope while its length changes: σ L'/L times the slope
+    /// of the rope. Where two elements meet the slope is that of the middle.
     pub(super) fn sliding(&self, length: &WoundLength, x: &[f64]) -> Vec<f64> {
         let (count, degree, ratio) = (self.elements as f64, self.basis.degree, length.rate / length.value);
         let mut out = vec![0.0; x.len()];

@@ -545,9 +545,9 @@ struct Fuse {
 fn parting(robot: &Robot, events: &[SimulationEvent]) -> Vec<usize> {
     let parts = |i: usize| {
         robot.cables[i].material.mass_per_length > 0.0
-            && events.iter().any(
-                |event| matches!(event, SimulationEvent::Cut { cable, place, .. } if *cable == i && *place > 0.0),
-            )
+            && events
+                .iter()
+                .any(|event| matches!(event, SimulationEvent::Cut { cable, place, .. } if *cable == i && *place > 0.0))
     };
     (0..robot.cables.len()).filter(|i| parts(*i)).collect()
 }

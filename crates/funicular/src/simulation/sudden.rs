@@ -135,7 +135,7 @@ impl Stepper {
     /// velocities: `half` is the one at the platform, the cable itself the one at the anchor.
     ///
     /// # References
-    /// docs/theory.md, equation (97k1).
+    /// docs/theory.md, equation (97k3).
     pub(super) fn part(&mut self, cable: usize, half: usize, place: f64) {
         let lengths = self.system.lengths(self.time);
         let free = self.system.free_length(cable, &lengths[cable], &self.now);

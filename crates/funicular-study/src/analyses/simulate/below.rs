@@ -28,8 +28,8 @@ impl BelowRow {
     /// Sentence on it.
     pub fn in_words(&self) -> String {
         let word = if self.is_floor { "below" } else { "behind" };
-        let [first, deepest, time] =
-            [(self.first_s, 4), (self.deepest_m, 3), (self.deepest_s, 4)].map(|(value, digits)| significant(value, digits));
+        let [first, deepest, time] = [(self.first_s, 4), (self.deepest_m, 3), (self.deepest_s, 4)]
+            .map(|(value, digits)| significant(value, digits));
         format!(
             "{} is {word} the surface of \"{}\" from {first} s on, by up to {deepest} m at {time} s.",
             self.part, self.obstacle
@@ -66,7 +66,9 @@ impl<'a> BelowGround<'a> {
             for (k, points_w) in curves_w.iter().enumerate() {
                 let part = match k.checked_sub(robot.cables.len()) {
                     None => format!("cable \"{}\"", robot.cables[k].name),
-                    Some(half) => format!("the half of cable \"{}\" at the platform", robot.cables[self.parted[half]].name),
+                    Some(half) => {
+                        format!("the half of cable \"{}\" at the platform", robot.cables[self.parted[half]].name)
+                    }
                 };
                 self.note(time, (&obstacle.name, is_floor), part, deepest(points_w));
             }
@@ -104,5 +106,9 @@ fn corners(robot: &Robot, pose: &Pose) -> Vec<Vec3> {
     if bodies.is_empty() {
         return robot.cables.iter().map(|cable| pose.point_w(&cable.attachment_p)).collect();
     }
-    bodies.iter().flat_map(|body| body.triangles().into_iter().flatten()).map(|point_p| pose.point_w(&point_p)).collect()
+    bodies
+        .iter()
+        .flat_map(|body| body.triangles().into_iter().flatten())
+        .map(|point_p| pose.point_w(&point_p))
+        .collect()
 }

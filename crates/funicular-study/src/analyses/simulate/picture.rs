@@ -25,8 +25,8 @@ pub struct SimulatedFrame {
     /// Points of every rope from the platform to the anchor [m]; none for a cut rope without mass. Of a cable that has
     /// failed at a place, they are those of the half at the anchor.
     pub curves: Vec<Vec<Vec3>>,
-    /// Halves at the platform of cables that fail at a place: the cable's index and points from the platform to the loose
-    /// end [m], none before the failure.
+    /// Halves at the platform of cables that fail at a place: the cable's index and points from the platform to the
+    /// loose end [m], none before the failure.
     pub halves: Vec<(usize, Vec<Vec3>)>,
 }
 

@@ -55,17 +55,8 @@ const WITHOUT_DERIVATIVE: &[(&str, &[&str])] = &[
 ];
 
 /// Keys of numbers of a body.
-const BODY: &[&str] = &[
-    "position_m",
-    "roll_pitch_yaw_deg",
-    "from_m",
-    "to_m",
-    "size_m",
-    "width_m",
-    "height_m",
-    "diameter_m",
-    "length_m",
-];
+const BODY: &[&str] =
+    &["position_m", "roll_pitch_yaw_deg", "from_m", "to_m", "size_m", "width_m", "height_m", "diameter_m", "length_m"];
 
 impl Parameters {
     /// Change of the robot per unit of a parameter, in the unit of the file: the direction for derivatives of results

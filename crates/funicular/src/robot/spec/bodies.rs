@@ -75,7 +75,7 @@ pub(super) const BODY: &[Key] = &[
         "width_m = 0.2",
         "m",
         Range::Positive,
-        "width of a box with `from_m`: the edge across its axis that is level (across z), and along x of an upright box",
+        "width of a box with `from_m`: the level edge across its axis, along x if the box is upright",
     )
     .without(Absent::Depends("required for a box with `from_m`, else refused")),
     Key::numeric(

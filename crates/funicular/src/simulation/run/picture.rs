@@ -12,8 +12,8 @@ impl SlackCable {
 
 impl Simulation {
     /// Nodes of every rope [m] from the platform to the anchor, in file order, at a time of the last step or at its
-    /// end. A cut rope without mass has none. Behind the cables stand the halves at the platform of those that fail at a
-    /// place ([`parted`](Self::parted)).
+    /// end. A cut rope without mass has none. Behind the cables stand the halves at the platform of those that fail
+    /// at a place ([`parted`](Self::parted)).
     ///
     /// # Example
     /// ```
