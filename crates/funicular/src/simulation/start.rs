@@ -381,7 +381,9 @@ pub(super) fn at_rest(
         None => Air::steady(robot.wind, robot.cables.len()),
         Some(seed) => Air::gusty(robot, rest.pose.position_w, &gusty, (duration, seed))?,
     };
-    parting.iter().for_each(|cable| air.add_rope_like(*cable));
+    for cable in parting {
+        air.add_rope_like(*cable);
+    }
     let mut system = System {
         body,
         ends,

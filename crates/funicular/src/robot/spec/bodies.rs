@@ -264,12 +264,11 @@ fn between_points(reader: &mut Reader, name: &str, section: &Section, word: &str
     let mut end = |key: &str| reader.required(section, key).and_then(|value| reader.vector(section, key, value));
     let (from, to) = (end("from_m"), end("to_m"));
     let mut number = |key: &str| reader.required(section, key).and_then(|value| reader.number_of(section, key, value));
-    let across = match word {
-        "cylinder" => number("diameter_m").map(|diameter| [diameter; 2]),
-        _ => {
-            let (width, height) = (number("width_m"), number("height_m"));
-            width.and_then(|width| Some([width, height?]))
-        }
+    let across = if word == "cylinder" {
+        number("diameter_m").map(|diameter| [diameter; 2])
+    } else {
+        let (width, height) = (number("width_m"), number("height_m"));
+        width.and_then(|width| Some([width, height?]))
     };
 
     let (from, to) = (Vec3::from(from?), Vec3::from(to?));
@@ -281,9 +280,10 @@ fn between_points(reader: &mut Reader, name: &str, section: &Section, word: &str
         return None;
     }
     let [width, height] = across?;
-    let solid = match word {
-        "cylinder" => Solid::Cylinder { radius: 0.5 * width, half_length: 0.5 * length },
-        _ => Solid::Box { half: Vec3::new(width, height, length) * 0.5 },
+    let solid = if word == "cylinder" {
+        Solid::Cylinder { radius: 0.5 * width, half_length: 0.5 * length }
+    } else {
+        Solid::Box { half: Vec3::new(width, height, length) * 0.5 }
     };
     Some(Body { name: name.to_owned(), pose: Pose::between(&from, &to), solid })
 }
