@@ -50,27 +50,39 @@ pub(crate) fn interruptible_in_steps<T: Send + 'static>(
 ) -> PyResult<T> {
     let stop = Stop::default();
     let mut watch = stop.clone();
-    until_signal(py, &stop, move || work(&mut watch))
+    until_signal(py, &stop, move || work(&mut watch), Some)
 }
 
 /// Runs work on a new thread while the calling thread checks for signals; Ctrl-C sets the flag that the work looks at.
 ///
-/// At Ctrl-C the caller gets the exception at once; the thread ends when the work has seen the flag, and its result is
-/// dropped.
+/// The work ends at its next look and gives what it has, beside the exception. The exception of a second Ctrl-C comes
+/// at once, and the result is dropped.
 pub(crate) fn interruptible_by_flag<T: Send + 'static>(
     py: Python<'_>,
     work: impl FnOnce(&AtomicBool) -> T + Send + 'static,
-) -> PyResult<T> {
+) -> PyResult<(T, Option<PyErr>)> {
     let stop = Stop::default();
     let flag = Arc::clone(&stop.0);
-    until_signal(py, &stop, move || work(&flag))
+    let mut raised = None;
+    let found = until_signal(
+        py,
+        &stop,
+        move || work(&flag),
+        |error| match raised.replace(error) {
+            Some(first) => raised.replace(first),
+            None => None,
+        },
+    )?;
+    Ok((found, raised))
 }
 
-/// Runs work on a new thread until it ends or a signal comes, which sets `stop`.
+/// Runs work on a new thread until it ends or a signal comes, which sets `stop`. `keep` takes the exception of a
+/// signal, and gives back the one that ends the wait.
 fn until_signal<T: Send + 'static>(
     py: Python<'_>,
     stop: &Stop,
     work: impl FnOnce() -> T + Send + 'static,
+    mut keep: impl FnMut(PyErr) -> Option<PyErr> + Send,
 ) -> PyResult<T> {
     py.detach(|| {
         let (sender, receiver) = channel();
@@ -83,7 +95,12 @@ fn until_signal<T: Send + 'static>(
             match receiver.recv_timeout(INTERVAL) {
                 Ok(result) => return Ok(result),
                 Err(RecvTimeoutError::Timeout) => {
-                    check_signals().inspect_err(|_| stop.0.store(true, Ordering::Relaxed))?;
+                    if let Err(error) = check_signals() {
+                        stop.0.store(true, Ordering::Relaxed);
+                        if let Some(error) = keep(error) {
+                            return Err(error);
+                        }
+                    }
                 }
                 Err(RecvTimeoutError::Disconnected) => match worker.join() {
                     Err(panic) => std::panic::resume_unwind(panic),

@@ -21,6 +21,7 @@ BESIDE: dict[str, dict[str, Any]] = {
     "design": {"change": {"platform.mass_kg": [5, 20]}},
     "calibrate": {"readings": LENGTHS},
     "reduce": {"below_hz": 5},
+    "identify": {"fit": [{"path": "platform.mass_kg"}], "experiments": [{"frequencies": [{"frequency_hz": 1.2}]}]},
 }
 
 
@@ -28,7 +29,7 @@ def numeric(command: str) -> list[str]:
     return [key["name"] for key in COMMANDS[command] if key["type"] == "SupportsFloat | SupportsIndex" and not key["required"]]
 
 
-@pytest.mark.parametrize("command", ["simulate", "trajectory", "pose-error", "statics", "modes", "settle", "gust", "loads", "design", "calibrate", "uncertainty", "workspace", "reduce", "frf"])
+@pytest.mark.parametrize("command", ["simulate", "trajectory", "pose-error", "statics", "modes", "settle", "gust", "loads", "design", "calibrate", "uncertainty", "workspace", "reduce", "frf", "identify"])
 def test_a_number_out_of_its_range_is_refused_before_any_work(robot: funicular.Robot, command: str) -> None:
     tried = 0
     beside = BESIDE.get(command, {})
@@ -131,6 +132,39 @@ def test_an_exception_of_a_handler_ends_a_simulation_and_carries_its_rows(robot:
         signal.signal(signal.SIGALRM, before)
     part = error.value.partial_results
     assert isinstance(part, funicular.Results) and part["rows"] and part["stopped_at_s"] < 300
+
+
+def test_a_workspace_that_is_stopped_keeps_what_was_found(cogiro: funicular.Robot) -> None:
+    import os
+
+    grid: dict[str, Any] = {"grid": {"x": (-6, 6, 13), "y": (-4, 4, 9), "z": (0.5, 4, 8)}, "threads": 1}
+
+    def told(done: int, total: int) -> None:
+        if done > 2000:
+            raise TimeoutError("too long")
+
+    with pytest.raises(TimeoutError, match="too long") as error:
+        cogiro.workspace(progress=told, **grid)
+    part = error.value.partial_results
+    assert isinstance(part, funicular.Results) and part["complete"] is False and part["volumes"][-1]["volume_m3"] > 0
+
+    # Stopped before the first surface, the exception says how far the search was.
+    def at_once(done: int, total: int) -> None:
+        raise TimeoutError("too long")
+
+    with pytest.raises(TimeoutError) as early:
+        cogiro.workspace(progress=at_once, **grid)
+    assert not hasattr(early.value, "partial_results") and "too few for a surface" in early.value.__notes__[0]
+
+    def interrupted(done: int, total: int) -> None:
+        if done > 2000 and not sent:
+            sent.append(done)
+            os.kill(os.getpid(), signal.SIGINT)
+
+    sent: list[int] = []
+    with pytest.raises(KeyboardInterrupt) as stopped:
+        cogiro.workspace(progress=interrupted, **grid)
+    assert stopped.value.partial_results["volumes"]
 
 
 def test_results_compare_by_values_and_survive_pickles(cogiro: funicular.Robot) -> None:

@@ -80,10 +80,9 @@ fn with_envelope(command: &str, mut schema: Value) -> Value {
         ("robot", json!({ "type": "string", "description": "Name of the robot; absent if there are several" })),
     ];
     for (name, of_key) in keys {
-        // `settle` has a key `command` of its own, which comes later and is the one that readers see.
-        if schema["properties"].get(name).is_none() {
-            schema["properties"][name] = of_key;
-        }
+        // A key that stands twice is read differently by every program.
+        assert!(schema["properties"].get(name).is_none(), "results of `{command}` have a second key `{name}`");
+        schema["properties"][name] = of_key;
         if let Some(required) = schema["required"].as_array_mut().filter(|_| name != "robot") {
             required.push(name.into());
         }

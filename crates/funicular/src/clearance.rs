@@ -255,9 +255,20 @@ impl<'a> Surroundings<'a> {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn least_through(&self, pose: &Pose, curves_w: &[Vec<Vec3>]) -> Option<Clearance> {
+        self.least_through_of(pose, curves_w, &|_| true)
+    }
+
+    /// Least margin as in [`least_through`](Self::least_through), of the pairs that `counts` chooses.
+    pub fn least_through_of(
+        &self,
+        pose: &Pose,
+        curves_w: &[Vec<Vec3>],
+        counts: &dyn Fn(ClearancePair) -> bool,
+    ) -> Option<Clearance> {
         let spans = curves_w.iter().zip(&self.robot.cables);
         let spans = spans.map(|(points_w, cable)| FreeSpan::through(points_w, cable.radius(), self.from_end)).collect();
-        self.placed(pose, spans).least(None)
+        let placed = self.placed(pose, spans);
+        placed.least_of(placed.pairs().into_iter().filter(|pair| counts(*pair)))
     }
 
     fn at<'s>(&'s self, rest: &'s Equilibrium) -> Placed<'s> {
@@ -361,8 +372,13 @@ impl Placed<'_> {
 
     /// Pair with the least margin, of one kind or of all.
     fn least(&self, kind: Option<ClearanceKind>) -> Option<Clearance> {
+        self.least_of(self.pairs_of(kind))
+    }
+
+    /// Pair with the least margin of some pairs.
+    fn least_of(&self, pairs: impl Iterator<Item = ClearancePair>) -> Option<Clearance> {
         let mut least: Option<Clearance> = None;
-        for pair in self.pairs_of(kind) {
+        for pair in pairs {
             // Pairs that are surely farther apart need no exact distance.
             let enough = least.map_or(f64::INFINITY, |least| least.margin());
             let found = self.clearance(pair, enough);

@@ -299,6 +299,19 @@ impl Pose {
         Self { position_w: Vec3::from(position_w), rot_wp: rotation::from_roll_pitch_yaw_deg(roll, pitch, yaw) }
     }
 
+    /// Pose of a body along the line between two points: its origin halfway, its z axis from the first to the second,
+    /// its x axis across z of the frame of the points, or along x if the line is along z.
+    pub fn between(from: &Vec3, to: &Vec3) -> Self {
+        /// Sine of the angle to z below which a line counts as parallel to it.
+        const PARALLEL: f64 = 1e-9;
+        let along = (to - from).normalize();
+        let level = Vec3::z().cross(&along);
+        let x = if level.norm() > PARALLEL { level.normalize() } else { Vec3::x() };
+        let across = along.cross(&x).normalize();
+        let axes = Mat3::from_columns(&[across.cross(&along), across, along]);
+        Self { position_w: (from + to) * 0.5, rot_wp: rotation::from_axes(&axes) }
+    }
+
     /// The pose after a small motion: translation [m] and rotation vector [rad], world axes.
     #[must_use]
     pub fn moved(&self, translation_w: &Vec3, turn_w: &Vec3) -> Self {

@@ -3,7 +3,9 @@
 use crate::output::Printed;
 use crate::table::{self, Table, decimals_or_none, short, vector};
 use funicular::robot::{Constraint, PlatformMotion};
-use funicular_study::analyses::check::{Checked, CheckedCable, CheckedPlatform, CheckedRope, CheckedWinch};
+use funicular_study::analyses::check::{
+    Checked, CheckedBody, CheckedCable, CheckedPlatform, CheckedRope, CheckedWinch,
+};
 use std::fmt::Write;
 
 impl Printed for Checked {
@@ -55,12 +57,23 @@ impl Printed for Checked {
             None => "none: analyses need --lengths-m or --pose".to_owned(),
         };
         say(format!("  state       {state}"));
+        for (line, name) in requirements(self).iter().zip(std::iter::once("required").chain(std::iter::repeat(""))) {
+            say(format!("  {name:<12}{line}"));
+        }
+        let has_bodies = !self.obstacles.is_empty() || !self.platform_bodies.is_empty();
+        match &self.clearance {
+            Some(clearance) => say(format!("  clearance   {}", clearance.text())),
+            None if has_bodies => say("  clearance   no distances required: things must not touch".to_owned()),
+            None => {}
+        }
         out += &("\n".to_owned()
             + &Table::of(&CheckedRope::columns(&self.materials), &self.materials).to_string()
             + "\n"
             + &Table::of(&CheckedCable::columns(&self.cables), &self.cables).to_string()
             + &drive_table(self)
-            + &support_table(self));
+            + &support_table(self)
+            + &body_table("obstacle", &self.obstacles)
+            + &body_table("platform body", &self.platform_bodies));
         for note in &self.notes {
             let _ = write!(out, "\nNote: {note}.\n");
         }
@@ -158,6 +171,33 @@ fn support_table(found: &Checked) -> String {
             decimals_or_none(support.first_frequency_hz, 2),
             support.drums.to_owned(),
         ]);
+    }
+    format!("\n{rows}")
+}
+
+/// Required loads and velocities, a line for each; empty if nothing is required.
+fn requirements(found: &Checked) -> Vec<String> {
+    let mut lines = Vec::new();
+    if let Some(required) = &found.required {
+        lines.push(format!("{}; shape: {}", required.parts().join("; "), required.shape));
+    }
+    lines.extend(found.required_loads.iter().map(|load| format!("or {}", load.text())));
+    if found.required.is_none()
+        && let Some(first) = lines.first_mut()
+    {
+        *first = first.trim_start_matches("or ").to_owned();
+    }
+    lines
+}
+
+/// Obstacles or bodies of the platform; empty without any.
+fn body_table(what: &str, bodies: &[CheckedBody]) -> String {
+    if bodies.is_empty() {
+        return String::new();
+    }
+    let mut rows = Table::new(&[what, "shape", "size", "place"]).text_columns(&[1, 2, 3]);
+    for body in bodies {
+        rows.row(vec![body.name.clone(), body.shape.to_owned(), body.size_text(), body.place_text()]);
     }
     format!("\n{rows}")
 }

@@ -17,7 +17,7 @@ impl Printed for Settled {
             format!("; the mode at {} Hz lasts longest", decimals(mode.frequency_hz, 4))
         });
         let (what, before) = match (&self.commanded, &self.held) {
-            (Some(commanded), _) => (format!("a {}", commanded.command), of_command(commanded)),
+            (Some(commanded), _) => (format!("a {}", commanded.command_kind), of_command(commanded)),
             (None, Some(held)) => ("a release".to_owned(), of_release(held)),
             (None, None) => (String::new(), String::new()),
         };
@@ -52,7 +52,7 @@ fn of_omitted_by_command(of: &Commanded) -> String {
     format!(
         "All modes above the limit together move the point by at most {} mm after the {}{tension}.\n",
         significant(1e3 * distance, 3),
-        of.command
+        of.command_kind
     )
 }
 
@@ -82,7 +82,7 @@ fn of_command(of: &Commanded) -> String {
     let mut text = format!(
         "The {} takes {} s; times are counted from its end. The lowest tension is {} N, in cable \"{}\" {} s after its \
          start.",
-        of.command,
+        of.command_kind,
         significant(of.duration_s, 4),
         significant(lowest.tension_n, 4),
         lowest.cable,

@@ -40,6 +40,9 @@ impl Printed for Simulated {
         if let Some(nearest) = &self.nearest {
             let _ = writeln!(text, "{}", nearest.in_words());
         }
+        for below in &self.below {
+            let _ = writeln!(text, "{}", below.in_words());
+        }
         let _ = write!(text, "\n{table}\n{} of {} shown.\n", shown.len(), counted(self.rows.len(), "row"));
         if !self.stretch_losses.is_empty() {
             let losses = Table::of(&StretchLossRow::columns(), &self.stretch_losses);

@@ -30,6 +30,71 @@ fn with_tables(folder: &Path, tables: &str) -> String {
 const COLUMN: &str = "[clearance]\nobstacles_m = 0.1\n[obstacles.column]\nshape = \"mesh\"\nfile = \"column.stl\"\n\
                       position_m = [3.0, 1.0, 1.5]\n";
 
+/// Ends of an axis.
+const ENDS: &str = "from_m = [1.0, 2.0, 0.5]\nto_m = [3.0, 1.0, 2.0]\n";
+
+/// A guy wire or a beam between two points is the cylinder or the box that is turned there by its angles, in every
+/// command; `check` lists what the drawing shows.
+#[test]
+fn a_body_between_two_points_is_the_one_that_is_turned_there() {
+    let folder = tempfile::tempdir().unwrap();
+    let distances = |tables: &str| -> Vec<f64> {
+        let file = with_tables(folder.path(), &format!("[obstacles.it]\n{tables}"));
+        let found = json(&["clearance", &file, "--pose", "1,0.5,1.5"]);
+        let pairs = found["pairs"].as_array().unwrap().iter().filter(|pair| pair["second"] == "it");
+        pairs.map(|pair| number(&pair["distance_m"])).collect()
+    };
+    // Angles of the axis by hand: yaw of its level part, pitch from z.
+    let (across, length) = (2.0_f64.hypot(1.0), (4.0_f64 + 1.0 + 2.25).sqrt());
+    let (pitch, yaw) = (across.atan2(1.5).to_degrees(), (-1.0_f64).atan2(2.0).to_degrees());
+    let place = format!("position_m = [2.0, 1.5, 1.25]\nroll_pitch_yaw_deg = [0.0, {pitch}, {yaw}]\n");
+    let near = |one: &str, other: &str| {
+        let (one, other) = (distances(one), distances(other));
+        assert!(one.len() > 1 && one.len() == other.len());
+        assert!(one.iter().zip(&other).all(|(a, b)| (a - b).abs() < 1e-9), "{one:?} {other:?}");
+    };
+    let wire = "shape = \"cylinder\"\ndiameter_m = 0.1\n";
+    near(&format!("{wire}{ENDS}"), &format!("{wire}{place}length_m = {length}\n"));
+    // The width of a beam is level: it is the y axis of these angles.
+    near(&format!("width_m = 0.6\nheight_m = 0.1\n{ENDS}"), &format!("size_m = [0.1, 0.6, {length}]\n{place}"));
+    // An upright post has its width along x.
+    let post = "from_m = [2, 1, 0]\nto_m = [2, 1, 3]\n";
+    near(&format!("width_m = 0.8\nheight_m = 0.2\n{post}"), "size_m = [0.8, 0.2, 3]\nposition_m = [2, 1, 1.5]\n");
+
+    let tables = format!(
+        "[clearance]\nobstacles_m = 0.1\n[required]\nforce_n = [10, 20, 30]\npayload_max_kg = 50\n\
+         [[required_loads]]\nforce_n = [0, 0, -300]\n[obstacles.floor]\nshape = \"half-space\"\n\
+         [obstacles.\"guy wire\"]\n{wire}{ENDS}[platform_bodies.rail]\nwidth_m = 0.1\nheight_m = 0.2\n\
+         from_m = [-0.4, 0, 0]\nto_m = [0.4, 0, 0]\n"
+    );
+    let file = with_tables(folder.path(), &tables);
+    let text = succeed(&["check", &file]);
+    for line in [
+        "required    force ±(10.0000, 20.0000, 30.0000) N; payload 0 to 50 kg; shape: box",
+        "or force (0.0000, 0.0000, -300.0000) N",
+        "clearance   0 m between cables, 0 m to the platform, 0.1 m to obstacles",
+        "from (1.0000, 2.0000, 0.5000) to (3.0000, 1.0000, 2.0000) m",
+        "behind the plane through (0.0000, 0.0000, 0.0000) m with the normal (0.0000, 0.0000, 1.0000)",
+        "0.1 × 0.2 × 0.8 m",
+    ] {
+        assert!(text.contains(line), "{line}\n{text}");
+    }
+    let checked = json(&["check", &file]);
+    assert_eq!(checked["obstacles"][1]["name"], "guy wire");
+    assert!((number(&checked["obstacles"][1]["length_m"]) - length).abs() < 1e-12);
+    assert_eq!(checked["obstacles"][0]["outward"][2].as_f64(), Some(1.0));
+    assert_eq!(checked["platform_bodies"][0]["shape"], "box");
+    assert_eq!(checked["required"]["payload_max_kg"].as_f64(), Some(50.0));
+    assert_eq!(checked["required_loads"][0]["force_n"][2].as_f64(), Some(-300.0));
+    assert_eq!(checked["clearance"]["obstacles_m"].as_f64(), Some(0.1));
+
+    // An end is a number of the file, and the place that it stands for is none.
+    let moved = json(&["check", &file, "--set", "obstacles.guy wire.to_m.2=4"]);
+    assert_eq!(moved["obstacles"][1]["to_m"][2].as_f64(), Some(4.0));
+    let refused = run(&["check", &file, "--set", "obstacles.guy wire.position_m.2=4"]);
+    assert_eq!(refused.status.code(), Some(2), "{}", stderr(&refused));
+}
+
 #[test]
 fn a_column_from_a_file_is_the_box_that_it_shows_in_every_command() {
     let folder = tempfile::tempdir().unwrap();
@@ -113,6 +178,24 @@ fn meshes_and_obstacles_that_make_no_sense_are_refused_with_their_place() {
         ("[obstacles.box]\nsize_m = [1, 0, 1]\n".to_owned(), "must be positive"),
         ("[obstacles.box]\nsize_m = [1, 1, 1]\ndiameter_m = 2\n".to_owned(), "does not go with"),
         ("[obstacles.box]\n".to_owned(), "has no `size_m`"),
+        (
+            format!("[obstacles.wire]\nshape = \"cylinder\"\ndiameter_m = 0.1\n{ENDS}position_m = [1, 1, 1]\n"),
+            "place the body",
+        ),
+        (
+            format!("[obstacles.wire]\nshape = \"cylinder\"\ndiameter_m = 0.1\n{ENDS}length_m = 3\n"),
+            "`length_m` does not go",
+        ),
+        (format!("[obstacles.beam]\nwidth_m = 1\nheight_m = 1\n{ENDS}size_m = [1, 1, 1]\n"), "`size_m` does not go"),
+        (format!("[obstacles.beam]\nwidth_m = 1\n{ENDS}"), "has no `height_m`"),
+        ("[obstacles.beam]\nwidth_m = 1\nheight_m = 1\nfrom_m = [1, 2, 3]\n".to_owned(), "has no `to_m`"),
+        ("[obstacles.beam]\nwidth_m = 1\nheight_m = 1\nsize_m = [1, 1, 1]\n".to_owned(), "needs `from_m` and `to_m`"),
+        (format!("[obstacles.floor]\nshape = \"half-space\"\n{ENDS}"), "does not go with `shape"),
+        (
+            "[obstacles.wire]\nshape = \"cylinder\"\ndiameter_m = 0.1\nfrom_m = [1, 2, 3]\nto_m = [1, 2, 3]\n"
+                .to_owned(),
+            "are the same point",
+        ),
         ("[platform_bodies.wall]\nshape = \"half-space\"\n".to_owned(), "cannot carry a half space"),
         ("[clearance]\ncables_m = -1\n".to_owned(), "must not be negative"),
         ("[clearance]\ncable_m = 1\n".to_owned(), "did you mean `cables_m`"),

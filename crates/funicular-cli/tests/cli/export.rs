@@ -101,6 +101,7 @@ fn events_that_moordyn_cannot_hold_are_refused_by_their_names() {
         (release.replace("release", "pick"), "[[pick]] of --scenario: a body of MoorDyn keeps the mass"),
         (tension.to_owned(), "[[tension]] of --scenario: a line of MoorDyn has a length"),
         (push.to_owned(), "[[push]] of --scenario: MoorDyn has no forces on a body"),
+        ("[[cut]]\ncable = \"1\"\nat_s = 0.1\nplace_m = 2.0\n".to_owned(), "place_m"),
         (
             "[[cut]]\ncable = \"1\"\nat_tension_n = 900.0\n".to_owned(),
             "[[cut]] of --scenario: a line of MoorDyn breaks when the script says so",

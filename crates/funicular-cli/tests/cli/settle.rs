@@ -234,7 +234,7 @@ fn a_trajectory_of_the_lengths_of_a_move_has_the_motion_of_the_move() {
     let path = lengths_of_the_move(folder.path());
     let line = ["settle", "ROBOT", "--below-hz", "3", "--trajectory", &path];
     let (moved, read) = (json(&with(&[])), json(&line));
-    assert_eq!(read["command"], "trajectory");
+    assert_eq!((&read["command"], &read["command_kind"]), (&"settle".into(), &"trajectory".into()));
     assert!((number(&read["duration_s"]) - number(&moved["duration_s"])).abs() < 1e-9);
     let (a, b) = (largest_amplitude(&moved), largest_amplitude(&read));
     assert!((b / a - 1.0).abs() < 1e-3, "{a} {b}");

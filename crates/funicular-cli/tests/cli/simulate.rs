@@ -239,6 +239,48 @@ fn a_simulation_begins_with_a_rope_that_hangs_slack() {
     }
 }
 
+/// A rope that fails at a place swings on in two halves, which fall below a floor; text, results and page say so, and
+/// the floor does not count as the nearest obstacle.
+#[test]
+fn both_halves_of_a_rope_that_fails_at_a_place_are_told() {
+    let directory = tempfile::tempdir().unwrap();
+    let at = |name: &str| directory.path().join(name).to_str().unwrap().to_owned();
+    let rope = "mass_kg_per_m = 0.05\naxial_damping_time_s = 0.0005\n";
+    let floor = "[obstacles.ground]\nshape = \"half-space\"\nposition_m = [0.0, 0.0, -8.22]\n";
+    fs::write(at("robot.toml"), hanging(rope, &format!("{}{floor}", catching(2.0)))).unwrap();
+    let scenario = |place: &str| format!("[[cut]]\ncable = \"working\"\nat_s = 0.01\nplace_m = {place}\n");
+    let run_with = |place: &str, more: &[&str]| {
+        fs::write(at("cut.toml"), scenario(place)).unwrap();
+        run(&[&["simulate", &at("robot.toml"), "--scenario", &at("cut.toml"), "--for", "0.1", "--once"], more].concat())
+    };
+
+    let output = run_with("5.0", &["--format", "json", "--page", &at("page.html")]);
+    assert!(output.status.success(), "{}", stderr(&output));
+    let found: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    let rows = found["rows"].as_array().unwrap();
+    let last = &rows[rows.len() - 1];
+    // 8 m of rope without 5 m, and the weight of these 5 m still hangs on the platform for a while.
+    assert!(
+        (numbers(&last["unstrained_lengths_m"])[0] - (numbers(&rows[0]["unstrained_lengths_m"])[0] - 5.0)).abs() < 1e-9
+    );
+    let below = found["below"].as_array().unwrap();
+    assert!(below.iter().any(|row| row["part"] == "the platform" && row["is_floor"] == true), "{below:?}");
+    assert!(stderr(&output).contains("contact is not simulated"), "{}", stderr(&output));
+    let page = fs::read_to_string(at("page.html")).unwrap();
+    assert!(page.contains("Grey bodies: obstacles") && page.contains("is below the surface of"));
+
+    // Without the floor nothing is said.
+    fs::write(at("robot.toml"), hanging(rope, &catching(2.0))).unwrap();
+    let without = run_with("5.0", &["--format", "json"]);
+    let without: serde_json::Value = serde_json::from_slice(&without.stdout).unwrap();
+    assert!(without["below"].is_null());
+    for (place, says) in [("9.0", "between"), ("-1", "give 0 or more"), ("0.01", "0 for a failure at the platform")] {
+        let refused = run_with(place, &[]);
+        assert_eq!(refused.status.code(), Some(2), "{place}");
+        assert!(stderr(&refused).contains("[[cut]]") && stderr(&refused).contains(says), "{}", stderr(&refused));
+    }
+}
+
 /// The bounce on a rope, not the pendulum, has the loss factor of the file, and the list says so.
 #[test]
 fn a_loss_factor_holds_where_the_rope_is_stretched() {

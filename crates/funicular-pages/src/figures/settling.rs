@@ -88,7 +88,7 @@ fn courses(found: &Settled) -> Vec<Course<'_>> {
         history: &found.history,
         settled: found.settled_s,
     };
-    let Some(shaping) = &commanded.shaping else { return vec![own(commanded.command)] };
+    let Some(shaping) = &commanded.shaping else { return vec![own(commanded.command_kind)] };
     let without = Course {
         name: "without shaper",
         end: commanded.duration_s - shaping.longer_s,

@@ -31,7 +31,7 @@ struct SettlePage<'a> {
 /// A page that cannot be written.
 pub fn page(found: &Settled, command_line: String) -> anyhow::Result<String> {
     let lengths = found.commanded.as_ref().filter(|commanded| !commanded.lengths.is_empty()).map(lengths);
-    let what = found.commanded.as_ref().map_or("release", |commanded| commanded.command);
+    let what = found.commanded.as_ref().map_or("release", |commanded| commanded.command_kind);
     let page = SettlePage {
         shell: Shell::new(
             format!("{}: decay after a {what}", found.robot),

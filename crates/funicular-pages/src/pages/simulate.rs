@@ -8,7 +8,7 @@ use anyhow::Context as _;
 use askama::Template;
 use funicular::modes::Kind;
 use funicular_study::analyses::simulate::{
-    ColumnError, MotionSpectrum, NearestRow, Peak, Simulated, SimulatedRow, SlackSpan,
+    BelowRow, ColumnError, MotionSpectrum, NearestRow, Peak, Simulated, SimulatedRow, SlackSpan,
 };
 use funicular_study::text::short;
 use serde_json::{Value, json};
@@ -95,7 +95,8 @@ fn happened(found: &Simulated) -> Vec<String> {
         format!("Cable {} is slack from {first} s on, for {share} % of the time.", slack.cable)
     });
     let nearest = found.nearest.as_ref().map(NearestRow::in_words);
-    marks.chain(slack).chain(nearest).collect()
+    let below = found.below.iter().map(BelowRow::in_words);
+    marks.chain(slack).chain(nearest).chain(below).collect()
 }
 
 fn times(found: &Simulated) -> Vec<f64> {

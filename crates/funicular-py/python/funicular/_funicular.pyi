@@ -1991,6 +1991,9 @@ class Robot(Analyses):
             A quantity, an axis or another argument is wrong; the message says which and what to give.
         NoSolutionError
             No position of the grid meets the conditions.
+        KeyboardInterrupt
+            Ctrl-C stopped the search; any exception that another handler of signals or `progress` raises arrives as well. Its
+            attribute `partial_results` has the `Results` of the steps that were ready, if there is a surface.
 
         References
         ----------

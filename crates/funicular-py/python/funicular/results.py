@@ -369,6 +369,19 @@ class CheckedCable(Row):
     }
 
 
+class CheckedClearance(Row):
+    """Distances that have to be kept free."""
+
+    cables_m: float
+    """Cables [m]."""
+    from_end_m: float | None
+    """Length at the ends of cables that is not compared; absent if the file gives none [m]."""
+    obstacles_m: float
+    """Obstacles [m]."""
+    platform_m: float
+    """Platform [m]."""
+
+
 class LoadRow(Row):
     """Load on the platform."""
 
@@ -413,6 +426,33 @@ class CheckedRope(Row):
     """Viscous damping per length [N s/m²]."""
 
 
+class CheckedBody(Row):
+    """Body of a robot file, in the world or in the frame of the platform."""
+
+    diameter_m: float | None
+    """Diameter [m]."""
+    from_m: NDArray[np.float64] | None
+    """Ends of the axis of a cylinder; absent for other shapes [m]."""
+    length_m: float | None
+    """Length [m]."""
+    name: str
+    """Name."""
+    outward: NDArray[np.float64] | None
+    """Direction out of a half space; absent for other shapes."""
+    position_m: NDArray[np.float64]
+    """Origin of the body's own frame: the centre of a box or a cylinder, a point in the plane of a half space [m]."""
+    roll_pitch_yaw_deg: NDArray[np.float64]
+    """Roll pitch yaw [deg]."""
+    shape: str
+    """`box`, `cylinder`, `half-space` or `mesh`."""
+    size_m: NDArray[np.float64] | None
+    """Edges of a box; absent for other shapes [m]."""
+    to_m: NDArray[np.float64] | None
+    """To [m]."""
+    triangles: int | None
+    """Number of triangles of a mesh; absent for other shapes."""
+
+
 class CheckedPlatform(Row):
     """Platform of a robot file."""
 
@@ -439,6 +479,36 @@ class CheckedPose(Row):
     """Position [m]."""
     roll_pitch_yaw_deg: NDArray[np.float64]
     """Roll pitch yaw [deg]."""
+
+
+class CheckedRequired(Row):
+    """Loads that the robot has to bear in addition to the dead load, and velocities that its winches have to give. What
+    is not required is absent."""
+
+    acceleration_m_s2: NDArray[np.float64] | None
+    """Acceleration [m/s²]."""
+    angular_acceleration_rad_s2: NDArray[np.float64] | None
+    """Angular acceleration [rad/s²]."""
+    angular_velocity_rad_s: NDArray[np.float64] | None
+    """Angular velocity [rad/s]."""
+    force_n: NDArray[np.float64] | None
+    """Force [N]."""
+    moment_n_m: NDArray[np.float64] | None
+    """Moment [N m]."""
+    payload_center_m: NDArray[np.float64] | None
+    """Payload center [m]."""
+    payload_center_reach_m: NDArray[np.float64] | None
+    """Payload center reach [m]."""
+    payload_max_kg: float | None
+    """Payload max [kg]."""
+    payload_min_kg: float | None
+    """Payload min [kg]."""
+    shape: str
+    """`box` or `ellipsoid`: the shape of the set of forces, moments and so on."""
+    velocity_m_s: NDArray[np.float64] | None
+    """Velocity [m/s]."""
+    wind_speed_m_s: float | None
+    """Wind speed [m/s]."""
 
 
 class CheckedSupport(Row):
@@ -1301,6 +1371,23 @@ class Shaping(Row):
         "impulses": ImpulseRow,
         "robustness": Robustness,
     }
+
+
+class BelowRow(Row):
+    """Part of the robot behind the surface of a half space."""
+
+    deepest_m: float
+    """Largest depth of all rows [m]."""
+    deepest_s: float
+    """Time of this row [s]."""
+    first_s: float
+    """Time of the first row in which it is there [s]."""
+    is_floor: bool
+    """True if the surface is a floor: it faces up within 60°."""
+    obstacle: str
+    """Name of the half space."""
+    part: str
+    """Part of the robot in words: a cable, a half of one, or the platform."""
 
 
 class CutRow(Row):
@@ -2452,6 +2539,8 @@ class CheckResults(Results):
 
     cables: list[CheckedCable]
     """Cables."""
+    clearance: CheckedClearance | None
+    """Required distances; absent if the file gives none."""
     degrees_of_freedom: int
     """Degrees of freedom."""
     gravity_m_s2: NDArray[np.float64]
@@ -2462,10 +2551,18 @@ class CheckResults(Results):
     """Materials."""
     notes: list[str] | None
     """Remarks on unusual values, which may be intended or a slip; absent if there are none."""
+    obstacles: list[CheckedBody] | None
+    """Bodies that stand in the world; absent if there are none."""
     platform: CheckedPlatform
     """Platform of a robot file."""
+    platform_bodies: list[CheckedBody] | None
+    """Bodies that move with the platform, in its frame; absent if there are none."""
     pose: CheckedPose | None
     """Pose of a robot file."""
+    required: CheckedRequired | None
+    """Required loads and velocities; absent if the file gives none."""
+    required_loads: list[LoadRow] | None
+    """Further required loads, of which any one may act; absent if there are none."""
     robot: str | None
     """Name of the robot; absent if there are several."""
     source: str
@@ -2481,10 +2578,15 @@ class CheckResults(Results):
 
     _PARTS: ClassVar[dict[str, type[Row]]] = {
         "cables": CheckedCable,
+        "clearance": CheckedClearance,
         "load": LoadRow,
         "materials": CheckedRope,
+        "obstacles": CheckedBody,
         "platform": CheckedPlatform,
+        "platform_bodies": CheckedBody,
         "pose": CheckedPose,
+        "required": CheckedRequired,
+        "required_loads": LoadRow,
         "supports": CheckedSupport,
         "wind": WindRow,
     }
@@ -2949,6 +3051,8 @@ class SettleResults(Results):
     """Cable model."""
     cables: list[str] | None
     """Names of the cables, in the order of the lengths; absent without samples."""
+    command_kind: str | None
+    """`stop`, `move` or `trajectory`."""
     damped_certified: bool
     """True if a count proves that every mode has its damped mode."""
     duration_s: float | None
@@ -3020,6 +3124,9 @@ class SettleResults(Results):
 class SimulateResults(Results):
     """Results of `simulate`."""
 
+    below: list[BelowRow] | None
+    """Parts of the robot that are behind the surface of a half space, such as below a floor, in some rows; nothing stops
+    them. Absent if there are none."""
     cables: list[str]
     """Names of the cables, in the order of all lists."""
     cuts: list[CutRow]
@@ -3064,6 +3171,7 @@ class SimulateResults(Results):
     """Sentences that the user should know before trusting the numbers."""
 
     _PARTS: ClassVar[dict[str, type[Row]]] = {
+        "below": BelowRow,
         "cuts": CutRow,
         "errors": ColumnError,
         "nearest": NearestRow,

@@ -17,7 +17,7 @@ use funicular_answers::{Running, Stopped};
 use funicular_files::Begin;
 use funicular_study::Watch;
 use funicular_study::request::Request;
-use pyo3::exceptions::PyKeyboardInterrupt;
+use funicular_study::wording::{Words, worded};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use std::num::NonZeroUsize;
@@ -122,8 +122,8 @@ struct Asked {
     samples: Option<(PathBuf, Begin)>,
 }
 
-/// Runs a request. Work on several threads runs beside the calling one, which Ctrl-C ends at once; other work keeps
-/// what it has until then, if it can.
+/// Runs a request. Work that a signal or the function of the progress stops keeps what it has until then, if it can.
+/// Work on several threads runs beside the calling one.
 fn answered(py: Python<'_>, request: Request, robot: Robot, asked: Asked) -> PyResult<PyAnswered> {
     let Asked { threads, progress, samples } = asked;
     if !matches!(request, Request::Workspace(_) | Request::Uncertainty(_)) {
@@ -144,22 +144,29 @@ fn answered(py: Python<'_>, request: Request, robot: Robot, asked: Asked) -> PyR
     }
 
     let asked = request.clone();
-    let (found, raised) = interruptible_by_flag(py, move |cancel| {
+    let ((found, refused), raised) = interruptible_by_flag(py, move |cancel| {
         let mut watch = Telling { progress, raised: None };
         let samples = samples.as_ref().map(|(path, begin)| (path.as_path(), *begin));
         let running = Running { watch: &mut watch, threads, cancel, samples, has_figure: false, keeper: None };
         let found = answer::run(&asked, Some(robot), running);
         (found, watch.raised)
     })?;
-    match (found, raised) {
-        (_, Some(raised)) => Err(raised),
+    match (found, refused.or(raised)) {
+        (Ok(answer), Some(raised)) => Err(with_part(py, raised, PyAnswered::new(request, answer.results))),
         (Ok(answer), None) => Ok(PyAnswered::new(request, answer.results)),
-        // Only Ctrl-C stops the work, and its exception has been raised before.
-        (Err(error), None) => match error.downcast_ref::<Stopped>() {
-            Some(Stopped(reason)) => Err(PyKeyboardInterrupt::new_err(reason.clone())),
-            None => Err(errors::study(&error)),
+        (Err(error), raised) => match (error.downcast_ref::<Stopped>(), raised) {
+            (Some(Stopped(reason)), Some(raised)) => Err(with_note(py, raised, &worded(reason, Words::Python))),
+            (_, Some(raised)) => Err(raised),
+            (_, None) => Err(errors::study(&error)),
         },
     }
+}
+
+/// Exception with a sentence about the work that it stopped.
+fn with_note(py: Python<'_>, raised: PyErr, sentence: &str) -> PyErr {
+    // An exception that takes no notes is raised without the sentence.
+    let _ = raised.value(py).call_method1("add_note", (sentence,));
+    raised
 }
 
 /// Watch that tells a function how far the work is, and stops the work when the function raises.

@@ -1,5 +1,8 @@
 //! `check`: description of the robot in the robot file.
 
+mod bodies;
+mod required;
+
 use super::fields::AXES;
 use super::found;
 use super::shared::{LoadRow, WindRow};
@@ -8,6 +11,7 @@ use crate::rows::rows;
 use crate::table::Column;
 use crate::text::NONE;
 use crate::text::short;
+pub use bodies::{CheckedBody, CheckedClearance};
 use funicular::math::rotation;
 use funicular::robot::{
     Cable, Control, Damping, GuideWheel, PlatformMotion, Pulley, PulleyFriction, Robot, State, Support, TensionLimits,
@@ -15,6 +19,7 @@ use funicular::robot::{
 };
 use funicular::statics::{self, CableState, StaticModel};
 use funicular::warnings::{self, Warning, plausibility};
+pub use required::CheckedRequired;
 use std::f64::consts::TAU;
 
 rows! {
@@ -32,6 +37,16 @@ rows! {
         pub cables: Vec<CheckedCable>;
         /// Flexible supports; absent on a rigid frame.
         pub supports: Vec<CheckedSupport> = sparse;
+        /// Bodies that stand in the world; absent if there are none.
+        pub obstacles: Vec<CheckedBody> = sparse;
+        /// Bodies that move with the platform, in its frame; absent if there are none.
+        pub platform_bodies: Vec<CheckedBody> = sparse;
+        /// Required distances; absent if the file gives none.
+        pub clearance: Option<CheckedClearance>;
+        /// Required loads and velocities; absent if the file gives none.
+        pub required: Option<CheckedRequired>;
+        /// Further required loads, of which any one may act; absent if there are none.
+        pub required_loads: Vec<LoadRow> = sparse;
         /// `lengths`, `pose` or `none`.
         pub state: &'static str;
         pub pose: Option<CheckedPose>;
@@ -429,6 +444,11 @@ pub fn run(robot: Robot) -> Checked {
         wind: WindRow::of(&robot.wind),
         materials,
         supports: robot.supports.iter().map(CheckedSupport::of).collect(),
+        obstacles: robot.obstacles.iter().map(CheckedBody::of).collect(),
+        platform_bodies: robot.platform.bodies.iter().map(CheckedBody::of).collect(),
+        clearance: robot.clearance.as_ref().map(CheckedClearance::of),
+        required: CheckedRequired::of(&robot.required),
+        required_loads: robot.required.listed.iter().map(LoadRow::of_any).collect(),
         cables,
         state,
         pose,

@@ -104,7 +104,7 @@ rows! {
     /// Command of the lengths.
     pub struct Commanded {
         /// `stop`, `move` or `trajectory`.
-        pub command: &'static str;
+        pub command_kind: &'static str;
         /// Time from its start to its end, with the shaper.
         pub duration_s: f64;
         pub lowest_tension: LowestTension;
@@ -381,7 +381,7 @@ impl<'a> Swing<'a> {
         let cables = &self.at_rest.robot.cables;
         let lengths_without = unshaped.lengths();
         let commanded = Commanded {
-            command: command.name(),
+            command_kind: command.name(),
             duration_s: command.duration(),
             lowest_tension,
             omitted_m: omitted.as_ref().map(|of| of.distance),
@@ -559,7 +559,7 @@ impl Settled {
     fn when_within(&self, tolerance: &str) -> String {
         match &self.commanded {
             Some(of) if self.settled_s == Some(0.0) => {
-                format!("The point is already within {tolerance} mm of its rest when the {} ends", of.command)
+                format!("The point is already within {tolerance} mm of its rest when the {} ends", of.command_kind)
             }
             None if self.settled_s == Some(0.0) => {
                 format!("The point is already within {tolerance} mm of its rest at the release")

@@ -192,11 +192,12 @@ rows! {
 impl LoadRow {
     /// Row for a load; `None` if there is no load.
     pub fn of(load: &Load) -> Option<Self> {
-        (load.force_w.norm() > 0.0 || load.moment_w.norm() > 0.0).then(|| Self {
-            force_n: load.force_w.into(),
-            moment_n_m: load.moment_w.into(),
-            point_m: load.point_p.into(),
-        })
+        (load.force_w.norm() > 0.0 || load.moment_w.norm() > 0.0).then(|| Self::of_any(load))
+    }
+
+    /// Row for a load that may be zero.
+    pub(super) fn of_any(load: &Load) -> Self {
+        Self { force_n: load.force_w.into(), moment_n_m: load.moment_w.into(), point_m: load.point_p.into() }
     }
 
     /// Description in one phrase.

@@ -1,5 +1,6 @@
 //! `simulate`: large motion in time, with its own error.
 
+mod below;
 mod error;
 mod events;
 mod keeping;
@@ -7,6 +8,7 @@ mod picture;
 mod rows;
 mod spectrum;
 
+pub use below::BelowRow;
 pub use error::{ColumnError, Peak};
 pub use events::{ScenarioEvents, scenario_from_toml};
 pub use keeping::{BegunRun, NothingKept, RowKeeper};
@@ -26,11 +28,13 @@ use crate::text::significant;
 use crate::values::finite;
 use crate::watch::Watch;
 use anyhow::{Result, anyhow, bail};
+use below::BelowGround;
 use error::errors;
-use funicular::clearance::Surroundings;
-use funicular::robot::{PlatformMotion, Robot};
+use funicular::clearance::{Clearance, ClearancePair, Surroundings};
+use funicular::math::Vec3;
+use funicular::robot::{PlatformMotion, Robot, Solid};
 use funicular::simulation::{
-    ElementMesh, LossOfMode, RestFault, Simulation, SimulationError, SimulationSettings, StepCounts,
+    ElementMesh, LossOfMode, RestFault, RobotSample, Simulation, SimulationError, SimulationSettings, StepCounts,
 };
 use keeping::STATE_ROWS;
 
@@ -59,6 +63,9 @@ rows! {
         pub cuts: Vec<CutRow>;
         /// Time at which the parts of the robot are nearest; absent if its file says nothing about distances.
         pub nearest: Option<NearestRow>;
+        /// Parts of the robot that are behind the surface of a half space, such as below a floor, in some rows; nothing
+        /// stops them. Absent if there are none.
+        pub below: Vec<BelowRow> = sparse;
         /// Largest error of the energy balance [J].
         pub energy_defect_j: f64;
         /// True if slack ropes with mass make the history depend on the mesh, so that its peaks are statistics.
@@ -217,6 +224,7 @@ struct History {
     slack: Vec<SlackRow>,
     cuts: Vec<CutRow>,
     nearest: Option<NearestRow>,
+    below: Vec<BelowRow>,
     losses: Vec<StretchLossRow>,
     counts: StepCounts,
 }
@@ -298,6 +306,7 @@ impl Course<'_> {
         let mut picture = SimulatedPicture::new(robot, equilibrium, &events.list);
         let around = robot.judges_clearance().then(|| Surroundings::of(robot));
         let mut nearest = nearest_of(&rows);
+        let mut below = BelowGround::new(robot, &simulation.parted());
         for (k, time) in times.iter().enumerate().skip(rows.len()) {
             if watch.is_cancelled() {
                 if rows.is_empty() {
@@ -307,9 +316,10 @@ impl Course<'_> {
             }
             let sample = simulation.at(*time).map_err(|error| events.told(error))?;
             picture.keep(&mut simulation, &sample, k, times.len());
-            let clearance = around
-                .as_ref()
-                .and_then(|around| Some((around, around.least_through(&sample.pose, &simulation.curves_w(*time))?)));
+            let curves = if around.is_some() { simulation.curves_w(*time) } else { Vec::new() };
+            let clearance =
+                around.as_ref().and_then(|around| Some((around, nearest_of_sample(around, robot, &sample, &curves)?)));
+            below.look(*time, &sample.pose, &curves);
             if let Some((around, clearance)) = clearance
                 && nearest.as_ref().is_none_or(|nearest| clearance.margin() < nearest.margin_m)
             {
@@ -325,8 +335,25 @@ impl Course<'_> {
             watch.progress(k + 1, times.len(), "rows");
         }
         picture.end(&simulation);
-        Ok(History { nearest, ..History::new(robot, &simulation, rows, picture) })
+        Ok(History { nearest, below: below.rows(), ..History::new(robot, &simulation, rows, picture) })
     }
+}
+
+/// Pair with the least margin at one time. A cable that has failed falls, so that its distance from a floor says
+/// nothing; [`BelowGround`] tells where it is.
+fn nearest_of_sample(
+    around: &Surroundings,
+    robot: &Robot,
+    sample: &RobotSample,
+    curves_w: &[Vec<Vec3>],
+) -> Option<Clearance> {
+    let counts = |pair: ClearancePair| match pair {
+        ClearancePair::CableAndObstacle { cable, obstacle } => {
+            !(sample.cables[cable].is_cut && robot.obstacles[obstacle].solid == Solid::HalfSpace)
+        }
+        _ => true,
+    };
+    around.least_through_of(&sample.pose, curves_w, &counts)
 }
 
 /// Row with the least margin.
@@ -349,6 +376,7 @@ impl History {
             losses: simulation.losses().iter().map(StretchLossRow::of).collect(),
             counts: simulation.counts(),
             nearest: None,
+            below: Vec::new(),
             rows,
             picture,
         }
@@ -383,6 +411,10 @@ fn found(at_rest: &AtRest, request: &SimulateRequest, first: History, finer: Opt
             significant(*t_s, 4)
         ));
     }
+    if !first.below.is_empty() {
+        let told: Vec<String> = first.below.iter().map(BelowRow::in_words).collect();
+        warnings.push(format!("{} Nothing stops it: contact is not simulated", told.join(" ")));
+    }
     if is_statistical {
         warnings.push(
             "ropes with mass go slack: from the first time on at which one is taut again the history depends on the \
@@ -404,6 +436,7 @@ fn found(at_rest: &AtRest, request: &SimulateRequest, first: History, finer: Opt
         slack: first.slack,
         cuts: first.cuts,
         nearest: first.nearest,
+        below: first.below,
         is_statistical,
         stretch_losses: first.losses,
         errors,

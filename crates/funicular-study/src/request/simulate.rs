@@ -190,7 +190,7 @@ declared! {
 }
 
 declared! {
-    /// A cable fails, at a time or at a tension.
+    /// A cable fails, at a time or at a tension, at the platform or at a place along it.
     pub struct CutEvent {
         /// Name of the cable.
         cable: String = String::new() => (Text).required();
@@ -200,6 +200,10 @@ declared! {
         /// Tension at either end at which it fails [N].
         #[serde(skip_serializing_if = "Option::is_none")]
         at_tension_n: Option<f64> = None => (Number(Finite));
+        /// Unstrained length between the platform and the place where it fails [m]; 0 at the platform. Both halves
+        /// swing on.
+        #[serde(skip_serializing_if = "is_zero")]
+        place_m: f64 = 0.0 => (Number(Finite));
     }
 }
 
@@ -214,4 +218,9 @@ pub(super) fn event_kinds() -> [(&'static str, Vec<Key>); 7] {
         ("push", PushEvent::keys()),
         ("cut", CutEvent::keys()),
     ]
+}
+
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde calls it with a reference")]
+fn is_zero(number: &f64) -> bool {
+    *number == 0.0
 }

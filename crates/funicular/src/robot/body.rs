@@ -42,14 +42,32 @@ pub enum Solid {
 impl Solid {
     /// Words of the robot file with their meanings.
     pub const WORDS: &[(&str, &str)] = &[
-        ("box", "box with the edges `size_m`, its centre at `position_m`"),
-        ("cylinder", "cylinder with `diameter_m` and `length_m` along its z axis, its centre at `position_m`"),
+        (
+            "box",
+            "box with the edges `size_m`, its centre at `position_m`; or along the line from `from_m` to `to_m`, with \
+             `width_m` and `height_m` across it",
+        ),
+        (
+            "cylinder",
+            "cylinder with `diameter_m` and `length_m` along its z axis, its centre at `position_m`; or with \
+             `diameter_m` along the line from `from_m` to `to_m`",
+        ),
         (
             "half-space",
             "everything below the x-y plane of its frame, which goes through `position_m`: a floor or a wall",
         ),
         ("mesh", "closed surface of the STL file `file`, whose origin is placed at `position_m`"),
     ];
+
+    /// Word of the robot file.
+    pub fn word(&self) -> &'static str {
+        match self {
+            Self::Box { .. } => "box",
+            Self::Cylinder { .. } => "cylinder",
+            Self::HalfSpace => "half-space",
+            Self::Mesh(_) => "mesh",
+        }
+    }
 
     /// Shapes of the library whose union is the solid, and the rotation of their frame in that of the solid. A mesh
     /// may have several.

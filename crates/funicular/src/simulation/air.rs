@@ -62,6 +62,11 @@ impl Air {
         Ok(Self { mean: robot.wind, gusts: Some(DrawnGusts::new(&field, &all, duration, seed)), places })
     }
 
+    /// Adds a rope that has the wind of another one.
+    pub(super) fn add_rope_like(&mut self, rope: usize) {
+        self.places.push(self.places[rope]);
+    }
+
     fn at(&self, place: usize, time: f64) -> Wind {
         let gust_w = self.gusts.as_ref().map_or_else(Vec3::zeros, |gusts| gusts.at(place, time));
         Wind { velocity_w: self.mean.velocity_w + gust_w, ..self.mean }

@@ -91,6 +91,18 @@ impl FarEnd {
         })
     }
 
+    /// Loose end of the half of a broken rope, whose place is that of a support.
+    pub(super) fn loose(support: usize) -> Self {
+        Self {
+            entry_w: Vec3::zeros(),
+            contact: None,
+            swivel_inertia: 0.0,
+            support: Some(SupportedEnd { index: support, from_ground_w: None }),
+            feed: None,
+            off_tangent: 0.0,
+        }
+    }
+
     pub(super) fn places(&self) -> FarPlaces {
         let mut count = 0;
         let mut take = |of: usize| {

@@ -2,7 +2,7 @@
 //! after a release.
 
 use super::body::MovingBody;
-use super::event::{EventFault, Faulty, SimulationEvent, windings};
+use super::event::{EventFault, Faulty, SimulationEvent, check_places, windings};
 use super::rope::WoundLength;
 use super::start::SimulationError;
 use super::winding::Winding;
@@ -42,6 +42,7 @@ impl CommandedLengths {
         let initial: Vec<f64> = rest.cables.iter().map(|cable| cable.unstrained_length).collect();
         let free: Vec<f64> = rest.cables.iter().map(CableState::free_length).collect();
         let windings = windings(robot, (&initial, &free), events, &order)
+            .and_then(|windings| check_places(robot, (&initial, &free), events, &windings).map(|()| windings))
             .map_err(|Faulty { event, fault }| SimulationError::Event { event, fault })?;
         Ok(Self { windings, order })
     }

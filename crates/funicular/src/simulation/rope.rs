@@ -421,17 +421,47 @@ impl RopeMesh {
     /// Numbers of the nodes after the free length has changed from `before` to `after`, the rope staying where it is;
     /// the numbers are those of a function of σ.
     pub(super) fn resampled(&self, before: f64, after: f64, values: &[f64]) -> Vec<f64> {
+        self.sampled([0.0, after / before], values)
+    }
+
+    /// Numbers of the nodes of a mesh of this kind on the part of the rope between two shares σ of its free length.
+    pub(super) fn sampled(&self, [from, to]: [f64; 2], values: &[f64]) -> Vec<f64> {
         let count = self.elements as f64;
         let mut out = Vec::with_capacity(values.len());
         for node in 0..=self.last() {
-            let e = (node / self.basis.degree).min(self.elements - 1);
-            let sigma = (e as f64 + self.basis.nodes[node - e * self.basis.degree]) / count;
-            let place = sigma * after / before * count;
+            let place = (from + (to - from) * self.share_of(node)) * count;
             let e = (place.floor().max(0.0) as usize).min(self.elements - 1);
             let of = &values[self.of_element(e)];
             let weights = self.basis.values(place - e as f64);
             for axis in 0..3 {
                 out.push(weights.iter().zip(of[axis..].iter().step_by(3)).map(|(w, x)| w * x).sum());
+            }
+        }
+        out
+    }
+
+    /// Share σ of the free length at a node.
+    fn share_of(&self, node: usize) -> f64 {
+        let e = (node / self.basis.degree).min(self.elements - 1);
+        (e as f64 + self.basis.nodes[node - e * self.basis.degree]) / self.elements as f64
+    }
+
+    /// Velocities that the nodes have because σ moves along the rope while its length changes: σ L'/L times the slope
+    /// of the rope. Where two elements meet the slope is that of the middle.
+    pub(super) fn sliding(&self, length: &WoundLength, x: &[f64]) -> Vec<f64> {
+        let (count, degree, ratio) = (self.elements as f64, self.basis.degree, length.rate / length.value);
+        let mut out = vec![0.0; x.len()];
+        if length.rate == 0.0 {
+            return out;
+        }
+        for e in 0..self.elements {
+            let nodes = &x[self.of_element(e)];
+            for q in 0..=degree {
+                let is_shared = (q == 0 && e > 0) || (q == degree && e + 1 < self.elements);
+                let part = if is_shared { 0.5 } else { 1.0 };
+                let node = e * degree + q;
+                let slope = along(self.basis.at_node(q), nodes) * count;
+                add(&mut out, node, &(slope * (part * ratio * self.share_of(node))));
             }
         }
         out

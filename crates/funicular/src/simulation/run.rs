@@ -3,7 +3,7 @@
 use super::books::{EnergyBooks, Powers, StepPowers};
 use super::dense::DenseOutput;
 use super::esdirk::{StepCounts, Stepper};
-use super::event::{CutAt, EventFault, Faulty, SimulationEvent};
+use super::event::{CutAt, EventFault, Faulty, SimulationEvent, check_place};
 use super::planned::CommandedLengths;
 use super::rope::WoundLength;
 use super::start::{LossOfMode, SimulationError, SimulationSettings, at_rest};
@@ -94,8 +94,8 @@ pub struct Simulation {
     losses: Vec<LossOfMode>,
     /// Sudden events that are to come, by time: index and event.
     sudden: Vec<(usize, SimulationEvent)>,
-    /// Cables that fail at a tension: index of the event, cable, tension [N].
-    fuses: Vec<(usize, usize, f64)>,
+    /// Cables that fail at a tension.
+    fuses: Vec<Fuse>,
     /// Cables that failed, with the time [s].
     cuts: Vec<(usize, f64)>,
     /// Times at which steps end, rising.
@@ -125,7 +125,8 @@ impl Simulation {
         let CommandedLengths { windings, order } = CommandedLengths::new(robot, rest, events, duration)?;
         let mut breaks: Vec<f64> = windings.iter().flat_map(Winding::breaks).collect();
         let holds_tension = |i: usize| events.iter().any(|event| event.tension_of(i).is_some());
-        let (stepper, losses) = at_rest(robot, rest, settings, (windings, &holds_tension), duration)?;
+        let parting = parting(robot, events);
+        let (stepper, losses) = at_rest(robot, rest, settings, (windings, &holds_tension), &parting, duration)?;
 
         let (count, size) = (robot.cables.len(), stepper.system.size);
         let mut simulation = Self {
@@ -171,7 +172,7 @@ impl Simulation {
     /// Cables that fail at a tension.
     fn set_fuses(&mut self, events: &[SimulationEvent]) -> Result<(), SimulationError> {
         for (event, of) in events.iter().enumerate() {
-            if let SimulationEvent::Cut { cable, at: CutAt::Tension(limit) } = *of {
+            if let SimulationEvent::Cut { cable, at: CutAt::Tension(limit), place } = *of {
                 let lengths = self.stepper.system.lengths(0.0);
                 let now = (0.0, &self.stepper.now, &self.stepper.needed[..]);
                 let tension = self.tensions(cable, now, &lengths).into_iter().fold(0.0, f64::max);
@@ -179,7 +180,7 @@ impl Simulation {
                     let fault = EventFault::CutAtStart { cable: self.names[cable].clone(), tension };
                     return Err(SimulationError::Event { event, fault });
                 }
-                self.fuses.push((event, cable, limit));
+                self.fuses.push(Fuse { event, cable, tension: limit, place });
             }
         }
         Ok(())
@@ -250,7 +251,10 @@ impl Simulation {
                 self.stepper.release(mass, point_p).map_err(|fault| SimulationError::Event { event, fault })?;
             }
             SimulationEvent::Pick { mass, point_p, velocity_w, .. } => self.stepper.pick(mass, point_p, velocity_w),
-            SimulationEvent::Cut { cable, .. } => self.cut(event, cable)?,
+            SimulationEvent::Cut { cable, place, .. } => {
+                self.cut(event, cable, place)?;
+                return self.begin_after_cut(before);
+            }
             SimulationEvent::Tension { time, duration, ref tensions } => {
                 self.stepper.hold_tensions(time, duration, tensions);
                 self.begin()?;
@@ -265,8 +269,8 @@ impl Simulation {
         Ok(())
     }
 
-    fn cut(&mut self, event: usize, cable: usize) -> Result<(), SimulationError> {
-        let ends = &self.stepper.system.ends;
+    fn cut(&mut self, event: usize, cable: usize, place: f64) -> Result<(), SimulationError> {
+        let ends = &self.stepper.system.ends[..self.names.len()];
         if ends[cable] != RopeEnd::Attached {
             // It failed by its tension before.
             return Ok(());
@@ -275,8 +279,28 @@ impl Simulation {
             let fault = EventFault::LastCable { cable: self.names[cable].clone() };
             return Err(SimulationError::Event { event, fault });
         }
-        self.stepper.cut(cable);
+        match self.stepper.system.half_of(cable).filter(|_| place > 0.0) {
+            None => self.stepper.cut(cable),
+            Some(half) => {
+                let lengths = self.stepper.system.lengths(self.stepper.time);
+                let free = self.stepper.system.free_length(cable, &lengths[cable], &self.stepper.now).value;
+                check_place(&self.names[cable], place, free)
+                    .map_err(|fault| SimulationError::Event { event, fault })?;
+                self.stepper.part(cable, half, place);
+            }
+        }
         self.cuts.push((cable, self.stepper.time));
+        Ok(())
+    }
+
+    /// Goes on after a failure. A rope without mass takes its energy along; `before` is the energy with it. What the
+    /// meshes of two halves have less or more than that of the whole rope is an error of the mesh.
+    fn begin_after_cut(&mut self, before: f64) -> Result<(), SimulationError> {
+        let is_gone = self.cuts.last().is_some_and(|(cable, _)| self.stepper.system.ends[*cable] == RopeEnd::Gone);
+        self.begin()?;
+        if is_gone {
+            self.books.payloads += self.books.total() - before;
+        }
         Ok(())
     }
 
@@ -286,14 +310,15 @@ impl Simulation {
         let next = self.breaks.partition_point(|at| *at <= now);
         let until = self.breaks.get(next).copied().unwrap_or(now + 1.0);
         let dense = self.stepper.advance(until).map_err(|of| self.too_fast(of.time))?;
-        if let Some((event, cable, time)) = self.blown(&dense) {
+        if let Some((Fuse { event, cable, place, .. }, time)) = self.blown(&dense) {
             // Back to the time at which the cable fails.
             self.stepper.go_back(&dense, time);
             self.book(dense, time);
             self.follow();
-            self.cut(event, cable)?;
-            self.fuses.retain(|fuse| fuse.0 != event);
-            return self.begin();
+            let before = self.books.total();
+            self.cut(event, cable, place)?;
+            self.fuses.retain(|fuse| fuse.event != event);
+            return self.begin_after_cut(before);
         }
         let (until, books, powers) = (dense.until, self.books, self.powers);
         self.book(dense, until);
@@ -376,29 +401,30 @@ impl Simulation {
     }
 
     /// A cable that reached its tension within a step, and the time.
-    fn blown(&mut self, dense: &DenseOutput) -> Option<(usize, usize, f64)> {
+    fn blown(&mut self, dense: &DenseOutput) -> Option<(Fuse, f64)> {
         let lengths = self.stepper.system.lengths(self.stepper.time);
         let over = |of: &Self, cable: usize, at: (f64, &MotionNumbers, &[f64]), lengths: &[WoundLength]| {
             of.tensions(cable, at, lengths).into_iter().fold(0.0, f64::max)
         };
         let now = (self.stepper.time, &self.stepper.now, &self.stepper.needed[..]);
-        let reached = |fuse: &&(usize, usize, f64)| {
-            self.stepper.system.ends[fuse.1] == RopeEnd::Attached && over(self, fuse.1, now, &lengths) >= fuse.2
+        let reached = |fuse: &&Fuse| {
+            let holds = self.stepper.system.ends[fuse.cable] == RopeEnd::Attached;
+            holds && over(self, fuse.cable, now, &lengths) >= fuse.tension
         };
-        let (event, cable, limit) = *self.fuses.iter().find(reached)?;
+        let fuse = *self.fuses.iter().find(reached)?;
         let (mut below, mut above) = (dense.from, dense.until);
         let mut needed = std::mem::take(&mut self.needed);
         for _ in 0..40 {
             let middle = 0.5 * (below + above);
             let lengths = self.stepper.system.within(dense, middle, &mut self.work, &mut needed);
-            if over(self, cable, (middle, &self.work, &needed), &lengths) >= limit {
+            if over(self, fuse.cable, (middle, &self.work, &needed), &lengths) >= fuse.tension {
                 above = middle;
             } else {
                 below = middle;
             }
         }
         self.needed = needed;
-        Some((event, cable, above))
+        Some((fuse, above))
     }
 
     /// Tensions of a cable at the platform and at its anchor [N].
@@ -414,7 +440,10 @@ impl Simulation {
         if system.ends[i] == RopeEnd::Gone {
             return [0.0; 2];
         }
-        let platform = if system.ends[i] == RopeEnd::Attached { at(range.start).norm() } else { 0.0 };
+        // After a failure at a place, the half at the platform hangs on it.
+        let at_platform = [Some(i), system.half_of(i)].into_iter().flatten();
+        let attached = at_platform.filter(|rope| system.ends[*rope] == RopeEnd::Attached);
+        let platform = attached.map(|rope| at(system.of_rope(rope).start).norm()).fold(0.0, |sum, of| sum + of);
         let anchor = match system.far_forces(i, time, &lengths[i], m, needed) {
             Some(forces) => forces.exit_w.norm(),
             None => system.ropes[i].anchor_tension(&lengths[i], &m.x[range.clone()], &at(range.end - 3)),
@@ -473,7 +502,7 @@ impl Simulation {
             pose: body.pose(&motion.center_w, &rot_wp),
             velocity_w: joined(&velocity, &(rot_wp * three(&m.v, 3))),
             acceleration_w: joined(&acceleration, &(rot_wp * three(&m.a, 3))),
-            cables: (0..lengths.len()).map(cable).collect(),
+            cables: (0..self.names.len()).map(cable).collect(),
             energy,
         }
     }
@@ -498,6 +527,29 @@ impl Simulation {
     pub fn counts(&self) -> StepCounts {
         self.stepper.counts
     }
+}
+
+/// Cable that fails at a tension.
+#[derive(Debug, Clone, Copy)]
+struct Fuse {
+    /// Index of the event.
+    event: usize,
+    cable: usize,
+    /// Tension at which it fails [N].
+    tension: f64,
+    /// Unstrained length from the platform to the place where it fails [m].
+    place: f64,
+}
+
+/// Cables with mass that may fail at a place, each once.
+fn parting(robot: &Robot, events: &[SimulationEvent]) -> Vec<usize> {
+    let parts = |i: usize| {
+        robot.cables[i].material.mass_per_length > 0.0
+            && events
+                .iter()
+                .any(|event| matches!(event, SimulationEvent::Cut { cable, place, .. } if *cable == i && *place > 0.0))
+    };
+    (0..robot.cables.len()).filter(|i| parts(*i)).collect()
 }
 
 fn of_event(faulty: Faulty) -> SimulationError {

@@ -336,20 +336,39 @@ fn ropes(
     robot.cables.iter().enumerate().map(mesh).collect()
 }
 
-/// Stepper at the equilibrium of the mesh near `rest`, with unstrained lengths over time.
+/// Stepper at the equilibrium of the mesh near `rest`, with unstrained lengths over time. The cables of `parting` may
+/// fail at a place.
 pub(super) fn at_rest(
     robot: &Robot,
     rest: &Equilibrium,
     settings: &SimulationSettings,
     (windings, holds_tension): (Vec<Winding>, &dyn Fn(usize) -> bool),
+    parting: &[usize],
     duration: f64,
 ) -> Result<(Stepper, Vec<LossOfMode>), SimulationError> {
     check_parts(robot)?;
     let DampingInTime { ropes: damping, omega, losses } = damping(robot, rest, settings)?;
-    let ropes = ropes(robot, rest, settings, &damping, holds_tension);
-    let far_ends: Vec<Option<FarEnd>> =
+    let mut ropes = ropes(robot, rest, settings, &damping, holds_tension);
+    let mut far_ends: Vec<Option<FarEnd>> =
         (0..ropes.len()).map(|i| FarEnd::of(robot, i, &rest.cables[i], holds_tension(i))).collect();
-    let supports: Vec<MovingSupport> = robot.supports.iter().map(|support| MovingSupport::of(support, omega)).collect();
+    let mut supports: Vec<MovingSupport> =
+        robot.supports.iter().map(|support| MovingSupport::of(support, omega)).collect();
+    let gusty = gusty_places(&ropes, rest);
+
+    // Halves at the platform wait until their cables fail.
+    let (mut windings, mut ends) = (windings, vec![RopeEnd::Attached; ropes.len()]);
+    let mut body = MovingBody::of(robot, settings.platform_is_held);
+    let mut halves = Vec::new();
+    for &cable in parting {
+        halves.push((cable, ropes.len()));
+        ropes.push(ropes[cable].clone());
+        far_ends.push(Some(FarEnd::loose(supports.len())));
+        supports.push(MovingSupport::waiting());
+        windings.push(Winding::constant(rest.cables[cable].unstrained_length));
+        ends.push(RopeEnd::Gone);
+        body.attachments_p.push(body.attachments_p[cable]);
+    }
+
     let mut size = BODY + 3 * supports.len();
     let mut offset = |(rope, far): (&RopeMesh, &Option<FarEnd>)| {
         let own = rope.size() + far.as_ref().map_or(0, |far| far.places().count);
@@ -358,13 +377,17 @@ pub(super) fn at_rest(
     };
     let offsets: Vec<usize> = ropes.iter().zip(&far_ends).map(&mut offset).collect();
 
-    let air = match settings.gust_seed {
-        None => Air::steady(robot.wind, ropes.len()),
-        Some(seed) => Air::gusty(robot, rest.pose.position_w, &gusty_places(&ropes, rest), (duration, seed))?,
+    let mut air = match settings.gust_seed {
+        None => Air::steady(robot.wind, robot.cables.len()),
+        Some(seed) => Air::gusty(robot, rest.pose.position_w, &gusty, (duration, seed))?,
     };
+    for cable in parting {
+        air.add_rope_like(*cable);
+    }
     let mut system = System {
-        body: MovingBody::of(robot, settings.platform_is_held),
-        ends: vec![RopeEnd::Attached; ropes.len()],
+        body,
+        ends,
+        halves,
         packs: RopePack::of(&ropes),
         ropes,
         far_ends,
@@ -446,7 +469,7 @@ fn lock(system: &mut System, now: &MotionNumbers) {
 /// Lets motors balance by themselves what holds them at rest.
 fn let_go(robot: &Robot, stepper: &mut Stepper, holds_tension: &dyn Fn(usize) -> bool) {
     let lengths = stepper.system.lengths(0.0);
-    for (i, given) in lengths.iter().enumerate() {
+    for (i, given) in lengths.iter().enumerate().take(robot.cables.len()) {
         let Some(forces) = stepper.system.far_forces(i, 0.0, given, &stepper.now, &stepper.needed) else { continue };
         let winch = robot.cables[i].anchor.winch.as_ref();
         let is_plain = winch.is_none() && holds_tension(i);
@@ -474,7 +497,7 @@ fn hanging(
     let put =
         |motion: &mut MotionNumbers, from: usize, at: &Vec3| motion.x[from..from + 3].copy_from_slice(at.as_slice());
     put(&mut motion, 0, &rest.pose.point_w(&system.body.center_p));
-    for (i, rope) in system.ropes.iter().enumerate() {
+    for (i, rope) in system.ropes.iter().enumerate().take(rest.cables.len()) {
         let hanging = rest.cables[i].hanging.as_ref().ok_or(SimulationError::NotElastic)?;
         let length = hanging.catenary.rope().unstrained_length;
         let state = &rest.cables[i];

@@ -6,7 +6,7 @@
 use super::body::MovingBody;
 use super::far_end::FarEnd;
 use super::feed::{Feed, WinchHold};
-use super::system::{RopeEnd, System};
+use super::system::{MovingSupport, RopeEnd, System};
 use crate::math::{Quaternion, Rotation};
 
 /// Function that reads or replaces one number.
@@ -47,6 +47,13 @@ impl System {
         }
         for far in self.far_ends.iter_mut().flatten() {
             far.each_number(each);
+        }
+        if !self.halves.is_empty() {
+            self.windings.iter_mut().for_each(|winding| winding.each_number(each));
+            for MovingSupport { stiffness_w, mass, .. } in &mut self.supports {
+                stiffness_w.iter_mut().for_each(&mut *each);
+                each(mass);
+            }
         }
         count(&mut self.evaluations, each);
     }

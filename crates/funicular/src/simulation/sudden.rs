@@ -4,7 +4,9 @@ use super::body::{BodyMotion, MovingBody, halves, joined};
 use super::esdirk::Stepper;
 use super::event::EventFault;
 use super::feed::WinchHold;
-use super::system::{RopeEnd, six};
+use super::rope::WoundLength;
+use super::system::{MovingSupport, RopeEnd, System, six};
+use super::winding::Winding;
 use crate::math::{Mat3, Mat6, Vec3, Vec6, inverse6, skew};
 
 /// Inertia of a point mass about a point at distance `lever`.
@@ -126,6 +128,61 @@ impl Stepper {
             let last = numbers + at + feed.count() - 1;
             let before = forces.feed.tension_drum.unwrap_or_else(|| forces.exit_w.norm());
             feed.hold_tension(WinchHold::Tension { from: time, duration, before, after }, [whole, self.now.x[last]]);
+        }
+    }
+
+    /// Parts a cable at an unstrained length from the platform. Both halves stay where they are and keep their
+    /// velocities: `half` is the one at the platform, the cable itself the one at the anchor.
+    ///
+    /// # References
+    /// docs/theory.md, equation (97k3).
+    pub(super) fn part(&mut self, cable: usize, half: usize, place: f64) {
+        let lengths = self.system.lengths(self.time);
+        let free = self.system.free_length(cable, &lengths[cable], &self.now);
+        let (rope, of_cable, of_half) =
+            (&self.system.ropes[cable], self.system.of_rope(cable), self.system.of_rope(half));
+        let x = self.now.x[of_cable.clone()].to_vec();
+        // Velocities of the rope itself.
+        let sliding = rope.sliding(&free, &x);
+        let v: Vec<f64> = self.now.v[of_cable.clone()].iter().zip(&sliding).map(|(v, slid)| v - slid).collect();
+
+        let share = place / free.value;
+        let near = [0.0, share];
+        self.now.x[of_half.clone()].copy_from_slice(&rope.sampled(near, &x));
+        self.now.v[of_half.clone()].copy_from_slice(&rope.sampled(near, &v));
+        let left = WoundLength { value: free.value - place, ..free };
+        let x_left = rope.sampled([share, 1.0], &x);
+        let slid_left = rope.sliding(&left, &x_left);
+        // The last node stays on what it is on.
+        let inner = x_left.len() - 3;
+        for (k, v) in rope.sampled([share, 1.0], &v)[..inner].iter().enumerate() {
+            self.now.x[of_cable.start + k] = x_left[k];
+            self.now.v[of_cable.start + k] = v + slid_left[k];
+        }
+
+        self.let_go_of(half, of_half.end - 3);
+        self.shorten(cable, place);
+        self.system.windings[half] = Winding::constant(place);
+        self.system.ends[half] = RopeEnd::Attached;
+        self.system.ends[cable] = RopeEnd::Free;
+    }
+
+    /// Makes the far end of a half loose, at the place of its last node.
+    fn let_go_of(&mut self, half: usize, last: usize) {
+        let Some(support) = self.system.far_ends[half].as_ref().and_then(|far| far.support) else { return };
+        let numbers = System::of_support(support.index);
+        self.system.supports[support.index] = MovingSupport::loose();
+        self.now.x.copy_within(last..last + 3, numbers.start);
+        self.now.v.copy_within(last..last + 3, numbers.start);
+    }
+
+    /// Counts the lengths of a cable from a place on.
+    fn shorten(&mut self, cable: usize, place: f64) {
+        self.system.windings[cable].cut_off(place);
+        let from = self.system.of_far_end(cable).start;
+        let Some(far) = &self.system.far_ends[cable] else { return };
+        if let (Some(feed), Some(at)) = (&far.feed, far.places().feed) {
+            self.now.x[from + at..from + at + feed.count()].iter_mut().for_each(|length| *length -= place);
         }
     }
 

@@ -41,6 +41,16 @@ pub(super) struct MovingSupport {
 }
 
 impl MovingSupport {
+    /// Support of the loose end of a half, before there is one: it holds its place.
+    pub(super) fn waiting() -> Self {
+        Self { stiffness_w: Mat3::identity(), mass: 1.0, damping_time: 0.0 }
+    }
+
+    /// Support of a loose end: it has neither stiffness nor mass, so that it only carries the place of the end.
+    pub(super) fn loose() -> Self {
+        Self { stiffness_w: Mat3::zeros(), mass: 0.0, damping_time: 0.0 }
+    }
+
     /// Support whose damping ratio holds at an angular frequency [rad/s].
     pub(super) fn of(support: &Support, omega: f64) -> Self {
         let ratio = support.damping_ratio;
@@ -58,6 +68,8 @@ pub(super) struct System {
     pub(super) ends: Vec<RopeEnd>,
     /// Far ends of ropes that do more than stay where they are.
     pub(super) far_ends: Vec<Option<FarEnd>>,
+    /// Cables that may fail at a place: the cable, and the rope that is its half at the platform from then on.
+    pub(super) halves: Vec<(usize, usize)>,
     /// Supports, whose numbers follow those of the platform.
     pub(super) supports: Vec<MovingSupport>,
     pub(super) windings: Vec<Winding>,
@@ -162,6 +174,11 @@ impl System {
     pub(super) fn of_far_end(&self, i: usize) -> std::ops::Range<usize> {
         let from = self.offsets[i] + self.ropes[i].size();
         from..from + self.far_ends[i].as_ref().map_or(0, |far| far.places().count)
+    }
+
+    /// Rope that is the half of a cable at the platform after a failure at a place.
+    pub(super) fn half_of(&self, cable: usize) -> Option<usize> {
+        self.halves.iter().find(|(of, _)| *of == cable).map(|(_, half)| *half)
     }
 
     /// Numbers of a support.

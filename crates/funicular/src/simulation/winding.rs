@@ -27,6 +27,8 @@ struct Change {
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Winding {
     initial: f64,
+    /// Length that has been cut off at the platform [m].
+    cut_off: f64,
     changes: Vec<Change>,
 }
 
@@ -38,16 +40,28 @@ pub(super) struct Overlap {
 
 impl Winding {
     pub(super) fn constant(length: f64) -> Self {
-        Self { initial: length, changes: Vec::new() }
+        Self { initial: length, cut_off: 0.0, changes: Vec::new() }
+    }
+
+    /// From now on the length counts from a place this far from its old beginning [m].
+    pub(super) fn cut_off(&mut self, length: f64) {
+        self.cut_off += length;
+    }
+
+    /// Gives the numbers away that events change.
+    pub(super) fn each_number(&mut self, each: super::state::EachNumber) {
+        each(&mut self.initial);
+        each(&mut self.cut_off);
     }
 
     /// Length, rate and acceleration at a time.
     pub(super) fn at(&self, time: f64) -> WoundLength {
         let later = self.changes.partition_point(|change| change.from <= time);
-        match later.checked_sub(1).map(|k| &self.changes[k]) {
+        let whole = match later.checked_sub(1).map(|k| &self.changes[k]) {
             None => WoundLength { value: self.initial, rate: 0.0, acceleration: 0.0 },
             Some(change) => change.at(time),
-        }
+        };
+        WoundLength { value: whole.value - self.cut_off, ..whole }
     }
 
     /// Time at which the last change ends [s].
@@ -109,15 +123,19 @@ impl Winding {
         knots
     }
 
-    /// Least length of all times, at steps of `step` [m], and its time [s].
-    pub(super) fn least(&self, step: f64) -> (f64, f64) {
-        let mut least = (self.initial, 0.0);
+    /// Least length of all times from `since` on, at steps of `step` [m], and its time [s].
+    pub(super) fn least(&self, step: f64, since: f64) -> (f64, f64) {
+        let mut least = (self.at(since).value, since);
         for (i, change) in self.changes.iter().enumerate() {
             // A brake ends the change before it.
             let until = self.changes.get(i + 1).map_or(change.until, |next| change.until.min(next.from));
-            let count = ((until - change.from) / step).ceil().clamp(1.0, 1e5) as usize;
+            let from = change.from.max(since);
+            if from > until {
+                continue;
+            }
+            let count = ((until - from) / step).ceil().clamp(1.0, 1e5) as usize;
             for k in 0..=count {
-                let time = change.from + (until - change.from) * k as f64 / count as f64;
+                let time = from + (until - from) * k as f64 / count as f64;
                 let length = change.at(time).value;
                 if length < least.0 {
                     least = (length, time);

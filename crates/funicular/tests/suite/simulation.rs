@@ -1,6 +1,7 @@
 //! Simulation: histories of independent methods, closed forms, orders of convergence, books of the energy.
 
 mod drives;
+mod parted;
 mod scenarios;
 mod small_motion;
 
@@ -87,8 +88,8 @@ fn a_restored_simulation_goes_on_exactly() {
     let events = [
         SimulationEvent::Release { time: 0.05, mass: 1.0, point_p: None },
         SimulationEvent::Ramp { time: 0.02, duration: 0.2, changes: vec![-0.01, 0.0, 0.0, 0.0, 0.0, 0.0] },
-        SimulationEvent::Cut { cable: 1, at: CutAt::Time(0.1) },
-        SimulationEvent::Cut { cable: 2, at: CutAt::Tension(80.0) },
+        SimulationEvent::Cut { cable: 1, at: CutAt::Time(0.1), place: 2.5 },
+        SimulationEvent::Cut { cable: 2, at: CutAt::Tension(80.0), place: 0.0 },
     ];
     let settings = SimulationSettings { tolerance: 1e-6, ..SimulationSettings::default() };
     let new = || Simulation::new(&robot, &rest, &events, 0.3, &settings).unwrap();
@@ -265,7 +266,7 @@ fn errors_of_a_smooth_move_fall_fast_with_the_mesh() {
 fn a_cable_fails_at_its_tension() {
     let case = case("release-taut-4mm");
     let (robot, rest, settings) = robot_of(&case);
-    let cut = |cable, at| SimulationEvent::Cut { cable, at };
+    let cut = |cable, at| SimulationEvent::Cut { cable, at, place: 0.0 };
     let events = [cut(0, CutAt::Time(0.1)), cut(2, CutAt::Tension(52.0))];
     let mut simulation = Simulation::new(&robot, &rest, &events, 0.4, &settings).unwrap();
     let found = simulation.at(0.4).unwrap();

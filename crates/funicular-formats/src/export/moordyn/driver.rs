@@ -41,12 +41,14 @@ struct MoorDynDriver {
 pub(crate) fn refuse(scenario: &Scenario) -> Result<()> {
     let Scenario { release, pick, lengths: _, tension, stop: _, push, cut } = scenario;
     let kept = "a body of MoorDyn keeps the mass of its file";
+    let parted = cut.iter().filter(|of| of.place_m != 0.0).count();
     let fuses = cut.iter().filter(|of| of.at_tension_n.is_some()).count();
     let events = [
         ("pick", pick.len(), format!("{kept}, so that it cannot take a payload up")),
         ("tension", tension.len(), "a line of MoorDyn has a length, and no winch holds its tension".to_owned()),
         ("push", push.len(), "MoorDyn has no forces on a body but weight and water".to_owned()),
         ("cut", fuses, "a line of MoorDyn breaks when the script says so, not at a tension; give `at_s`".to_owned()),
+        ("cut", parted, "the script frees the end of a line, and cannot part it; leave `place_m` out".to_owned()),
     ];
     if let Some((kind, _, why)) = events.iter().find(|(_, count, _)| *count > 0) {
         bail!(
@@ -162,7 +164,7 @@ impl MoorDynCourse {
 /// A cable that fails twice, or the last one.
 fn cuts(at_rest: &AtRest, events: &ScenarioEvents) -> Result<Vec<(f64, usize)>> {
     let cut = |event: &SimulationEvent| match *event {
-        SimulationEvent::Cut { cable, at: CutAt::Time(time) } => Some((time, cable)),
+        SimulationEvent::Cut { cable, at: CutAt::Time(time), .. } => Some((time, cable)),
         _ => None,
     };
     let mut found: Vec<(usize, f64, usize)> =

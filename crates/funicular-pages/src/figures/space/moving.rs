@@ -55,7 +55,7 @@ pub fn animation_of_simulation(found: &Simulated) -> String {
         drawing.moving(timed(DrawnPath { lines: vec![each[0].clone()], closed: true, fill: Some(FACE), stroke }, each));
     }
     let spans = found.slack_spans();
-    for i in 0..found.cables.len() {
+    for i in 0..shapes[0].cables.len() {
         let each: Vec<Vec<PaperPoint>> =
             shapes.iter().map(|shape| shape.cables[i].iter().map(|p| view.at(*p)).collect()).collect();
         let stroke = Some(Stroke::solid(BLUE, CURVE_WIDTH));
@@ -109,8 +109,16 @@ fn shape(picture: &SimulatedPicture, frame: &SimulatedFrame) -> RobotShape {
         let points = (0..last).step_by(step).chain([last]);
         points.map(|k| now.get(k).copied().unwrap_or(anchor)).collect()
     };
+    // A half at the platform lies in its attachment until its cable fails.
+    let half = |(i, now): &(usize, Vec<Vec3>)| {
+        let last = picture.frames[0].curves[*i].len() - 1;
+        let step = last.div_ceil(MAX_POINTS).max(1);
+        let attachment = frame.pose.point_w(&robot.cables[*i].attachment_p);
+        let points = (0..last).step_by(step).chain([last]);
+        points.map(|k| now.get(k).copied().unwrap_or(attachment)).collect()
+    };
     RobotShape {
-        cables: frame.curves.iter().enumerate().map(curve).collect(),
+        cables: frame.curves.iter().enumerate().map(curve).chain(frame.halves.iter().map(half)).collect(),
         corners: robot.cables.iter().map(|cable| frame.pose.point_w(&cable.attachment_p)).collect(),
         mass_centre: frame.pose.point_w(&robot.platform.center_of_mass_p),
     }
@@ -167,7 +175,8 @@ impl Space {
         let space = Self::new(&picture.robot, &picture.rest, None, Vec::new());
         let moved = frames.iter().flat_map(|frame| {
             let corners = picture.robot.cables.iter().map(|cable| frame.pose.point_w(&cable.attachment_p));
-            frame.curves.iter().flatten().copied().chain(corners)
+            let halves = frame.halves.iter().flat_map(|(_, curve)| curve);
+            frame.curves.iter().flatten().chain(halves).copied().chain(corners)
         });
         let corner = |of: fn(&(f64, f64)) -> f64| Vec3::from(space.ranges.each_ref().map(of));
         // The ranges at rest have their margin already; the motion needs room only where it leaves them.

@@ -1,7 +1,7 @@
 //! Figures of the robot in space, to scale and with hanging cables.
 
 use super::{CABLE_COLOURS, PageFigure, colour, plain, rounded};
-use crate::figures::bodies::BodySurface;
+use crate::figures::bodies::{BodySurface, is_hidden};
 use crate::figures::drive::DriveLines;
 use crate::figures::hull::faces;
 use crate::figures::supports::SupportAtRest;
@@ -89,9 +89,10 @@ impl Drawn {
     /// Robot in a picture of a simulation. What lies behind the anchors stands as at the start.
     fn simulated(of: &SimulatedPicture, frame: &SimulatedFrame) -> Self {
         let hover = |i: usize| format!("cable {}<extra></extra>", plain(&of.robot.cables[i].name));
-        let cables = frame.curves.iter().enumerate().map(|(i, curve)| cable_line(i, curve, &hover(i))).collect();
-        let mut drawn = Self::with_cables(&of.robot, &of.rest, &frame.pose, cables);
-        drawn.points.extend(frame.curves.iter().flatten());
+        let cables = frame.curves.iter().enumerate().chain(frame.halves.iter().map(|(i, curve)| (*i, curve)));
+        let lines = cables.clone().map(|(i, curve)| cable_line(i, curve, &hover(i))).collect();
+        let mut drawn = Self::with_cables(&of.robot, &of.rest, &frame.pose, lines);
+        drawn.points.extend(cables.flat_map(|(_, curve)| curve).filter(|point| !is_hidden(&of.robot, point)));
         drawn
     }
 

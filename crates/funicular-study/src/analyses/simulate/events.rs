@@ -163,7 +163,7 @@ fn cut(of: &CutEvent, robot: &Robot) -> Result<SimulationEvent> {
         (None, Some(tension)) => CutAt::Tension(number("at_tension_n", tension)?),
         _ => bail!("give either `at_s` or `at_tension_n`"),
     };
-    Ok(SimulationEvent::Cut { cable: cable(robot, &of.cable)?, at })
+    Ok(SimulationEvent::Cut { cable: cable(robot, &of.cable)?, at, place: number("place_m", of.place_m)? })
 }
 
 fn lengths(of: &LengthsEvent, at_rest: &AtRest) -> Result<SimulationEvent> {

@@ -5,7 +5,7 @@ use super::rows::SimulatedRow;
 use crate::text::short;
 use funicular::math::Vec3;
 use funicular::robot::{Platform, Pose, Robot};
-use funicular::simulation::{CutAt, RobotSample, Simulation, SimulationEvent, SlackCable};
+use funicular::simulation::{RobotSample, Simulation, SimulationEvent, SlackCable};
 use funicular::statics::Equilibrium;
 
 /// Largest number of times at which the robot is kept for pictures: thirty per second of a run of ten seconds.
@@ -22,8 +22,12 @@ const VISIBLE: f64 = 0.03;
 pub struct SimulatedFrame {
     pub t_s: f64,
     pub pose: Pose,
-    /// Points of every rope from the platform to the anchor [m]; none for a cut rope without mass.
+    /// Points of every rope from the platform to the anchor [m]; none for a cut rope without mass. Of a cable that has
+    /// failed at a place, they are those of the half at the anchor.
     pub curves: Vec<Vec<Vec3>>,
+    /// Halves at the platform of cables that fail at a place: the cable's index and points from the platform to the
+    /// loose end [m], none before the failure.
+    pub halves: Vec<(usize, Vec<Vec3>)>,
 }
 
 /// Event as a mark in time.
@@ -75,7 +79,10 @@ impl SimulatedPicture {
         if self.frames.is_empty() {
             self.add(simulation, sample);
         }
-        let points: usize = self.frames[0].curves.iter().map(Vec::len).sum();
+        // Halves have as many points as their cables.
+        let first = &self.frames[0];
+        let halves: usize = first.halves.iter().map(|(cable, _)| first.curves[*cable].len()).sum();
+        let points = first.curves.iter().map(Vec::len).sum::<usize>() + halves;
         let count = MAX_FRAMES.min(MAX_COORDINATES / (3 * points).max(1)).max(2);
         let parts = (count - 1).min(rows - 1).max(1);
         // Row k is drawn if it is the first one in its part of the rows.
@@ -109,8 +116,9 @@ impl SimulatedPicture {
     }
 
     fn add(&mut self, simulation: &mut Simulation, sample: &RobotSample) {
-        let curves = simulation.curves_w(sample.time);
-        self.frames.push(SimulatedFrame { t_s: sample.time, pose: sample.pose, curves });
+        let mut curves = simulation.curves_w(sample.time);
+        let halves = simulation.parted().into_iter().zip(curves.split_off(self.robot.cables.len())).collect();
+        self.frames.push(SimulatedFrame { t_s: sample.time, pose: sample.pose, curves, halves });
     }
 
     /// Notes the end of the run.
@@ -154,7 +162,7 @@ fn marks(robot: &Robot, events: &[SimulationEvent]) -> Vec<EventMark> {
                 (*time, Some(*duration), format!("stop{}", named(cables.clone())))
             }
             SimulationEvent::Push { time, duration, .. } => (*time, Some(*duration), "push".to_owned()),
-            SimulationEvent::Cut { at: CutAt::Time(_) | CutAt::Tension(_), .. } => return None,
+            SimulationEvent::Cut { .. } => return None,
         };
         Some(EventMark { from_s, until_s: lasts.map(|duration| from_s + duration), what })
     };

@@ -55,7 +55,8 @@ const WITHOUT_DERIVATIVE: &[(&str, &[&str])] = &[
 ];
 
 /// Keys of numbers of a body.
-const BODY: &[&str] = &["position_m", "roll_pitch_yaw_deg", "size_m", "diameter_m", "length_m"];
+const BODY: &[&str] =
+    &["position_m", "roll_pitch_yaw_deg", "from_m", "to_m", "size_m", "width_m", "height_m", "diameter_m", "length_m"];
 
 impl Parameters {
     /// Change of the robot per unit of a parameter, in the unit of the file: the direction for derivatives of results
@@ -532,12 +533,22 @@ mod tests {
         shape = "cylinder"
         diameter_m = 0.1
         length_m = 0.2
+        [platform_bodies.rail]
+        from_m = [0.0, -0.1, 0.0]
+        to_m = [0.0, 0.1, 0.0]
+        width_m = 0.01
+        height_m = 0.02
         [obstacles.column]
         shape = "cylinder"
         diameter_m = 0.1
         length_m = 0.2
         position_m = [5.0, 0.0, 0.1]
         roll_pitch_yaw_deg = [0.0, 0.0, 10.0]
+        [obstacles.beam]
+        from_m = [5.0, 1.0, 0.1]
+        to_m = [6.0, 1.0, 0.1]
+        width_m = 0.1
+        height_m = 0.2
         [obstacles.crate]
         size_m = [0.1, 0.1, 0.1]
         position_m = [6.0, 0.0, 0.1]

@@ -173,6 +173,8 @@ fn numbers_at(value: &DeValue, span: &std::ops::Range<usize>, shape: Shape) -> V
 fn defaults(key: &Key, shape: Shape, table: &DeTable, robot: &Robot) -> Vec<KeyNumber> {
     let motion = &robot.platform.motion;
     let means_something = match key.name {
+        // A body between two points has its place.
+        "position_m" | "roll_pitch_yaw_deg" if table.contains_key("from_m") => false,
         "plane_offset_m" => matches!(motion, PlatformMotion::Planar(_)),
         "center_of_mass_m" | "rotational_damping_n_m_s" | "moment_n_m" | "point_m" | "roll_pitch_yaw_deg" => {
             *motion != PlatformMotion::PointMass

@@ -1,7 +1,7 @@
 //! `[obstacles.NAME]`, `[platform_bodies.NAME]` and `[clearance]`: what cables and platform must not touch.
 
 use super::key::{Absent, Key, KeyValue, Shape};
-use super::range::Range;
+use super::range::{MIN_POSITIVE, Range};
 use super::read::{Named, Reader, Section, shortened};
 use super::stl;
 use crate::math::Vec3;
@@ -22,6 +22,9 @@ const IN_THE_FILE: &str = "data:model/stl";
 /// Tables of obstacles, and of parts of the platform.
 const OBSTACLES: &str = "obstacles";
 const PARTS: &str = "platform_bodies";
+
+/// Effect of an end of an axis that is left out.
+const BY_TWO_POINTS: &str = "the body is placed by `position_m`; `from_m` and `to_m` stand together";
 
 /// Keys of `[obstacles.NAME]` and `[platform_bodies.NAME]`.
 pub(super) const BODY: &[Key] = &[
@@ -45,12 +48,49 @@ pub(super) const BODY: &[Key] = &[
         "orientation of the body's own frame, R = Rz(yaw) Ry(pitch) Rx(roll)",
     )
     .or([0.0; 3]),
+    Key::numeric(
+        Shape::Vector,
+        "from_m",
+        "from_m = [0.0, 0.0, 8.0]",
+        "m",
+        Range::Any,
+        "first end of the axis of a cylinder or a box, as of a guy wire or a beam, in the place of `position_m` and \
+         `roll_pitch_yaw_deg`",
+    )
+    .without(Absent::Depends(BY_TWO_POINTS)),
+    Key::numeric(
+        Shape::Vector,
+        "to_m",
+        "to_m = [4.0, 3.0, 0.0]",
+        "m",
+        Range::Any,
+        "second end of the axis of a cylinder or a box",
+    )
+    .without(Absent::Depends(BY_TWO_POINTS)),
     Key::numeric(Shape::Vector, "size_m", "size_m = [0.4, 0.4, 3.0]", "m", Range::Positive, "edges of a box")
-        .without(Absent::Depends("required for a box, else refused")),
+        .without(Absent::Depends("required for a box without `from_m`, else refused")),
+    Key::numeric(
+        Shape::Number,
+        "width_m",
+        "width_m = 0.2",
+        "m",
+        Range::Positive,
+        "width of a box with `from_m`: the level edge across its axis, along x if the box is upright",
+    )
+    .without(Absent::Depends("required for a box with `from_m`, else refused")),
+    Key::numeric(
+        Shape::Number,
+        "height_m",
+        "height_m = 0.3",
+        "m",
+        Range::Positive,
+        "height of a box with `from_m`: the edge across its axis and its width",
+    )
+    .without(Absent::Depends("required for a box with `from_m`, else refused")),
     Key::numeric(Shape::Number, "diameter_m", "diameter_m = 0.4", "m", Range::Positive, "diameter of a cylinder")
         .without(Absent::Depends("required for a cylinder, else refused")),
     Key::numeric(Shape::Number, "length_m", "length_m = 3.0", "m", Range::Positive, "length of a cylinder")
-        .without(Absent::Depends("required for a cylinder, else refused")),
+        .without(Absent::Depends("required for a cylinder without `from_m`, else refused")),
     Key::other(
         "file",
         r#"file = "column.stl""#,
@@ -154,27 +194,41 @@ fn read_clearance(reader: &mut Reader, root: &Section) -> Option<Option<Required
     Some(Some(RequiredClearance { cables: cables?, platform: platform?, obstacles: obstacles?, from_end }))
 }
 
+/// Keys of a body that belong to some of the shapes only.
+const OF_SHAPES: [&str; 9] =
+    ["size_m", "from_m", "to_m", "width_m", "height_m", "diameter_m", "length_m", "file", "file_unit"];
+
+/// Keys that say what the two ends of an axis say.
+const OF_PLACE: [&str; 4] = ["position_m", "roll_pitch_yaw_deg", "size_m", "length_m"];
+
 /// Reads a body.
 fn read_one(reader: &mut Reader, name: &str, section: &Section) -> Option<Body> {
-    let position = reader.vector_or_default(section, "position_m");
-    let angles = reader.vector_or_default(section, "roll_pitch_yaw_deg");
     let word = reader.word(section, "shape")?;
-
     let own: &[&str] = match word {
-        "box" => &["size_m"],
-        "cylinder" => &["diameter_m", "length_m"],
+        "box" => &["size_m", "from_m", "to_m", "width_m", "height_m"],
+        "cylinder" => &["diameter_m", "length_m", "from_m", "to_m"],
         "mesh" => &["file", "file_unit"],
         _ => &[],
     };
-    let of_shapes = ["size_m", "diameter_m", "length_m", "file", "file_unit"];
-    let foreign = of_shapes.into_iter().filter(|key| !own.contains(key));
-    if let Some((key, value)) = foreign.into_iter().find_map(|key| Some((key, section.get(key)?))) {
+    let foreign = OF_SHAPES.into_iter().filter(|key| !own.contains(key));
+    if let Some((key, value)) = first_of(section, foreign) {
         reader
             .issue(value.span(), format!("`{key}` does not go with `shape = \"{word}\"`"))
             .help("remove the line, or write the shape that it belongs to");
         return None;
     }
+    if section.get("from_m").is_some() || section.get("to_m").is_some() {
+        return between_points(reader, name, section, word);
+    }
+    if let Some((key, value)) = first_of(section, ["width_m", "height_m"].into_iter()) {
+        reader
+            .issue(value.span(), format!("`{key}` needs `from_m` and `to_m`, the ends of the axis of the box"))
+            .help("give them, or the three edges as `size_m` with `position_m`");
+        return None;
+    }
 
+    let position = reader.vector_or_default(section, "position_m");
+    let angles = reader.vector_or_default(section, "roll_pitch_yaw_deg");
     let mut number = |key: &str| reader.required(section, key).and_then(|value| reader.number_of(section, key, value));
     let solid = match word {
         "cylinder" => {
@@ -189,6 +243,49 @@ fn read_one(reader: &mut Reader, name: &str, section: &Section) -> Option<Body> 
         }
     };
     Some(Body { name: name.to_owned(), pose: Pose::new(position?, angles?), solid })
+}
+
+/// First of some keys that a table has.
+fn first_of<'t>(
+    section: &Section<'t>,
+    mut keys: impl Iterator<Item = &'static str>,
+) -> Option<(&'static str, &'t super::read::Value<'t>)> {
+    keys.find_map(|key| Some((key, section.get(key)?)))
+}
+
+/// Reads a cylinder or a box whose axis has two given ends.
+fn between_points(reader: &mut Reader, name: &str, section: &Section, word: &str) -> Option<Body> {
+    if let Some((key, value)) = first_of(section, OF_PLACE.into_iter()) {
+        reader
+            .issue(value.span(), format!("`{key}` does not go with `from_m` and `to_m`, which place the body already"))
+            .help("keep the two ends of the axis, or the place with its angles and lengths");
+        return None;
+    }
+    let mut end = |key: &str| reader.required(section, key).and_then(|value| reader.vector(section, key, value));
+    let (from, to) = (end("from_m"), end("to_m"));
+    let mut number = |key: &str| reader.required(section, key).and_then(|value| reader.number_of(section, key, value));
+    let across = if word == "cylinder" {
+        number("diameter_m").map(|diameter| [diameter; 2])
+    } else {
+        let (width, height) = (number("width_m"), number("height_m"));
+        width.and_then(|width| Some([width, height?]))
+    };
+
+    let (from, to) = (Vec3::from(from?), Vec3::from(to?));
+    let length = (to - from).norm();
+    if length < MIN_POSITIVE {
+        let span = section.get("to_m").map_or(section.span.clone(), toml::Spanned::span);
+        let message = format!("`from_m` and `to_m` of {} are the same point", section.label());
+        reader.issue(span, message).help("give the two ends of the axis of the body");
+        return None;
+    }
+    let [width, height] = across?;
+    let solid = if word == "cylinder" {
+        Solid::Cylinder { radius: 0.5 * width, half_length: 0.5 * length }
+    } else {
+        Solid::Box { half: Vec3::new(width, height, length) * 0.5 }
+    };
+    Some(Body { name: name.to_owned(), pose: Pose::between(&from, &to), solid })
 }
 
 /// Reads the mesh of a body.

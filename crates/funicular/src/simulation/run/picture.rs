@@ -12,7 +12,8 @@ impl SlackCable {
 
 impl Simulation {
     /// Nodes of every rope [m] from the platform to the anchor, in file order, at a time of the last step or at its
-    /// end. A cut rope without mass has none.
+    /// end. A cut rope without mass has none. Behind the cables stand the halves at the platform of those that fail
+    /// at a place ([`parted`](Self::parted)).
     ///
     /// # Example
     /// ```
@@ -56,6 +57,12 @@ impl Simulation {
             motion.x[system.of_rope(i)].chunks_exact(3).map(Vec3::from_column_slice).collect()
         };
         (0..system.ropes.len()).map(curve).collect()
+    }
+
+    /// Cables that fail at a place, by their indices: the rope of the half at the platform stands behind those of the
+    /// cables in [`curves_w`](Self::curves_w), in this order, and is empty before.
+    pub fn parted(&self) -> Vec<usize> {
+        self.stepper.system.halves.iter().map(|(cable, _)| *cable).collect()
     }
 
     /// Platform with the payloads that it has now; `before` is that of the start.

@@ -57,7 +57,7 @@ impl Simulation {
             count(cable, each);
             each(time);
         }
-        self.fuses.retain(|fuse| self.cuts.iter().all(|(cable, _)| *cable != fuse.1));
+        self.fuses.retain(|fuse| self.cuts.iter().all(|(cable, _)| *cable != fuse.cable));
         for SlackCable { first, duration, last } in &mut self.slack {
             optional(first, each);
             each(duration);

@@ -194,10 +194,10 @@ fn event(sample: &RandomRobot, rest: &Equilibrium, end: f64, draw: &mut Draw) ->
             let (rise, force_w) = (draw.between(0.0, 0.5) * part, Vec3::from(draw.vector(2.0 * weight)));
             SimulationEvent::Push { time, duration: part, rise, force_w, moment_w, point_p }
         }
-        6 => SimulationEvent::Cut { cable, at: CutAt::Time(time) },
+        6 => SimulationEvent::Cut { cable, at: CutAt::Time(time), place: 0.0 },
         _ => {
             let tension = rest.cables[cable].tension_anchor.max(rest.cables[cable].tension_platform);
-            SimulationEvent::Cut { cable, at: CutAt::Tension(tension * draw.between(1.01, 3.0)) }
+            SimulationEvent::Cut { cable, at: CutAt::Tension(tension * draw.between(1.01, 3.0)), place: 0.0 }
         }
     }
 }
