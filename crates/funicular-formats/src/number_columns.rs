@@ -16,7 +16,8 @@ pub struct NumberTable<V = f64> {
     pub lines: Vec<usize>,
 }
 
-/// Reads a table whose first line names the columns. Lines that begin with # are comments.
+/// Reads a table whose first line names the columns. Columns in units such as `_in` and `_ft` get those of the program
+/// and their names (`_m`). Lines that begin with # are comments.
 ///
 /// # Errors
 /// A table that is too large, a column that is there twice, or a value that is no number; the message names line and
@@ -80,12 +81,12 @@ fn read_by<V: Clone>(
 ) -> Result<NumberTable<V>> {
     check_size(path, bytes.len())?;
     let text = CsvText::open(path, bytes)?;
-    let names = text.header.clone();
+    let (names, written) = (text.header.clone(), text.written.clone());
 
     let (mut values, mut lines) = (vec![Vec::new(); names.len()], Vec::new());
     for record in text.records() {
         let (line, record) = record?;
-        for ((text, name), values) in record.iter().zip(&names).zip(&mut values) {
+        for ((text, name), values) in record.iter().zip(&written).zip(&mut values) {
             values.push(value(text).map_err(|reason| anyhow!("{path}, line {line}, column `{name}`: {reason}"))?);
         }
         lines.push(line);

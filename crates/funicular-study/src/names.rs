@@ -511,10 +511,7 @@ named! {
 impl LengthUnit {
     /// Factor that makes metres of a number.
     pub fn metres(self) -> f64 {
-        match self {
-            Self::Metre => 1.0,
-            Self::Millimetre => 1e-3,
-        }
+        crate::units::metres(self.name()).unwrap_or(1.0)
     }
 }
 
@@ -523,6 +520,9 @@ named! {
     enum LengthUnit, "unit of length" {
         Metre "m", "Metres";
         Millimetre "mm", "Millimetres";
+        Centimetre "cm", "Centimetres";
+        Inch "in", "Inches";
+        Foot "ft", "Feet";
     }
 }
 
