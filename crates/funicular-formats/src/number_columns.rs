@@ -1,6 +1,7 @@
 //! Columns of numbers from a CSV text, with the line of every row for messages.
 
 use crate::csv_lines::CsvText;
+use crate::gcode;
 use crate::measurements::check_size;
 use anyhow::{Result, anyhow};
 use funicular_study::values::{NumberError, number};
@@ -14,10 +15,12 @@ pub struct NumberTable<V = f64> {
     pub columns: BTreeMap<String, Vec<V>>,
     /// Line of each row in the file, from 1.
     pub lines: Vec<usize>,
+    /// Sentences about what was taken or passed over.
+    pub notes: Vec<String>,
 }
 
 /// Reads a table whose first line names the columns. Columns in units such as `_in` and `_ft` get those of the program
-/// and their names (`_m`). Lines that begin with # are comments.
+/// and their names (`_m`). A file with an ending of G-code is a job, whose moves are the rows. Lines that begin with # are comments.
 ///
 /// # Errors
 /// A table that is too large, a column that is there twice, or a value that is no number; the message names line and
@@ -31,6 +34,9 @@ pub struct NumberTable<V = f64> {
 /// # Ok::<(), anyhow::Error>(())
 /// ```
 pub fn read(path: &str, bytes: &[u8]) -> Result<NumberTable> {
+    if gcode::is_gcode(path) {
+        return gcode::read(path, bytes);
+    }
     read_by(path, bytes, number)
 }
 
@@ -91,5 +97,5 @@ fn read_by<V: Clone>(
         }
         lines.push(line);
     }
-    Ok(NumberTable { columns: names.into_iter().zip(values).collect(), lines })
+    Ok(NumberTable { columns: names.into_iter().zip(values).collect(), lines, notes: Vec::new() })
 }
