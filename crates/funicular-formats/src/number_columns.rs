@@ -1,8 +1,8 @@
 //! Columns of numbers from a CSV text, with the line of every row for messages.
 
 use crate::csv_lines::CsvText;
-use crate::gcode;
 use crate::measurements::check_size;
+use crate::{belt_lengths, gcode, ros_poses};
 use anyhow::{Result, anyhow};
 use funicular_study::values::{NumberError, number};
 use serde_json::{Map, Value};
@@ -20,7 +20,8 @@ pub struct NumberTable<V = f64> {
 }
 
 /// Reads a table whose first line names the columns. Columns in units such as `_in` and `_ft` get those of the program
-/// and their names (`_m`). A file with an ending of G-code is a job, whose moves are the rows. Lines that begin with # are comments.
+/// and their names (`_m`). A file with an ending of G-code is a job, whose moves are the rows; poses
+/// of ROS get the names of a path. Lines that begin with # are comments.
 ///
 /// # Errors
 /// A table that is too large, a column that is there twice, or a value that is no number; the message names line and
@@ -37,10 +38,15 @@ pub fn read(path: &str, bytes: &[u8]) -> Result<NumberTable> {
     if gcode::is_gcode(path) {
         return gcode::read(path, bytes);
     }
+    check_size(path, bytes.len())?;
+    let text = CsvText::open(path, bytes)?;
+    if ros_poses::is_of_ros(&text.header) {
+        return ros_poses::read(path, text);
+    }
     read_by(path, bytes, number)
 }
 
-/// Reads such a table in which cells may be empty.
+/// Reads such a table in which cells may be empty, or lengths of belts in a log or in JSON.
 ///
 /// # Errors
 /// Those of [`read`].
@@ -52,6 +58,9 @@ pub fn read(path: &str, bytes: &[u8]) -> Result<NumberTable> {
 /// # Ok::<(), anyhow::Error>(())
 /// ```
 pub fn read_with_gaps(path: &str, bytes: &[u8]) -> Result<NumberTable<Option<f64>>> {
+    if belt_lengths::has_lengths(path, bytes) {
+        return belt_lengths::read(path, bytes);
+    }
     read_by(path, bytes, |text| if text.is_empty() { Ok(None) } else { number(text).map(Some) })
 }
 
