@@ -505,6 +505,7 @@ named! {
         Rigid "rigid" or "spatial", "Three translations and three rotations";
         PointMass "point-mass" or "point", "Three translations";
         PlanarXz "planar-xz" or "planar", "Translations along x and z, rotation about y";
+        PlanarXy "planar-xy", "Translations along x and y, rotation about z";
     }
 }
 

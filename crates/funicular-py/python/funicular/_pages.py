@@ -85,13 +85,11 @@ class Answer(ArrayFields):
 
     def to_latex(self) -> str:
         """Rounded table of the results for LaTeX, with the rules of booktabs and the numbers of siunitx."""
-        table: str = self._answered.reading_table(latex=True)
-        return table
+        return self._answered.reading_table(True)
 
     def to_markdown(self) -> str:
         """Rounded table of the results for Markdown."""
-        table: str = self._answered.reading_table(latex=False)
-        return table
+        return self._answered.reading_table(False)
 
 
 def report_call(state: str, request: str) -> str:
