@@ -45,6 +45,9 @@ pub const SAP2000_8_CABLE_POINT_MASS: &str = include_str!("sap2000-8-cable-point
 /// Camera over a stadium: point mass on four cables; assumed, not published.
 pub const STADIUM_CAMERA: &str = include_str!("stadium-camera.toml");
 
+/// Milling machine on a wall: planar, four belts, gravity in the plane; belts and weight of a Maslow 4.
+pub const WALL_MACHINE: &str = include_str!("wall-machine.toml");
+
 /// Six cables of 4 mm, the robot of Yuan, Courteille and Deblaise (ICRA 2014).
 pub const YUAN2014_4MM: &str = include_str!("yuan2014-4mm.toml");
 
@@ -55,7 +58,7 @@ pub const YUAN2014_8MM: &str = include_str!("yuan2014-8mm.toml");
 pub const YUAN2014_DYNAMIC_TEST: &str = include_str!("yuan2014-dynamic-test.toml");
 
 /// All robots: name of the file without `.toml`, and text of the file.
-pub const ALL: [(&str, &str); 16] = [
+pub const ALL: [(&str, &str); 17] = [
     ("caroca", CAROCA),
     ("cogiro", COGIRO),
     ("cogiro-winches", COGIRO_WINCHES),
@@ -69,6 +72,7 @@ pub const ALL: [(&str, &str); 16] = [
     ("nist-robocrane", NIST_ROBOCRANE),
     ("sap2000-8-cable-point-mass", SAP2000_8_CABLE_POINT_MASS),
     ("stadium-camera", STADIUM_CAMERA),
+    ("wall-machine", WALL_MACHINE),
     ("yuan2014-4mm", YUAN2014_4MM),
     ("yuan2014-8mm", YUAN2014_8MM),
     ("yuan2014-dynamic-test", YUAN2014_DYNAMIC_TEST),

@@ -72,7 +72,7 @@ impl FileKey<'_> {
         Ok(match reader {
             Reader::Columns => {
                 let robot = robot()?;
-                serde_json::to_value(tables::read(path, role, |columns| self.check(columns, robot))?)?
+                serde_json::to_value(tables::read(path, role, &mut read.notes, |columns| self.check(columns, robot))?)?
             }
             Reader::GappedColumns => {
                 let robot = robot()?;
@@ -112,8 +112,9 @@ fn scenario(path: &Path, read: &mut FilesRead) -> Result<Scenario> {
     let files = RefCell::new(read);
     let table = |name: &str| {
         let path = folder.join(name);
-        files.borrow_mut().add("the table", &path);
-        tables::read(&path, "the table", |_| Ok(()))
+        let mut files = files.borrow_mut();
+        files.add("the table", &path);
+        tables::read(&path, "the table", &mut files.notes, |_| Ok(()))
     };
     simulate::scenario_from_toml(&text, table).with_context(|| format!("the scenario {shown}"))
 }

@@ -108,12 +108,17 @@ impl Sink {
         let format = args.format.unwrap_or(match path.and_then(Kind::of) {
             Some(Kind::Json) => Format::Json,
             Some(Kind::Csv) => Format::Csv,
+            Some(Kind::Latex) => Format::Latex,
+            Some(Kind::Markdown) => Format::Markdown,
             _ => Format::Text,
         });
-        let all = [&[Kind::Json, Kind::Csv, Kind::Parquet], others, &[Kind::Markdown, Kind::Text]].concat();
+        let all =
+            [&[Kind::Json, Kind::Csv, Kind::Parquet], others, &[Kind::Latex, Kind::Markdown, Kind::Text]].concat();
         let (in_words, fitting): (_, &[Kind]) = match (args.format, format) {
             (None, Format::Text) => ("text", &all),
             (_, Format::Text) => ("text", &[Kind::Markdown, Kind::Text]),
+            (_, Format::Latex) => ("LaTeX", &[Kind::Latex, Kind::Text]),
+            (_, Format::Markdown) => ("Markdown", &[Kind::Markdown, Kind::Text]),
             (_, Format::Json) => ("JSON", &[Kind::Json, Kind::Text]),
             (_, Format::Csv) => ("CSV", &[Kind::Csv, Kind::Text]),
         };
@@ -148,19 +153,28 @@ impl Sink {
             Form::As(format) => {
                 // Only finite numbers are printed: this check is the same for all formats.
                 as_json(&mut Vec::new(), results)?;
-                if format == Format::Text {
-                    bytes = visible(&results.text()).into_bytes();
-                    if self.target.is_file() {
-                        for warning in in_words(results) {
-                            writeln!(bytes, "\nwarning: {warning}")?;
-                        }
-                    }
-                } else {
-                    bytes = as_csv(results.table())?;
-                }
+                bytes = match format {
+                    Format::Text => self.text(results)?,
+                    Format::Latex => visible(&results.table().reading().latex()).into_bytes(),
+                    Format::Markdown => visible(&results.table().reading().markdown()).into_bytes(),
+                    _ => as_csv(results.table())?,
+                };
             }
         }
 
+        Ok(bytes)
+    }
+}
+
+impl Sink {
+    /// Tables for reading; a file has the warnings too.
+    fn text<R: Printed>(&self, results: &R) -> Result<Vec<u8>> {
+        let mut bytes = visible(&results.text()).into_bytes();
+        if self.target.is_file() {
+            for warning in in_words(results) {
+                writeln!(bytes, "\nwarning: {warning}")?;
+            }
+        }
         Ok(bytes)
     }
 }

@@ -10,6 +10,8 @@ pub enum Kind {
     Text,
     /// Markdown text.
     Markdown,
+    /// Table of LaTeX.
+    Latex,
     /// JSON.
     Json,
     /// Table of comma-separated values.
@@ -55,9 +57,10 @@ pub enum Kind {
 }
 
 /// All endings with a meaning. A file with any other ending may hold any text.
-const ENDINGS: [(&[&str], Kind); 41] = [
+const ENDINGS: [(&[&str], Kind); 42] = [
     (&["txt", "out", "log", "dat"], Kind::Text),
     (&["md"], Kind::Markdown),
+    (&["tex"], Kind::Latex),
     (&["json"], Kind::Json),
     (&["csv"], Kind::Csv),
     (&["parquet"], Kind::Parquet),
@@ -91,7 +94,7 @@ const ENDINGS: [(&[&str], Kind); 41] = [
     (&["vtk", "vtu", "vtr", "vts", "vtm", "pvd"], Kind::Other("another format of VTK")),
     (&["ps", "eps"], Kind::Other("printed pages")),
     (&["png", "jpg", "jpeg", "gif", "webp", "tif", "tiff", "bmp"], Kind::Other("a picture")),
-    (&["doc", "docx", "odt", "rtf", "ppt", "pptx", "tex"], Kind::Other("a document")),
+    (&["doc", "docx", "odt", "rtf", "ppt", "pptx"], Kind::Other("a document")),
     (&["yaml", "yml", "ini"], Kind::Other("another format of settings")),
     (&["wcrfx"], Kind::Other("another format of XML")),
     (&["tcl", "js", "cpp", "rs", "jl", "sh", "bat"], Kind::Other("a program in another language")),
@@ -116,6 +119,7 @@ impl Kind {
         match self {
             Self::Text => "text",
             Self::Markdown => "Markdown",
+            Self::Latex => "LaTeX",
             Self::Json => "JSON",
             Self::Csv => "CSV",
             Self::Parquet => "a Parquet file",

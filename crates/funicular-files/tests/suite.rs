@@ -474,7 +474,7 @@ fn results_are_parquet_files() {
         vec![Cell::Missing(None), Cell::Flag(false), Cell::Missing(None)],
         vec![Cell::Count(3), Cell::Flag(true), Cell::Text("ü, ö".to_owned())],
     ];
-    let table = ResultTable { columns, rows: Box::new(rows.into_iter()) };
+    let table = ResultTable::of_cells(columns, rows.into_iter());
     let directory = tempfile::tempdir().unwrap();
     let path = directory.path().join("a result.parquet");
     fs::write(&path, funicular_files::parquet_of_result("trajectory", table).unwrap()).unwrap();

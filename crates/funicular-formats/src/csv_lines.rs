@@ -1,6 +1,7 @@
 //! CSV texts with the line numbers of their records, for messages.
 
 use anyhow::{Result, anyhow, bail};
+use funicular_study::units;
 use funicular_study::values::number;
 use std::borrow::Cow;
 
@@ -114,8 +115,12 @@ pub struct CsvText<'a> {
     bytes: &'a [u8],
     reader: csv::Reader<&'a [u8]>,
     form: TableForm,
-    /// Names of the columns.
+    /// Names of the columns, in units of the program.
     pub header: Vec<String>,
+    /// Names of the columns as the file has them, for messages.
+    pub written: Vec<String>,
+    /// Factors of the numbers of the columns; 1 for those in units of the program.
+    factors: Vec<f64>,
     /// True if a first column without a name counts the rows.
     has_index: bool,
 }
@@ -139,7 +144,13 @@ impl<'a> CsvText<'a> {
             header.remove(0);
         }
         check_names(path, form, &header)?;
-        Ok(Self { path, bytes, reader, form, header, has_index })
+        let written = header;
+        let (header, factors): (Vec<String>, Vec<f64>) = written.iter().map(|name| units::column(name)).unzip();
+        if let Some((second, name)) = header.iter().enumerate().find(|(i, name)| header[..*i].contains(name)) {
+            let first = header.iter().position(|other| other == name).unwrap_or_default();
+            bail!("{path} has columns `{}` and `{}`: keep one of them", written[first], written[second]);
+        }
+        Ok(Self { path, bytes, reader, form, header, written, factors, has_index })
     }
 
     /// Records below the header, each with its line in the file, from 1.
@@ -147,7 +158,7 @@ impl<'a> CsvText<'a> {
     /// # Errors
     /// A text that cannot be read, or a line with another number of values.
     pub fn records(self) -> impl Iterator<Item = Result<(usize, csv::StringRecord)>> {
-        let Self { path, bytes, reader, form, has_index, .. } = self;
+        let Self { path, bytes, reader, form, has_index, factors, .. } = self;
         let mut lines = LineCounter::new(bytes);
         let mut index = None;
         reader.into_records().map(move |record| {
@@ -173,8 +184,17 @@ impl<'a> CsvText<'a> {
                 }
                 index = count;
             }
-            Ok((line, record.iter().skip(skipped).map(|cell| form.cell(cell)).collect::<Vec<_>>().into()))
+            let cells = record.iter().skip(skipped).map(|cell| form.cell(cell));
+            Ok((line, cells.zip(&factors).map(|(cell, factor)| converted(cell, *factor)).collect::<Vec<_>>().into()))
         })
+    }
+}
+
+/// Cell in a unit of the program; what is no number stays as it is.
+fn converted(cell: Cow<'_, str>, factor: f64) -> Cow<'_, str> {
+    match number(&cell) {
+        Ok(value) if factor != 1.0 => (value * factor).to_string().into(),
+        _ => cell,
     }
 }
 
@@ -252,6 +272,27 @@ mod tests {
             );
             assert_eq!(found[2].0, 4, "{stated:?}");
         }
+    }
+
+    #[test]
+    fn columns_in_inches_and_feet_are_read_in_metres() {
+        let plain = read("t_s,length_a_m,x_m\n0,2.54,0.6096\n1,,3.048\n").unwrap();
+        for same in [
+            "t_s,length_a_in,x_ft\n0,100,2\n1,,10\n",
+            "t_ms;length_a [in];x (ft)\n0;100;2\n1000;;10\n",
+            ",t_s,length_a_cm,x_in\n0,0,254,24\n1,1,,120\n",
+        ] {
+            let found = read(same).unwrap();
+            assert_eq!(found[0].1, plain[0].1, "{same:?}");
+            for (found, plain) in found.iter().zip(&plain).skip(1) {
+                let numbers =
+                    |row: &[String]| row.iter().map(|cell| cell.parse().unwrap_or(-1.0)).collect::<Vec<f64>>();
+                let pairs = numbers(&found.1).into_iter().zip(numbers(&plain.1));
+                assert!(pairs.clone().all(|(a, b)| (a - b).abs() < 1e-15), "{same:?}: {:?}", pairs.collect::<Vec<_>>());
+            }
+        }
+        let twice = CsvText::open("t.csv", b"x_in,x_m\n1,2\n").err().unwrap().to_string();
+        assert!(twice.contains("`x_in` and `x_m`"), "{twice}");
     }
 
     #[test]

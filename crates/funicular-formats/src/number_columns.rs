@@ -2,6 +2,7 @@
 
 use crate::csv_lines::CsvText;
 use crate::measurements::check_size;
+use crate::{belt_lengths, gcode, ros_poses};
 use anyhow::{Result, anyhow};
 use funicular_study::values::{NumberError, number};
 use serde_json::{Map, Value};
@@ -14,9 +15,13 @@ pub struct NumberTable<V = f64> {
     pub columns: BTreeMap<String, Vec<V>>,
     /// Line of each row in the file, from 1.
     pub lines: Vec<usize>,
+    /// Sentences about what was taken or passed over.
+    pub notes: Vec<String>,
 }
 
-/// Reads a table whose first line names the columns. Lines that begin with # are comments.
+/// Reads a table whose first line names the columns. Columns in units such as `_in` and `_ft` get those of the program
+/// and their names (`_m`). A file with an ending of G-code is a job, whose moves are the rows; poses
+/// of ROS get the names of a path. Lines that begin with # are comments.
 ///
 /// # Errors
 /// A table that is too large, a column that is there twice, or a value that is no number; the message names line and
@@ -30,10 +35,18 @@ pub struct NumberTable<V = f64> {
 /// # Ok::<(), anyhow::Error>(())
 /// ```
 pub fn read(path: &str, bytes: &[u8]) -> Result<NumberTable> {
+    if gcode::is_gcode(path) {
+        return gcode::read(path, bytes);
+    }
+    check_size(path, bytes.len())?;
+    let text = CsvText::open(path, bytes)?;
+    if ros_poses::is_of_ros(&text.header) {
+        return ros_poses::read(path, text);
+    }
     read_by(path, bytes, number)
 }
 
-/// Reads such a table in which cells may be empty.
+/// Reads such a table in which cells may be empty, or lengths of belts in a log or in JSON.
 ///
 /// # Errors
 /// Those of [`read`].
@@ -45,6 +58,9 @@ pub fn read(path: &str, bytes: &[u8]) -> Result<NumberTable> {
 /// # Ok::<(), anyhow::Error>(())
 /// ```
 pub fn read_with_gaps(path: &str, bytes: &[u8]) -> Result<NumberTable<Option<f64>>> {
+    if belt_lengths::has_lengths(path, bytes) {
+        return belt_lengths::read(path, bytes);
+    }
     read_by(path, bytes, |text| if text.is_empty() { Ok(None) } else { number(text).map(Some) })
 }
 
@@ -80,15 +96,15 @@ fn read_by<V: Clone>(
 ) -> Result<NumberTable<V>> {
     check_size(path, bytes.len())?;
     let text = CsvText::open(path, bytes)?;
-    let names = text.header.clone();
+    let (names, written) = (text.header.clone(), text.written.clone());
 
     let (mut values, mut lines) = (vec![Vec::new(); names.len()], Vec::new());
     for record in text.records() {
         let (line, record) = record?;
-        for ((text, name), values) in record.iter().zip(&names).zip(&mut values) {
+        for ((text, name), values) in record.iter().zip(&written).zip(&mut values) {
             values.push(value(text).map_err(|reason| anyhow!("{path}, line {line}, column `{name}`: {reason}"))?);
         }
         lines.push(line);
     }
-    Ok(NumberTable { columns: names.into_iter().zip(values).collect(), lines })
+    Ok(NumberTable { columns: names.into_iter().zip(values).collect(), lines, notes: Vec::new() })
 }

@@ -90,6 +90,12 @@ impl PyAnswered {
         Ok(table)
     }
 
+    /// Returns the rounded table for LaTeX, or for Markdown.
+    fn reading_table(&self, py: Python<'_>, latex: bool) -> PyResult<String> {
+        let table = self.found(py)?.table().reading();
+        Ok(if latex { table.latex() } else { table.markdown() })
+    }
+
     /// Makes the page in HTML; `call` is the code that makes it again.
     fn page(&self, py: Python<'_>, call: String) -> PyResult<String> {
         let found = self.found(py)?;

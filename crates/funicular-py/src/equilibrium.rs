@@ -12,6 +12,8 @@ use funicular::statics;
 use funicular_study::analyses;
 use funicular_study::analyses::statics::Extras;
 use funicular_study::at_rest::{self, AtRest};
+use funicular_study::columns::Tabled;
+use funicular_study::reading_table::ReadingTable;
 use funicular_study::request::{Request, State, Tensions};
 use pyo3::prelude::*;
 use std::sync::Arc;
@@ -38,6 +40,13 @@ impl PyEquilibrium {
 
     pub(crate) fn into_object(self, py: Python<'_>) -> PyResult<Py<Self>> {
         Py::new(py, PyClassInitializer::from(PyAnalyses).add_subclass(self))
+    }
+
+    /// Rounded table with one row per cable.
+    fn reading_table(&self, py: Python<'_>) -> PyResult<ReadingTable> {
+        let extras = Extras { alone: true, ..Extras::default() };
+        let found = py.detach(|| analyses::statics::about(&self.at_rest, extras));
+        Ok(found.map_err(|error| errors::study(&error))?.table().reading())
     }
 
     /// Request about this equilibrium.
@@ -256,6 +265,16 @@ impl PyEquilibrium {
     /// Makes a table of pandas with one row per cable; pandas has to be installed.
     fn to_pandas<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
         slf.py().import("funicular._show")?.call_method1("table", (slf,))
+    }
+
+    /// Rounded table with one row per cable for LaTeX, with the rules of booktabs and the numbers of siunitx.
+    fn to_latex(&self, py: Python<'_>) -> PyResult<String> {
+        Ok(self.reading_table(py)?.latex())
+    }
+
+    /// Rounded table with one row per cable for Markdown.
+    fn to_markdown(&self, py: Python<'_>) -> PyResult<String> {
+        Ok(self.reading_table(py)?.markdown())
     }
 
     fn __eq__(&self, other: &Self) -> bool {

@@ -3,7 +3,7 @@
 
 use crate::errors;
 use crate::reading;
-use funicular_study::request::{Request, RobotText, State, Tensions, check_given, keys_of};
+use funicular_study::request::{Request, RobotText, State, Tensions, check_given, convert_units, keys_of};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use serde::Serialize;
@@ -24,6 +24,7 @@ impl Keywords {
                 keys.insert(name, value);
             }
         }
+        convert_units(command, &mut keys).map_err(|error| errors::study(&error))?;
         check_given(command, &keys).map_err(|error| errors::study(&error))?;
         Ok(Self(keys))
     }

@@ -1,6 +1,7 @@
 //! Tables of results. The columns of each kind of rows stand once: CSV, tables for reading, pages, Python and the
 //! documentation follow from them.
 
+use crate::reading_table::{ReadingColumn, ReadingTable};
 use crate::table::{Column, ColumnKind, Values};
 use crate::text::{self, NONE};
 use crate::units;
@@ -531,20 +532,97 @@ impl<R> Columns<R> {
     }
 }
 
+/// Rows of a table: cells for files, and texts for reading.
+pub trait TableRows: Iterator<Item = Vec<Cell>> {
+    /// The rows that are left, as a table for reading; of rows that say nothing about it, with `columns` and all digits
+    /// that a table shows.
+    fn reading(self: Box<Self>, columns: &[Column]) -> ReadingTable;
+}
+
 /// Rows of results with their columns.
 pub struct ResultTable<'a> {
     /// Columns.
     pub columns: Vec<Column>,
     /// Cells of every row, one per column.
-    pub rows: Box<dyn Iterator<Item = Vec<Cell>> + 'a>,
+    pub rows: Box<dyn TableRows + 'a>,
 }
 
 impl<'a> ResultTable<'a> {
     /// Table of rows with the columns of their kind.
     pub fn new<R: 'a>(columns: Columns<R>, rows: impl IntoIterator<Item: Borrow<R>, IntoIter: 'a>) -> Self {
-        let rows = rows.into_iter();
-        Self { columns: columns.described(), rows: Box::new(rows.map(move |row| columns.cells(row.borrow()))) }
+        Self { columns: columns.described(), rows: Box::new(RowsOf { columns, rows: rows.into_iter() }) }
     }
+
+    /// Table of cells.
+    pub fn of_cells(columns: Vec<Column>, rows: impl Iterator<Item = Vec<Cell>> + 'a) -> Self {
+        Self { columns, rows: Box::new(CellRows(rows)) }
+    }
+
+    /// The table with rounded numbers, as the program prints it.
+    pub fn reading(self) -> ReadingTable {
+        self.rows.reading(&self.columns)
+    }
+}
+
+/// Rows of one kind.
+struct RowsOf<R, I> {
+    columns: Columns<R>,
+    rows: I,
+}
+
+impl<R, I: Iterator<Item: Borrow<R>>> Iterator for RowsOf<R, I> {
+    type Item = Vec<Cell>;
+
+    fn next(&mut self) -> Option<Vec<Cell>> {
+        self.rows.next().map(|row| self.columns.cells(row.borrow()))
+    }
+}
+
+impl<R, I: Iterator<Item: Borrow<R>>> TableRows for RowsOf<R, I> {
+    fn reading(self: Box<Self>, columns: &[Column]) -> ReadingTable {
+        let headings = self.columns.headings(Style::Plain);
+        if headings.is_empty() {
+            return reading_of_cells(columns, *self);
+        }
+        let of = |of: Heading| ReadingColumn { name: of.name.into(), unit: of.unit.into(), is_text: of.is_text };
+        let headings = headings.into_iter().map(of).collect();
+        let Self { columns, rows } = *self;
+        ReadingTable { columns: headings, rows: rows.map(|row| columns.texts(row.borrow(), Style::Plain)).collect() }
+    }
+}
+
+/// Rows without a form for reading.
+struct CellRows<I>(I);
+
+impl<I: Iterator<Item = Vec<Cell>>> Iterator for CellRows<I> {
+    type Item = Vec<Cell>;
+
+    fn next(&mut self) -> Option<Vec<Cell>> {
+        self.0.next()
+    }
+}
+
+impl<I: Iterator<Item = Vec<Cell>>> TableRows for CellRows<I> {
+    fn reading(self: Box<Self>, columns: &[Column]) -> ReadingTable {
+        reading_of_cells(columns, self.0)
+    }
+}
+
+fn reading_of_cells(columns: &[Column], rows: impl Iterator<Item = Vec<Cell>>) -> ReadingTable {
+    let of = |column: &Column| ReadingColumn {
+        name: units::without_unit(&column.name).to_owned(),
+        unit: units::shown(&column.unit).to_owned(),
+        is_text: column.kind == ColumnKind::Text,
+    };
+    let text = |cell: Cell| match cell {
+        Cell::Number(value) => Style::Plain.short(value, MAX_DIGITS),
+        Cell::Count(count) => count.to_string(),
+        Cell::Flag(is) => if is { "yes" } else { "no" }.to_owned(),
+        Cell::Text(text) => text,
+        Cell::Missing(_) => NONE.to_owned(),
+    };
+    let rows = rows.map(|row| row.into_iter().map(text).collect()).collect();
+    ReadingTable { columns: columns.iter().map(of).collect(), rows }
 }
 
 /// Tables of a command in files: its name, and the tables as [`Tabled::tables`] gives them.

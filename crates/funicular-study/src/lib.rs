@@ -43,6 +43,7 @@ mod normal;
 mod parameter_pattern;
 mod payload;
 mod quantiles;
+pub mod reading_table;
 mod refused;
 pub mod request;
 pub mod robot_file;

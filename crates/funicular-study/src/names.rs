@@ -549,16 +549,14 @@ named! {
         Rigid "rigid" or "spatial", "Three translations and three rotations";
         PointMass "point-mass" or "point", "Three translations";
         PlanarXz "planar-xz" or "planar", "Translations along x and z, rotation about y";
+        PlanarXy "planar-xy", "Translations along x and y, rotation about z";
     }
 }
 
 impl LengthUnit {
     /// Factor that makes metres of a number.
     pub fn metres(self) -> f64 {
-        match self {
-            Self::Metre => 1.0,
-            Self::Millimetre => 1e-3,
-        }
+        crate::units::metres(self.name()).unwrap_or(1.0)
     }
 }
 
@@ -567,6 +565,9 @@ named! {
     enum LengthUnit, "unit of length" {
         Metre "m", "Metres";
         Millimetre "mm", "Millimetres";
+        Centimetre "cm", "Centimetres";
+        Inch "in", "Inches";
+        Foot "ft", "Feet";
     }
 }
 

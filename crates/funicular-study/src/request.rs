@@ -32,7 +32,7 @@ mod workspace;
 pub use calibrate::{CalibrateRequest, PriorValue};
 pub use design::{ChangeValue, DesignRequest, OfferedRope};
 pub use files::{ExportRequest, ImportRequest, NewRequest, SchemaRequest, TABLE_TOLERANCE_M};
-pub use given::check_given;
+pub use given::{check_given, convert_units};
 pub(crate) use given::{check_scenario, read};
 pub use gradient::{GradientRequest, frequencies};
 pub use grids::{EachPoint, MapRequest, MergeRequest, PlotRequest, PointOptions, SweepRequest};
@@ -242,6 +242,7 @@ impl Request {
         if let Some(missing) = keys.iter().find(|key| key.required && !given.contains_key(key.name)) {
             return Err(anyhow!("a request of `{}` needs ⟪{}⟫", command.name, missing.name).into());
         }
+        convert_units(command.name, &mut given)?;
         check_given(command.name, &given)?;
 
         Ok(given::read(Value::Object(given)).map_err(|error| anyhow!("the request cannot be read: {error}"))?)

@@ -1,5 +1,6 @@
 //! Paths of the platform over time: its pose with three derivatives, at every time.
 
+mod arc;
 mod bandwidth;
 mod circle;
 mod course;
@@ -13,6 +14,7 @@ mod table;
 
 pub use course::{CourseForm, MotionLimits};
 pub use limits_kept::UsedParts;
+pub use moves::{Leg, LegWay};
 pub use profile::Profile;
 pub(crate) use profile::mean_exponential;
 pub use shaper::{Impulse, Shaper, ShaperKind};
@@ -174,7 +176,24 @@ impl PlatformPath {
     /// # Errors
     /// [`PathError::NoLimit`], [`PathError::NoMove`].
     pub fn through(poses: &[Pose], limits: &MotionLimits, form: CourseForm, blend: f64) -> Result<Self, PathError> {
-        Ok(Self { shape: PathShape::Moves(Moves::through(poses, limits, form, blend)?), slowness: 1.0 })
+        let Some((start, rest)) = poses.split_first() else { return Err(PathError::NoMove { first: 1 }) };
+        let straight = |to: &Pose| Leg { to: *to, way: LegWay::Straight, speed: f64::INFINITY };
+        Self::along(start, &rest.iter().map(straight).collect::<Vec<_>>(), limits, form, blend)
+    }
+
+    /// Moves from a pose on, straight or along arcs, each from rest to rest with its own speed; otherwise as
+    /// [`PlatformPath::through`].
+    ///
+    /// # Errors
+    /// [`PathError::NoLimit`], [`PathError::NoMove`], [`PathError::NoRadius`].
+    pub fn along(
+        start: &Pose,
+        legs: &[Leg],
+        limits: &MotionLimits,
+        form: CourseForm,
+        blend: f64,
+    ) -> Result<Self, PathError> {
+        Ok(Self { shape: PathShape::Moves(Moves::along(start, legs, limits, form, blend)?), slowness: 1.0 })
     }
 
     /// Circle about an axis through a centre, from rest to rest, without a turn of the platform. Positive turns go

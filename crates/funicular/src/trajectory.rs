@@ -105,6 +105,12 @@ impl<'a> AlongPath<'a> {
         &self.loaded
     }
 
+    /// Robot with the loads of a motion.
+    pub fn loaded_at(&mut self, point: &PathPoint) -> &Robot {
+        self.load(point);
+        &self.loaded
+    }
+
     /// Equilibrium with the loads of the motion.
     ///
     /// # Errors

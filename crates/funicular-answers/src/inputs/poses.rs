@@ -22,14 +22,16 @@ pub(super) fn read(path: &Path, robot: &Robot, notes: &mut Vec<String>) -> Resul
     let name = shown.to_string();
     let text = CsvText::open(&name, &bytes)?;
     let places = places(&text.header, notes).map_err(|reason| anyhow!("{shown} {reason}"))?;
+    let written = text.written.clone();
 
     let is_point_mass = robot.platform.motion == PlatformMotion::PointMass;
     let mut poses = Vec::new();
     for record in text.records() {
         let (line, record) = record?;
         let mut pose = [0.0; 6];
-        for ((value, place), column) in pose.iter_mut().zip(places).zip(COLUMNS) {
+        for (value, place) in pose.iter_mut().zip(places) {
             let Some(place) = place else { continue };
+            let column = &written[place];
             *value = number(record.get(place).unwrap_or_default())
                 .map_err(|reason| anyhow!("{shown}, line {line}, column `{column}`: {reason}"))?;
         }

@@ -16,9 +16,10 @@ use std::path::Path;
 pub(super) fn read(
     path: &Path,
     what: &str,
+    notes: &mut Vec<String>,
     check: impl FnOnce(&NumberColumns) -> Result<(), TableFault>,
 ) -> Result<NumberColumns> {
-    read_by(path, what, number_columns::read, check)
+    read_by(path, what, notes, number_columns::read, check)
 }
 
 /// Reads such columns in which cells may be empty.
@@ -30,7 +31,7 @@ pub(super) fn read_with_gaps(
     what: &str,
     check: impl FnOnce(&GappedColumns) -> Result<(), TableFault>,
 ) -> Result<GappedColumns> {
-    read_by(path, what, number_columns::read_with_gaps, check)
+    read_by(path, what, &mut Vec::new(), number_columns::read_with_gaps, check)
 }
 
 /// Reads the rows of a CSV file as objects.
@@ -46,6 +47,7 @@ pub(super) fn read_records(path: &Path, what: &str) -> Result<Vec<Map<String, Va
 fn read_by<V>(
     path: &Path,
     what: &str,
+    notes: &mut Vec<String>,
     table_of: impl FnOnce(&str, &[u8]) -> Result<NumberTable<V>>,
     check: impl FnOnce(&BTreeMap<String, Vec<V>>) -> Result<(), TableFault>,
 ) -> Result<BTreeMap<String, Vec<V>>> {
@@ -57,5 +59,6 @@ fn read_by<V>(
             fault.row.and_then(|row| table.lines.get(row)).map_or(String::new(), |line| format!(", line {line}"));
         anyhow!("{shown}{line}: {}", fault.text)
     })?;
+    notes.extend(table.notes);
     Ok(table.columns)
 }

@@ -46,6 +46,10 @@ pub(crate) enum Format {
     Json,
     /// One table with a header and every digit
     Csv,
+    /// The table of the result, rounded, for LaTeX with booktabs and siunitx
+    Latex,
+    /// The table of the result, rounded, for Markdown
+    Markdown,
 }
 
 /// Format and destination of the result.

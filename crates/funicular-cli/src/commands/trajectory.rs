@@ -71,6 +71,9 @@ impl Printed for TrajectoryResult {
             let _ = writeln!(text, "the path passes its poses at {} m", misses.join(", "));
         }
         self.stations.iter().for_each(|of| text.push_str(&of_stations(of)));
+        for command in &self.length_commands {
+            let _ = writeln!(text, "{}", command.told);
+        }
         text.push_str(&of_changes(self));
         for note in &self.notes {
             let _ = writeln!(text, "{note}");

@@ -232,3 +232,43 @@ fn profiles_and_priors_of_the_machine_are_printed() {
     );
     assert!(text.contains("prior 3.900 ± 0.010") && text.contains("profile 95 % from"), "{text}");
 }
+
+#[test]
+fn inches_and_lines_of_a_firmware_are_the_readings_in_millimetres() {
+    let belts = fs::read_to_string(project("docs/calibration/belts.csv")).unwrap();
+    let lines: Vec<&str> = belts.lines().filter(|line| !line.starts_with('#')).collect();
+    let header: Vec<&str> = lines[0].split(',').collect();
+    assert!(header.iter().all(|name| name.ends_with("_mm")), "{header:?}");
+    let rows: Vec<Vec<f64>> =
+        lines[1..].iter().map(|line| line.split(',').map(|cell| cell.parse().unwrap()).collect()).collect();
+
+    let each = |of: &dyn Fn(&str, f64) -> String| -> Vec<String> {
+        let row = |row: &Vec<f64>| header.iter().zip(row).map(|(name, value)| of(name, *value)).collect::<Vec<_>>();
+        rows.iter().map(|cells| row(cells).join(",")).collect()
+    };
+    let belt = |name: &str| name.trim_start_matches("length_").trim_end_matches("_mm").to_owned();
+    let inches = format!(
+        "{}\n{}\n",
+        lines[0].replace("_mm", "_in"),
+        each(&|_, value| format!("{:.12}", value / 25.4)).join("\n")
+    );
+    let firmware = format!(
+        "[MSG:INFO: start]\nCLBM:[{}]\n",
+        each(&|name, value| format!("{}:{value:.2}", belt(name)))
+            .iter()
+            .map(|row| format!("{{{row}}},"))
+            .collect::<String>()
+    );
+
+    let plain = found(&[]);
+    let folder = tempfile::tempdir().unwrap();
+    let robot = project("docs/calibration/machine.toml");
+    for (name, text) in [("belts-in.csv", &inches), ("log.txt", &firmware)] {
+        let path = folder.path().join(name).display().to_string();
+        fs::write(&path, text).unwrap();
+        let same = json(&["calibrate", &robot, "--readings", &path]);
+        for (a, b) in plain["values"].as_array().unwrap().iter().zip(same["values"].as_array().unwrap()) {
+            assert!((number(&a["value"]) - number(&b["value"])).abs() < 1e-9, "{name}: {a} {b}");
+        }
+    }
+}

@@ -379,3 +379,44 @@ fn a_full_disk_is_an_error_and_a_device_is_written_as_it_is() {
     succeed(&["statics", "ROBOT", "-o", path.to_str().unwrap()]);
     assert!(!fs::metadata(path).unwrap().is_file());
 }
+
+/// The table of a result for LaTeX and Markdown has the rounded cells of the text.
+#[test]
+fn tables_for_papers_have_the_cells_of_the_text() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name).display().to_string();
+    let cogiro = super::robot("cogiro.toml");
+    for line in
+        [&["statics", &cogiro][..], &["modes", &cogiro, "--below-hz", "3"], &["compare", &cogiro, "--below-hz", "3"]]
+    {
+        for (name, format) in [("t.tex", "latex"), ("t.md", "markdown")] {
+            succeed(&[line, &["-o", &at(name)]].concat());
+            let written = std::fs::read_to_string(at(name)).unwrap();
+            assert_eq!(written, succeed(&[line, &["--format", format]].concat()));
+        }
+
+        let latex = std::fs::read_to_string(at("t.tex")).unwrap();
+        let lines: Vec<&str> = latex.lines().collect();
+        assert_eq!(lines[2], "\\toprule");
+        assert_eq!(lines[lines.len() - 2..], ["\\bottomrule", "\\end{tabular}"]);
+        let rows: Vec<&str> = lines.iter().copied().filter(|line| line.ends_with(" \\\\")).collect();
+        let columns = |row: &str| row.replace("\\&", "").matches(" & ").count() + 1;
+        assert!(rows.len() > 4 && rows.iter().all(|row| columns(row) == columns(rows[0])), "{latex}");
+        let braces = latex.replace("\\{", "").replace("\\}", "");
+        assert_eq!(braces.matches('{').count(), braces.matches('}').count(), "{latex}");
+        assert!(latex.is_ascii(), "{latex}");
+
+        let markdown = std::fs::read_to_string(at("t.md")).unwrap();
+        let widths: Vec<usize> = markdown.lines().map(|line| line.chars().count()).collect();
+        assert!(widths.windows(2).all(|pair| pair[0] == pair[1]), "{markdown}");
+        assert_eq!(markdown.lines().count(), rows.len() + 1);
+    }
+    let text = succeed(&["statics", &cogiro]);
+    let markdown = succeed(&["statics", &cogiro, "--format", "markdown"]);
+    for cell in markdown.lines().skip(2).flat_map(|line| line.split('|')).map(str::trim).filter(|cell| !cell.is_empty())
+    {
+        assert!(text.contains(cell), "{cell}: {text}");
+    }
+    let wrong = super::run(&["statics", &cogiro, "--format", "latex", "-o", &at("t.json")]);
+    assert_eq!(wrong.status.code(), Some(2), "{}", super::stderr(&wrong));
+}

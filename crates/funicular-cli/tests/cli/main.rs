@@ -11,6 +11,7 @@ mod export;
 mod figures;
 mod files;
 mod frf;
+mod gcode;
 mod gradient;
 mod gust;
 mod identify;

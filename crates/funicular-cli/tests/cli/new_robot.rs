@@ -15,6 +15,8 @@ fn every_command_runs_on_a_new_robot_at_once() {
         &["--cables", "6", "--name", "rig", "--mass-kg", "20", "--box-m", "0.4,0.3,0.2"],
         &["--motion", "planar-xz"],
         &["--motion", "planar", "--cables", "3"],
+        &["--motion", "planar-xy"],
+        &["--motion", "planar-xy", "--cables", "7", "--box-m", "0.3,0.2,0.1"],
         &["--motion", "point-mass", "--rope", "7x7"],
         &["--rope", "hmpe", "--diameter-m", "0.006"],
         &["--from-csv", &table, "--csv-unit", "mm", "--mass-kg", "60"],

@@ -161,25 +161,34 @@ impl NewFile<'_> {
             return Ok(());
         }
 
-        if motion == NewMotion::PlanarXz && pose.position_w.y != 0.0 {
-            section.value("plane_offset_m", &float(pose.position_w.y));
+        let offset = match motion {
+            NewMotion::PlanarXz => pose.position_w.y,
+            NewMotion::PlanarXy => pose.position_w.z,
+            NewMotion::Rigid | NewMotion::PointMass => 0.0,
+        };
+        if offset != 0.0 {
+            section.value("plane_offset_m", &float(offset));
         }
         section
             .note(&format!("Moments of a homogeneous box, m(b² + c²)/12 and so on, of {} m.", sides(self.box_sides)));
         section.value("inertia_kg_m2", &self.inertia()?);
         let unused = if motion == NewMotion::Rigid { "plane_offset_m" } else { "" };
-        let offset = if pose.position_w.y == 0.0 { "" } else { "plane_offset_m" };
-        section.rest(&["mass_kg", "motion", "inertia_kg_m2", unused, offset]);
+        let given = if offset == 0.0 { "" } else { "plane_offset_m" };
+        section.rest(&["mass_kg", "motion", "inertia_kg_m2", unused, given]);
         Ok(())
     }
 
-    /// Principal moments of the box, or for a planar platform the moment about y.
+    /// Principal moments of the box, or for a planar platform the moment about the normal of its plane.
     fn inertia(&self) -> Result<String> {
         // Rounding the second moments and not their sums keeps the moments of a flat box possible.
         let second = self.box_sides.map(|side| digits(self.mass * side * side / 12.0, 4));
         let [xx, yy, zz] = [second[1] + second[2], second[0] + second[2], second[0] + second[1]];
-        let planar = self.request.motion == NewMotion::PlanarXz;
-        if if planar { yy <= 0.0 } else { xx.min(yy).min(zz) <= 0.0 } {
+        let about_normal = match self.request.motion {
+            NewMotion::PlanarXz => Some(yy),
+            NewMotion::PlanarXy => Some(zz),
+            NewMotion::Rigid | NewMotion::PointMass => None,
+        };
+        if about_normal.unwrap_or(xx.min(yy).min(zz)) <= 0.0 {
             bail!(
                 "the attachments span no box, {} m: give the sides of the platform's box in ⟪box_m⟫, or ⟪motion⟫ \
                  point-mass if all cables end in one point",
@@ -188,7 +197,7 @@ impl NewFile<'_> {
         }
         // Ten digits are more than the sums of numbers with four have, and fewer than rounding has.
         let short = |moment: f64| float(digits(moment, 10));
-        Ok(if planar { short(yy) } else { format!("[{}, {}, {}]", short(xx), short(yy), short(zz)) })
+        Ok(about_normal.map_or_else(|| format!("[{}, {}, {}]", short(xx), short(yy), short(zz)), short))
     }
 
     fn material(&self, out: &mut String) {

@@ -48,7 +48,12 @@ impl Layout {
     /// Layout with a number of cables around the origin, above the platform. Opposite cables mirror each other, so that
     /// the platform in the middle is in equilibrium.
     pub(super) fn of_count(count: Option<usize>, motion: NewMotion, sides: Option<[f64; 3]>) -> Result<Self> {
-        let fewest = if motion == NewMotion::Rigid { 2 } else { 1 };
+        let fewest = match motion {
+            NewMotion::Rigid => 2,
+            NewMotion::PointMass | NewMotion::PlanarXz => 1,
+            // Nothing pulls a platform in a level plane but its cables, which have to pull against each other.
+            NewMotion::PlanarXy => 4,
+        };
         let count = count.unwrap_or(if motion == NewMotion::Rigid { 8 } else { 4 });
         if count == 1 && fewest == 2 {
             bail!(
@@ -68,6 +73,7 @@ impl Layout {
             NewMotion::Rigid => room.around(count),
             NewMotion::PointMass => room.to_one_point(count),
             NewMotion::PlanarXz => room.in_plane(count),
+            NewMotion::PlanarXy => room.in_level_plane(count),
         };
 
         let named = |(i, (anchor, attachment)): (usize, (Vec3, Vec3))| CablePoints {
@@ -76,13 +82,10 @@ impl Layout {
             attachment: attachment.map(rounded),
         };
         let cables = points.into_iter().enumerate().map(named).collect();
-        Ok(Self {
-            cables,
-            middle: [0.0, 0.0],
-            heights: vec![rounded(PLATFORM_OVER_HEIGHT * height)],
-            floor: Some(FLOOR),
-            sides,
-        })
+        let is_level = motion == NewMotion::PlanarXy;
+        let middle_height = if is_level { 0.0 } else { rounded(PLATFORM_OVER_HEIGHT * height) };
+        let floor = (!is_level).then_some(FLOOR);
+        Ok(Self { cables, middle: [0.0, 0.0], heights: vec![middle_height], floor, sides })
     }
 
     /// Layout with the points of a table. The platform hangs in the middle of the anchors.
@@ -95,6 +98,12 @@ impl Layout {
         } else {
             middle(y)
         };
+
+        if motion == NewMotion::PlanarXy {
+            let height = rounded(cables.iter().map(|cable| cable.anchor.z).sum::<f64>() / cables.len() as f64);
+            let sides = extent(cables.iter().map(|cable| cable.attachment)).map(|[low, high]| rounded(high - low));
+            return Self { cables, middle: [middle(x), middle(y)], heights: vec![height], floor: None, sides };
+        }
 
         let half_width = 0.5 * f64::max(x[1] - x[0], y[1] - y[0]);
         let depth = z[1] - z[0];
@@ -216,6 +225,17 @@ impl Room {
 
         let paired = (0..pairs).flat_map(|pair| [ends(pair, -1.0), ends(pair, 1.0)]);
         paired.chain((count % 2 == 1).then(|| self.cable_from_above())).collect()
+    }
+
+    /// Cables of a platform in the plane z = 0, all around it. Two neighbours cross each other, one above the other,
+    /// which holds the rotation.
+    fn in_level_plane(&self, count: usize) -> Vec<(Vec3, Vec3)> {
+        let ends = |(i, angle): (usize, f64)| {
+            let sign = if i % 2 == 0 { 1.0 } else { -1.0 };
+            let height = sign * 0.5 * self.sides[2];
+            (self.on_circle(angle, height), self.on_platform(angle + sign * TAU / count as f64, height))
+        };
+        angles(count).enumerate().map(ends).collect()
     }
 }
 

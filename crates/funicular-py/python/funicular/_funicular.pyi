@@ -1030,7 +1030,7 @@ class Robot(Analyses):
         Parameters
         ----------
         readings
-            One row per pose: columns `length_NAME_m` or `length_NAME_mm` of every cable, and optionally `x_m`, `y_m`, `z_m`,
+            One row per pose: columns `length_NAME_m` (or `_mm`, `_in`) of every cable, and optionally `x_m`, `y_m`, `z_m`,
             `roll_deg`, `pitch_deg`, `yaw_deg`, as a mapping, a data frame or a CSV file.
         unknowns
             Numbers to find, separated by commas: anchors, attachments, offsets (length of each cable at the reading

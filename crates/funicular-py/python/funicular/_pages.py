@@ -83,6 +83,14 @@ class Answer(ArrayFields):
         """Makes a table of pandas with the columns of the program's CSV, and their units in `attrs`; pandas has to be installed."""
         return _show.table(self)
 
+    def to_latex(self) -> str:
+        """Rounded table of the results for LaTeX, with the rules of booktabs and the numbers of siunitx."""
+        return self._answered.reading_table(True)
+
+    def to_markdown(self) -> str:
+        """Rounded table of the results for Markdown."""
+        return self._answered.reading_table(False)
+
 
 def report_call(state: str, request: str) -> str:
     """Code that makes a report again; state and request are JSON."""

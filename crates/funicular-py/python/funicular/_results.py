@@ -110,6 +110,31 @@ class Results(Row):
         """
         return _show.table(self)
 
+    def to_latex(self) -> str:
+        """Returns the rounded table of the results for LaTeX, with the rules of booktabs and the numbers of siunitx.
+
+        Raises
+        ------
+        InputError
+            The results have no table in the program.
+        """
+        return self._reading_table(latex=True)
+
+    def to_markdown(self) -> str:
+        """Returns the rounded table of the results for Markdown.
+
+        Raises
+        ------
+        InputError
+            The results have no table in the program.
+        """
+        return self._reading_table(latex=False)
+
+    def _reading_table(self, *, latex: bool) -> str:
+        if self._answered is None:
+            raise InputError(f"the results of {self.get('command', 'this command')} have no table: read their keys")
+        return self._answered.reading_table(latex)
+
     def to_xarray(self) -> Any:
         """Makes a dataset of xarray with every number of the results, and units as attributes; xarray has to be installed.
 

@@ -456,7 +456,7 @@ def calibrate(of: Any, given: Given) -> CalibrateResults:
     Parameters
     ----------
     readings
-        One row per pose: columns `length_NAME_m` or `length_NAME_mm` of every cable, and optionally `x_m`, `y_m`, `z_m`,
+        One row per pose: columns `length_NAME_m` (or `_mm`, `_in`) of every cable, and optionally `x_m`, `y_m`, `z_m`,
         `roll_deg`, `pitch_deg`, `yaw_deg`, as a mapping, a data frame or a CSV file.
     prior
         Values known beforehand: a mapping from kinds of unknowns or paths of values to a standard deviation, or to a value

@@ -9,6 +9,9 @@ use funicular::robot::{Pose, Robot};
 /// Column of the times.
 pub(super) const TIME: &str = "t_s";
 
+/// Column that makes a table a job, whose rows are moves: the speed of the move to a row.
+pub(super) const FEED: &str = "feed_m_s";
+
 /// Columns of poses; the angles may be left out.
 pub(super) const POSE: [&str; 6] = ["x_m", "y_m", "z_m", "roll_deg", "pitch_deg", "yaw_deg"];
 
@@ -61,6 +64,13 @@ impl TimedRows {
             robot.cables.iter().map(|cable| format!("unstrained_length_{}_m", cable.name)).collect();
         let known: Vec<String> =
             [TIME].iter().chain(&POSE).map(|name| (*name).to_owned()).chain(of_lengths.clone()).collect();
+        if columns.contains_key(FEED) {
+            return Err(fault(
+                "a job has no times: compute them by `trajectory` with the job as ⟪path⟫, and give its table of \
+                 lengths over time"
+                    .to_owned(),
+            ));
+        }
         let wanted = "a trajectory has t_s, and either x_m, y_m, z_m, roll_deg, pitch_deg, yaw_deg or \
                       unstrained_length_NAME_m of every cable";
         TableFault::refuse_unknown(key, columns, &known, wanted)?;

@@ -3,7 +3,9 @@
 mod at_time;
 mod fastest;
 mod instants;
+mod job;
 mod jumps;
+mod length_commands;
 mod passing;
 mod planned;
 mod rounded;
@@ -13,6 +15,7 @@ mod stations;
 mod told;
 mod used;
 
+pub use length_commands::{LengthCommand, SlackCable};
 pub use planned::check as check_path;
 pub use rows::TrajectoryRow;
 pub use stations::Stations;
@@ -93,6 +96,9 @@ rows! {
         pub quasi_static: Option<QuasiStatic>;
         /// Controller with straight lines between its stations; absent if no length bends.
         pub stations: Option<Stations>;
+        /// Tensions under a controller that commands lengths alone, with computed and with geometric lengths; absent
+        /// for a robot with as many cables as degrees of freedom.
+        pub length_commands: Vec<LengthCommand> = sparse;
         /// Distances at which the path passes the poses on its way; absent without such poses.
         pub misses_m: Vec<f64> = sparse;
         /// Names of the cables, in the order of all lists.
@@ -329,6 +335,7 @@ fn found(
         rule_jumps: rule_jumps(robot, samples),
         quasi_static,
         stations,
+        length_commands: length_commands::of(planned, samples),
         misses_m: planned.path.misses(),
         cables: robot.cables.iter().map(|cable| cable.name.clone()).collect(),
         rows: (0..samples.rows.len())

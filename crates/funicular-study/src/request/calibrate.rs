@@ -16,7 +16,7 @@ declared! {
     pub struct CalibrateRequest {
         /// Robot file, whose values are the start.
         robot: RobotText = RobotText::default() => (Data(shape::robot)).required();
-        /// Readings, one row per pose: columns length_NAME_m [m] or length_NAME_mm [mm] of every cable, empty where a
+        /// Readings, one row per pose: columns length_NAME_m [m] (or _mm, _in) of every cable, empty where a
         /// cable was slack or not read; x_m, y_m, z_m and, where the platform turns, roll_deg, pitch_deg, yaw_deg are
         /// poses at which the search begins; tension_NAME_n are tensions at the anchors [N], which elastic cables need.
         readings: GappedColumns = GappedColumns::new() => (GappedColumns).required()

@@ -5,6 +5,7 @@ use super::key::{Declared, Key, Kind, ProgramForm, Range};
 use super::{Experiment, commands, library_words, simulate};
 use super::{OfferedRope, OfferedWinch};
 use crate::names::{no_such, suggestion};
+use crate::units;
 use anyhow::{Result, anyhow, bail};
 use serde::de::DeserializeOwned;
 use serde_json::{Map, Value};
@@ -55,6 +56,30 @@ pub fn check_given(command: &str, given: &Object) -> Result<()> {
         }
         if let Some(other) = key.excludes.iter().find(|other| is_given(given, other)) {
             bail!("give ⟪{other}⟫ or ⟪{}⟫, not both", key.name);
+        }
+    }
+    Ok(())
+}
+
+/// Gives the tables of a request the units of the program: a column `length_a_in` becomes `length_a_m`.
+///
+/// # Errors
+/// Two columns that are the same number in two units; the message names the key.
+pub fn convert_units(command: &str, given: &mut Object) -> Result<()> {
+    let keys = commands().iter().find(|info| info.name == command).map_or(&[][..], |info| &info.keys);
+    for key in keys {
+        let Some(value) = given.get_mut(key.name) else { continue };
+        let tables: Vec<&mut Value> = match (&key.kind, value) {
+            (Kind::Columns | Kind::GappedColumns, value) => vec![value],
+            (Kind::Data(_), Value::Array(rows)) if key.name == "offers" => rows.iter_mut().collect(),
+            (Kind::Data(_), Value::Object(scenario)) if key.name == "scenario" => {
+                let events = scenario.get_mut("lengths").and_then(Value::as_array_mut).into_iter().flatten();
+                events.filter_map(|event| event.get_mut("table")).collect()
+            }
+            _ => continue,
+        };
+        for table in tables.into_iter().filter_map(Value::as_object_mut) {
+            units::convert_columns(table).map_err(|reason| anyhow!("⟪{}⟫: {reason}", key.name))?;
         }
     }
     Ok(())

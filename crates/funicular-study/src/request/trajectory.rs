@@ -14,9 +14,13 @@ declared! {
         /// Robot file.
         robot: RobotText = RobotText::default() => (Data(shape::robot)).required();
         /// Path: columns t_s [s], x_m, y_m, z_m [m] and, where the platform turns, roll_deg, pitch_deg, yaw_deg; a
-        /// spline of the fifth degree passes the rows.
-        path: Option<NumberColumns> = None => (Columns).under("Path").excludes(&["pose", "lengths_m"])
+        /// spline of the fifth degree passes the rows. Or a job: G-code (.nc, .gcode, .ngc, .tap), or rows with feed_m_s [m/s]
+        /// instead of times, each a move at this speed; 0 is a rapid move, as fast as the limits of the course.
+        path: Option<NumberColumns> = None => (Columns).under("Path").excludes(&["lengths_m"])
             .read_by(Reader::Columns, "the path");
+        /// Place of the zero of a job, world axes [m].
+        path_origin_m: Option<[f64; 3]> = None => (Vector).under("Path").needs("path")
+            .otherwise("the zero of the world");
         /// Smooth the rows of ⟪path⟫ by less than this distance [m]: half a unit of their last digit takes their
         /// rounding out. Angles change by less than what moves the attachments as far.
         row_tolerance_m: Option<f64> = None => (Number(Positive)).under("Path")

@@ -1,5 +1,6 @@
-//! Straight moves one after the other, which may overlap in time.
+//! Moves one after the other, straight or along arcs, which may overlap in time.
 
+use super::arc::Arc;
 use super::course::{Course, CourseForm, MotionLimits};
 use super::limits_kept::{UsedParts, largest};
 use super::profile::SAME_CORNER;
@@ -14,10 +15,38 @@ const LOOKS: usize = 200;
 /// path down, so that more rounds would make it faster at most.
 const ROUNDS: usize = 4;
 
+/// Move of a job: where it ends, its way and its own speed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Leg {
+    /// Pose at its end.
+    pub to: Pose,
+    /// Way of the origin.
+    pub way: LegWay,
+    /// Largest speed of the origin [m/s], as a feed rate; infinite for that of all moves.
+    pub speed: f64,
+}
+
+/// Way of the platform origin from one pose to the next.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum LegWay {
+    /// Straight line.
+    Straight,
+    /// Circular arc about an axis, or a helix if start and end differ along the axis.
+    Arc {
+        /// Point of the axis.
+        center_w: Vec3,
+        /// Direction of the axis.
+        axis_w: Vec3,
+        /// Angle by the right-hand rule [rad]; more than a whole turn is several turns.
+        angle: f64,
+    },
+}
+
 /// Moves from pose to pose.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Moves {
-    start: Pose,
+    /// Pose before each move, and after the last.
+    poses: Vec<Pose>,
     moves: Vec<TimedMove>,
 }
 
@@ -26,6 +55,8 @@ pub(super) struct Moves {
 struct TimedMove {
     begins: f64,
     straight: StraightMove,
+    /// Way of the origin if it is no straight line.
+    arc: Option<Arc>,
     course: Course,
 }
 
@@ -33,65 +64,126 @@ impl TimedMove {
     fn ends(&self) -> f64 {
         self.begins + self.course.duration()
     }
+
+    /// Way of the origin at a state of the course, with three derivatives.
+    fn way(&self, course: [f64; 4]) -> [Vec3; 4] {
+        self.arc.as_ref().map_or_else(|| course.map(|of| self.straight.translation_w * of), |arc| arc.way(course))
+    }
+
+    /// Slows a move along an arc down until the acceleration towards its axis fits the limits too.
+    fn keep_limits_on_arc(&mut self, limits: &MotionLimits, form: CourseForm, turn: f64) -> Result<(), PathError> {
+        let Some(arc) = self.arc.clone() else { return Ok(()) };
+        let limits = MotionLimits { speed: limits.speed.min(arc.largest_speed(limits)), ..*limits };
+        self.course = Course::within(&limits, form, arc.length(), turn)?;
+
+        // While the speed changes, accelerations and jerks along and across the arc add up.
+        let times: Vec<f64> = self.course.corners().into_iter().map(|(time, _)| time).collect();
+        let motion = |time: f64, side: Side| {
+            let [way, rate, second, third] = arc.way(self.course.at(time, side));
+            let mut point = PathPoint::at_rest(&self.straight.pose(0.0));
+            point.pose.position_w += way;
+            add(&mut point.velocity_w, &rate, &Vec3::zeros());
+            add(&mut point.acceleration_w, &second, &Vec3::zeros());
+            add(&mut point.jerk_w, &third, &Vec3::zeros());
+            point
+        };
+        let excess = largest(&times, |time, side| limits.used_by(&motion(time, side))).time_factor();
+        if excess > 1.0 {
+            self.course = self.course.slowed(excess);
+        }
+        Ok(())
+    }
+}
+
+/// Pose after a move from a pose.
+fn done_by(from: &Pose, of: &TimedMove) -> Pose {
+    let [way, ..] = of.way([1.0, 0.0, 0.0, 0.0]);
+    Pose { position_w: from.position_w + way, rot_wp: Rotation::from_scaled_axis(of.straight.turn_w) * from.rot_wp }
 }
 
 impl Moves {
-    /// Moves through poses. Where two overlap, the accelerations of both add up: the limits of such moves are lowered
-    /// until the sum keeps those of the request. If that takes longer than to stop at every pose, they stop.
-    pub(super) fn through(
-        poses: &[Pose],
+    /// Moves from a pose on, each within the limits of all and its own speed. Where two overlap, the accelerations of
+    /// both add up: the limits of such moves are lowered until the sum keeps those of the request. If that takes longer
+    /// than to stop at every pose, they stop.
+    pub(super) fn along(
+        start: &Pose,
+        legs: &[Leg],
         limits: &MotionLimits,
         form: CourseForm,
         blend: f64,
     ) -> Result<Self, PathError> {
-        let mut lowered = vec![*limits; poses.len().saturating_sub(1)];
-        let stopping = Self::with_limits(poses, &lowered, form, 0.0)?;
-        let mut found = Self::with_limits(poses, &lowered, form, blend)?;
+        let own = |leg: &Leg| MotionLimits { speed: limits.speed.min(leg.speed), ..*limits };
+        let own: Vec<MotionLimits> = legs.iter().map(own).collect();
+        let mut lowered = own.clone();
+        let stopping = Self::with_limits(start, legs, &lowered, form, 0.0)?;
+        let mut found = Self::with_limits(start, legs, &lowered, form, blend)?;
         for _ in 0..ROUNDS {
-            let excess = found.excess_of_moves(limits);
+            let excess = found.excess_of_moves(&own);
             if excess.iter().all(UsedParts::are_kept) {
                 break;
             }
             for (own, of) in lowered.iter_mut().zip(&excess) {
                 *own = own.lowered(of);
             }
-            found = Self::with_limits(poses, &lowered, form, blend)?;
+            found = Self::with_limits(start, legs, &lowered, form, blend)?;
         }
-        let left = found.excess_of_moves(limits).iter().map(UsedParts::time_factor).fold(1.0, f64::max);
+        let left = found.excess_of_moves(&own).iter().map(UsedParts::time_factor).fold(1.0, f64::max);
         let found = found.slowed(left);
         Ok(if found.duration() < stopping.duration() { found } else { stopping })
     }
 
-    /// Moves through poses, each within its own limits.
-    fn with_limits(poses: &[Pose], limits: &[MotionLimits], form: CourseForm, blend: f64) -> Result<Self, PathError> {
-        let mut moves: Vec<TimedMove> = Vec::new();
-        for (k, (ends, limits)) in poses.windows(2).zip(limits).enumerate() {
-            let straight = StraightMove::between(&ends[0], &ends[1]);
-            let (way, turn) = (straight.translation_w.norm(), straight.turn_w.norm());
+    /// Moves from a pose on, each within its own limits.
+    fn with_limits(
+        start: &Pose,
+        legs: &[Leg],
+        limits: &[MotionLimits],
+        form: CourseForm,
+        blend: f64,
+    ) -> Result<Self, PathError> {
+        let mut moves: Vec<TimedMove> = Vec::with_capacity(legs.len());
+        let (mut poses, mut from) = (vec![*start], *start);
+        for (k, (leg, limits)) in legs.iter().zip(limits).enumerate() {
+            let straight = StraightMove::between(&from, &leg.to);
+            let arc = match leg.way {
+                LegWay::Straight => None,
+                LegWay::Arc { center_w, axis_w, angle } => {
+                    let ends = [&from.position_w, &leg.to.position_w];
+                    Some(Arc::new(ends, &center_w, &axis_w, angle).ok_or(PathError::NoRadius)?)
+                }
+            };
+            let way = arc.as_ref().map_or(straight.translation_w.norm(), Arc::length);
+            let turn = straight.turn_w.norm();
             if way == 0.0 && turn == 0.0 {
                 return Err(PathError::NoMove { first: k + 1 });
             }
-            let course = Course::within(limits, form, way, turn)?;
+            let mut own = TimedMove { begins: 0.0, straight, arc, course: Course::within(limits, form, way, turn)? };
+            own.keep_limits_on_arc(limits, form, turn)?;
 
             // Two moves overlap while the one slows down and the other speeds up.
-            let begins = moves.last().map_or(0.0, |last| {
-                let both = last.course.slowing().min(course.slowing());
+            own.begins = moves.last().map_or(0.0, |last| {
+                let both = last.course.slowing().min(own.course.slowing());
                 last.ends() - blend * both
             });
-            moves.push(TimedMove { begins, straight, course });
+            poses.push(done_by(&poses[k], &own));
+            moves.push(own);
+            from = leg.to;
         }
-        Ok(Self { start: poses[0], moves })
+        Ok(Self { poses, moves })
     }
 
-    /// Used parts of the limits while each move overlaps with its neighbours.
-    fn excess_of_moves(&self, limits: &MotionLimits) -> Vec<UsedParts> {
+    /// Used parts of the limits while each move overlaps with its neighbours. Where two speeds meet, the higher one is
+    /// allowed.
+    fn excess_of_moves(&self, own: &[MotionLimits]) -> Vec<UsedParts> {
         let mut found = vec![UsedParts::default(); self.moves.len()];
+        let times: Vec<f64> = self.corners().into_iter().map(|corner| corner.time).collect();
         for (k, pair) in self.moves.windows(2).enumerate() {
             let (from, to) = (pair[1].begins, pair[0].ends());
             if to <= from {
                 continue;
             }
-            let inside = self.corners().into_iter().map(|corner| corner.time).filter(|time| *time > from && *time < to);
+            let limits = MotionLimits { speed: own[k].speed.max(own[k + 1].speed), ..own[k] };
+            let first = times.partition_point(|time| *time <= from);
+            let inside = times[first..].iter().copied().take_while(|time| *time < to);
             let corners: Vec<f64> = std::iter::once(from).chain(inside).chain([to]).collect();
             let used = largest(&corners, |time, side| limits.used_by(&self.at(time, side)));
             for of in &mut found[k..k + 2] {
@@ -127,23 +219,28 @@ impl Moves {
     /// Sum of the translations, and the turns one after the other: a later turn acts on what the earlier ones have
     /// done.
     pub(super) fn at(&self, time: f64, side: Side) -> PathPoint {
-        let mut point = PathPoint::at_rest(&self.start);
-        for of in &self.moves {
-            let [done, rate, second, third] = of.course.at(time - of.begins, side);
-            let (way, turn) = (of.straight.translation_w, of.straight.turn_w);
+        // Moves follow each other: those that have ended are in the pose, and of the others few have begun.
+        let same = |of: &TimedMove| SAME_CORNER * of.course.duration();
+        let first = self.moves.partition_point(|of| of.ends() + same(of) < time);
+        let mut point = PathPoint::at_rest(&self.poses[first]);
+        for of in self.moves[first..].iter().take_while(|of| of.begins - same(of) <= time) {
+            let course = of.course.at(time - of.begins, side);
+            let [done, rate, second, third] = course;
+            let turn = of.straight.turn_w;
             let rotation = Rotation::from_scaled_axis(turn * done);
 
-            point.pose.position_w += way * done;
+            let [way, way_rate, way_second, way_third] = of.way(course);
+            point.pose.position_w += way;
             point.pose.rot_wp = rotation * point.pose.rot_wp;
 
             let turned = |of: &Vec6| rotation * parts(of)[1];
             let [w, a, j] = [turned(&point.velocity_w), turned(&point.acceleration_w), turned(&point.jerk_w)];
             let (own_w, own_a, own_j) = (turn * rate, turn * second, turn * third);
             let swept = own_w.cross(&w);
-            add(&mut point.velocity_w, &(way * rate), &(own_w + w));
-            add(&mut point.acceleration_w, &(way * second), &(own_a + a + swept));
+            add(&mut point.velocity_w, &way_rate, &(own_w + w));
+            add(&mut point.acceleration_w, &way_second, &(own_a + a + swept));
             let jerk = own_j + j + own_a.cross(&w) + own_w.cross(&(2.0 * a + swept));
-            add(&mut point.jerk_w, &(way * third), &jerk);
+            add(&mut point.jerk_w, &way_third, &jerk);
         }
         point
     }

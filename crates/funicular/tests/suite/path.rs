@@ -2,7 +2,8 @@
 
 use funicular::math::{Rotation, Vec3, Vec6};
 use funicular::path::{
-    CourseForm, MotionLimits, PathCorner, PathError, PathPoint, PlatformPath, Profile, Side, smoothed_within,
+    CourseForm, Leg, LegWay, MotionLimits, PathCorner, PathError, PathPoint, PlatformPath, Profile, Side,
+    smoothed_within,
 };
 use funicular::robot::{Pose, Robot};
 
@@ -418,4 +419,65 @@ fn faults_of_paths_are_named() {
     let no_radius =
         PlatformPath::circle(&Pose::new([0.0, 0.0, 2.0], [0.0; 3]), on_axis, 1.0, &limits(), CourseForm::Quintic);
     assert_eq!(no_radius, Err(PathError::NoRadius));
+}
+
+/// Job of a straight move, a quarter circle, a helix of one and a half turns, and a slow move back.
+fn job() -> (Pose, Vec<Leg>) {
+    let at = |x: f64, y: f64, z: f64| Pose::new([x, y, z], [0.0, 0.0, 20.0]);
+    let arc = |center: [f64; 3], angle: f64| LegWay::Arc { center_w: center.into(), axis_w: Vec3::z() * 2.0, angle };
+    let leg = |to: Pose, way: LegWay, speed: f64| Leg { to, way, speed };
+    let legs = vec![
+        leg(at(1.0, 0.0, 1.0), LegWay::Straight, f64::INFINITY),
+        leg(at(1.5, 0.5, 1.0), arc([1.0, 0.5, 1.0], std::f64::consts::FRAC_PI_2), 0.4),
+        leg(at(0.9, 0.5, 1.3), arc([1.2, 0.5, 1.0], -3.0 * std::f64::consts::PI), 0.3),
+        leg(at(0.0, 0.0, 1.0), LegWay::Straight, 0.2),
+    ];
+    (at(0.0, 0.0, 1.0), legs)
+}
+
+#[test]
+fn a_job_follows_its_lines_and_arcs_at_their_feed_rates_within_all_limits() {
+    let (start, legs) = job();
+    for form in CourseForm::ALL {
+        for blend in [0.0, 1.0] {
+            let path = PlatformPath::along(&start, &legs, &limits(), form, blend).unwrap();
+            check_derivatives(&path, times_of(&path));
+            let parts = largest_parts(&path, &limits());
+            assert!(parts.iter().all(|part| *part <= 1.0 + 1e-6), "{form:?} {blend} {parts:?}");
+            let end = path.at(path.duration()).pose;
+            assert!((end.position_w - start.position_w).norm() < 1e-12, "{form:?} {blend}");
+        }
+
+        // Stopping at every end: each point is on the way of its move, and no move is faster than its feed rate.
+        let path = PlatformPath::along(&start, &legs, &limits(), form, 0.0).unwrap();
+        let mut fastest = [0.0_f64; 4];
+        for k in 0..=4000 {
+            let point = path.at(path.duration() * f64::from(k) / 4000.0);
+            let position = point.pose.position_w;
+            let [from_first, from_second] = [Vec3::new(1.0, 0.5, 1.0), Vec3::new(1.2, 0.5, 1.0)].map(|center| {
+                let out = position - center;
+                (out.x.hypot(out.y) - if center.x == 1.0 { 0.5 } else { 0.3 }).abs()
+            });
+            let rise = position.z - 1.0;
+            let off = [
+                position.y.abs() + rise.abs(),
+                from_first + rise.abs(),
+                from_second,
+                // The line from (0.9, 0.5, 1.3) to the start.
+                Vec3::new(0.9, 0.5, 0.3).normalize().cross(&(position - Vec3::z())).norm(),
+            ];
+            let (of, least) = off.iter().enumerate().min_by(|a, b| a.1.total_cmp(b.1)).unwrap();
+            assert!(*least < 1e-12, "{form:?} {k} {off:?}");
+            let apart = off.iter().filter(|off| **off < 1e-6).count() == 1;
+            if apart {
+                fastest[of] = fastest[of].max(point.velocity_w.norm());
+            }
+        }
+        for (fastest, feed) in fastest.iter().zip([1.0, 0.4, 0.3, 0.2]) {
+            assert!(*fastest <= feed * (1.0 + 1e-9) && *fastest > 0.5 * feed, "{form:?} {fastest} {feed}");
+        }
+    }
+    let no_radius = [Leg { way: LegWay::Arc { center_w: Vec3::z(), axis_w: Vec3::z(), angle: 1.0 }, ..legs[0] }];
+    let fault = PlatformPath::along(&start, &no_radius, &limits(), CourseForm::JerkLimited, 0.0);
+    assert_eq!(fault, Err(PathError::NoRadius));
 }

@@ -29,13 +29,9 @@ pub fn check(columns: &GappedColumns, robot: &Robot) -> Result<(), TableFault> {
     rows(columns, robot, [false; 2]).map(drop)
 }
 
-/// Names of the columns of a cable's lengths, with the metres of their unit.
-fn length_names(cable: &str) -> [(String, f64); 3] {
-    [
-        (format!("length_{cable}_m"), 1.0),
-        (format!("length_{cable}_mm"), 1e-3),
-        (format!("unstrained_length_{cable}_m"), 1.0),
-    ]
+/// Names of the columns of a cable's lengths; a table in another unit has been converted.
+fn length_names(cable: &str) -> [String; 2] {
+    [format!("length_{cable}_m"), format!("unstrained_length_{cable}_m")]
 }
 
 fn tension_name(cable: &str) -> String {
@@ -61,7 +57,7 @@ pub(super) fn rows(
         }
         let value = |name: &str| columns.get(name).and_then(|values| values[row]);
         let of_pose = |first: usize| [0, 1, 2].map(|k| POSE[first + k]);
-        let reading = |of: &Option<(&[Option<f64>], f64)>| of.and_then(|(values, unit)| Some(values[row]? * unit));
+        let reading = |of: &LengthColumn| of.and_then(|values| values[row]);
         Ok(MeasuredRow {
             readings: lengths.iter().map(reading).collect(),
             position: of_pose(0).map(|name| value(name).filter(|_| measured[0])),
@@ -94,40 +90,40 @@ pub(super) fn kept(rows: Vec<MeasuredRow>, left_out: &[f64]) -> Result<(Vec<usiz
 /// Refuses a column that no cable and no pose has.
 fn check_columns(columns: &GappedColumns, robot: &Robot) -> Result<(), String> {
     let cables = || robot.cables.iter().map(|cable| cable.name.as_str());
-    let of_cables = cables().flat_map(|cable| length_names(cable).map(|(name, _)| name));
+    let of_cables = cables().flat_map(|cable| length_names(cable));
     let poses = POSE.iter().map(|name| (*name).to_owned());
     let known: Vec<String> = poses.chain(of_cables).chain(cables().map(tension_name)).collect();
     columns.keys().find(|name| !known.contains(name)).map_or(Ok(()), |unknown| {
         Err(format!(
-            "there is a column `{unknown}`{}: give length_NAME_m or length_NAME_mm of the cables {}, and x_m, y_m, \
-             z_m, roll_deg, pitch_deg, yaw_deg, tension_NAME_n; drop other columns",
+            "there is a column `{unknown}`{}: give length_NAME_m, _mm or _in of the cables {}, and x_m, y_m, z_m, \
+              roll_deg, pitch_deg, yaw_deg, tension_NAME_n; drop other columns",
             suggestion(unknown, &known),
             cables().collect::<Vec<_>>().join(", ")
         ))
     })
 }
 
-/// Column of the lengths of one cable, with the metres of its unit; `None` for a cable without.
-type LengthColumn<'a> = Option<(&'a [Option<f64>], f64)>;
+/// Column of the lengths of one cable; `None` for a cable without.
+type LengthColumn<'a> = Option<&'a [Option<f64>]>;
 
 /// Column of the lengths of each cable.
 fn length_columns<'a>(columns: &'a GappedColumns, robot: &Robot) -> Result<Vec<LengthColumn<'a>>, String> {
     let of_cable = |cable: &funicular::robot::Cable| {
         let names = length_names(&cable.name).into_iter();
-        let mut given = names.filter_map(|(name, unit)| Some((columns.get(&name)?, unit, name)));
+        let mut given = names.filter_map(|name| Some((columns.get(&name)?, name)));
         let first = given.next();
-        if let (Some((_, _, one)), Some((_, _, other))) = (&first, given.next()) {
+        if let (Some((_, one)), Some((_, other))) = (&first, given.next()) {
             return Err(format!("there are columns `{one}` and `{other}`: keep one of them"));
         }
-        Ok(first.map(|(values, unit, _)| (values.as_slice(), unit)))
+        Ok(first.map(|(values, _)| values.as_slice()))
     };
     robot.cables.iter().map(of_cable).collect()
 }
 
 /// Number of rows.
 fn count(columns: &GappedColumns, lengths: &[LengthColumn]) -> Result<usize, String> {
-    let Some(count) = lengths.iter().flatten().map(|(values, _)| values.len()).next() else {
-        return Err("there is no column length_NAME_m or length_NAME_mm of a cable: give one per cable".to_owned());
+    let Some(count) = lengths.iter().flatten().map(|values| values.len()).next() else {
+        return Err("there is no column length_NAME_m, _mm or _in of a cable: give one per cable".to_owned());
     };
     if let Some((name, values)) = columns.iter().find(|(_, values)| values.len() != count) {
         let own = values.len();

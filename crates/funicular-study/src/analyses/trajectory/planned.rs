@@ -2,6 +2,7 @@
 
 use super::super::timed_rows::{Holds, TimedRows};
 use super::KEY;
+use super::job::{self, Job, JobPlace};
 use super::rounded::{self, RoundedRows};
 use crate::at_rest::check_pose;
 use crate::request::{self, MotionOptions, NumberColumns, State, TrajectoryRequest};
@@ -25,6 +26,9 @@ const MAX_EXCESS: f64 = 1e-6;
 /// The first fault: a column that is missing or unknown, fewer than two rows, times that do not rise, a pose that the
 /// platform cannot have, a jump, or a turn whose way is not known.
 pub fn check(columns: &NumberColumns, robot: &Robot) -> Result<(), TableFault> {
+    if job::is_job(columns) {
+        return Job::read(columns, robot, &JobPlace::default()).map(drop);
+    }
     of_table(columns, robot, None).map(drop)
 }
 
@@ -75,6 +79,13 @@ fn of_table(
 pub(super) fn state(robot: &Robot, request: &TrajectoryRequest) -> Result<State> {
     let mut state = request.state.clone();
     let Some(columns) = &request.path else { return Ok(state) };
+    if job::is_job(columns) {
+        let place = JobPlace::of(request)?;
+        if state.pose.is_none() {
+            state.pose = Some(request::Pose::Angles(Job::read(columns, robot, &place)?.first_row));
+        }
+        return Ok(state);
+    }
     if state.pose.is_some() || state.lengths_m.is_some() || state.hold_lengths_of_pose {
         bail!("⟪path⟫ has the poses of the platform: leave out ⟪pose⟫, ⟪lengths_m⟫ and ⟪hold_lengths_of_pose⟫");
     }
@@ -108,7 +119,10 @@ pub(super) fn path(robot: &Robot, start: &Pose, request: &TrajectoryRequest) -> 
         given
     };
     let mut rounded = None;
-    let (path, times) = if let Some(columns) = &request.path {
+    let (path, times) = if let Some(columns) = request.path.as_ref().filter(|columns| job::is_job(columns)) {
+        let job = Job::read(columns, robot, &JobPlace::of(request)?)?;
+        (named(PlatformPath::along(&job.start, &job.legs, &limits, form, request.blend))?, None)
+    } else if let Some(columns) = &request.path {
         let (rows, path) = of_table(columns, robot, request.row_tolerance_m)?;
         rounded = RoundedRows::of(&rows, columns, robot.platform_length());
         (path, Some(rows.times))
@@ -201,7 +215,14 @@ fn refuse_mixtures(request: &TrajectoryRequest) -> Result<()> {
     }
     let motion = &request.motion;
     let limited = limits(motion) != MotionLimits::default();
-    if request.path.is_some() && limited {
+    let is_job = request.path.as_ref().is_some_and(job::is_job);
+    if is_job && request.row_tolerance_m.is_some() {
+        bail!("⟪row_tolerance_m⟫ smooths rows over time, and the moves of a job are exact: leave it out");
+    }
+    if request.path_origin_m.is_some() && !is_job {
+        bail!("⟪path_origin_m⟫ is the place of the zero of a job: give it with a job as ⟪path⟫");
+    }
+    if request.path.is_some() && !is_job && limited {
         bail!("⟪path⟫ has its own times: leave out the limits of speed, acceleration and jerk, or give ⟪duration_s⟫");
     }
     Ok(())
