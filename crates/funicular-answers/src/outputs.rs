@@ -18,6 +18,7 @@ use funicular_pages::figures::{self, Figure, RequestFigure};
 use funicular_pages::pages;
 use funicular_pages::pages::plot::SweepFigureChoice;
 use funicular_study::analyses::workspace::Workspace;
+use funicular_study::at_rest;
 use funicular_study::columns::ResultTable;
 use funicular_study::request::Request;
 use funicular_study::text::counted;
@@ -273,6 +274,41 @@ static OUTPUTS: &[(&str, &[Output])] = &[
         }],
     ),
     (
+        "clearance",
+        &[figure(
+            "Draw the distances of the nearest pairs with the required ones",
+            |at, _, _| of!(Clearance, at, found => Ok(plain(figures::of_clearance(found)?))),
+        )],
+    ),
+    (
+        "payload",
+        &[figure(
+            "Draw the tensions with the minimum and the maximum payload",
+            |at, _, _| of!(Payload, at, found => Ok(plain(figures::of_payload(found)?))),
+        )],
+    ),
+    (
+        "loads",
+        &[figure(
+            "Draw the tensions with the largest multiple of the required loads",
+            |at, _, _| of!(Loads, at, found => Ok(plain(figures::of_loads(found)?))),
+        )],
+    ),
+    (
+        "speeds",
+        &[figure(
+            "Draw speeds, powers and used parts of the winches",
+            |at, _, _| of!(Speeds, at, found => Ok(plain(figures::of_speeds(found)))),
+        )],
+    ),
+    (
+        "winches",
+        &[figure("Draw the needs of the winches, with those on offer", |at, _, _| {
+            let offers = asked!(Winches, at, of => of.offers.as_deref().unwrap_or_default());
+            of!(Winches, at, found => Ok(plain(figures::of_winches(found, offers))))
+        })],
+    ),
+    (
         "modes",
         &[
             drawn(
@@ -346,6 +382,12 @@ static OUTPUTS: &[(&str, &[Output])] = &[
                  trajectory for `settle`",
                 |at, _| of!(Trajectory, at, found => Ok(as_csv(found.lengths_table())?.into())),
             ),
+            figure("Draw tensions, lengths, speeds and powers over time, with their limits", |at, _, _| {
+                let robot = asked!(Trajectory, at, of => {
+                    at_rest::with_limits(&of.robot.read()?.robot, &of.tensions)?
+                });
+                of!(Trajectory, at, found => Ok(plain(figures::of_trajectory(&robot, found))))
+            }),
             page("Write a page with the moving robot, and tensions, speeds and powers over time", |at| {
                 of!(Trajectory, at, found => {
                     let Some(robot) = at.request.robot() else { bail!("a trajectory belongs to a robot") };

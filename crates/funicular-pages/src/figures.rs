@@ -6,6 +6,7 @@
 //! of the printed page. A PDF has the letters of its font embedded. The same figure always gives the same bytes.
 
 pub(crate) mod axis;
+mod bars;
 pub(crate) mod bodies;
 pub(crate) mod calibration;
 pub(crate) mod chart;
@@ -17,6 +18,8 @@ mod gusts;
 pub(crate) mod hull;
 mod making;
 pub(crate) mod map;
+mod motions;
+mod pairs;
 mod pdf;
 mod sections;
 mod settling;
@@ -26,10 +29,11 @@ pub(crate) mod style;
 pub(crate) mod supports;
 mod svg;
 pub(crate) mod view;
+mod winches;
 
 pub use making::{
-    RequestFigure, of_calibration, of_compare, of_decay, of_frf, of_gust, of_modes, of_sections, of_simulation,
-    of_statics,
+    RequestFigure, of_calibration, of_clearance, of_compare, of_decay, of_frf, of_gust, of_loads, of_modes, of_payload,
+    of_sections, of_simulation, of_speeds, of_statics, of_trajectory, of_winches,
 };
 pub use space::animation_of_simulation;
 
