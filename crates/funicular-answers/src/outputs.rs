@@ -17,10 +17,11 @@ use funicular_formats::uff_writing::{frf_file, modes_file};
 use funicular_pages::figures::{self, Figure, RequestFigure};
 use funicular_pages::pages;
 use funicular_pages::pages::plot::SweepFigureChoice;
+use funicular_pages::pages::summary::Summary;
 use funicular_study::analyses::workspace::Workspace;
 use funicular_study::at_rest;
 use funicular_study::columns::ResultTable;
-use funicular_study::request::Request;
+use funicular_study::request::{OfferedWinch, Request};
 use funicular_study::text::counted;
 use funicular_study::wording::{Words, worded};
 use funicular_study::{Results, Watch};
@@ -64,6 +65,8 @@ enum Make {
     Figure(fn(&Answered<'_>, &FigureOptions, &mut dyn Watch) -> Result<Drawn>),
     /// Bytes by the kind of the file.
     Bytes(fn(&Answered<'_>, Option<Kind>) -> Result<Made>),
+    /// Bytes of a document that is computed from the request.
+    Document(fn(&Answered<'_>, &mut dyn Watch) -> Result<Made>),
 }
 
 /// Request with its results, from which files are made.
@@ -173,6 +176,11 @@ macro_rules! asked {
 #[expect(clippy::unnecessary_wraps, reason = "others refuse")]
 fn always(_: &Given, _: &Path) -> Result<()> {
     Ok(())
+}
+
+/// Winches on offer of a request.
+fn offered<'a>(at: &Answered<'a>) -> Result<&'a [OfferedWinch]> {
+    asked!(Winches, at, of => Ok(of.offers.as_deref().unwrap_or_default()))
 }
 
 type BytesOf = fn(&Answered<'_>, Option<Kind>) -> Result<Made>;
@@ -303,10 +311,39 @@ static OUTPUTS: &[(&str, &[Output])] = &[
     ),
     (
         "winches",
-        &[figure("Draw the needs of the winches, with those on offer", |at, _, _| {
-            let offers = asked!(Winches, at, of => of.offers.as_deref().unwrap_or_default());
-            of!(Winches, at, found => Ok(plain(figures::of_winches(found, offers))))
-        })],
+        &[
+            figure(
+                "Draw the needs of the winches, with those on offer",
+                |at, _, _| of!(Winches, at, found => Ok(plain(figures::of_winches(found, offered(at)?)))),
+            ),
+            page(
+                "Write a page with the needs of the winches, what asks for them, and the offers",
+                |at| of!(Winches, at, found => pages::winches::page(found, offered(at)?, at.call.to_owned())),
+            ),
+        ],
+    ),
+    (
+        "report",
+        &[Output {
+            by_ending: true,
+            of_request: true,
+            check: |given, _| match given.get("summary") {
+                Some(Value::Bool(true)) => Ok(()),
+                _ => bail!("a PDF of `report` has the two pages of a summary: give ⟪summary⟫, or write .html"),
+            },
+            ..file(
+                "pdf",
+                "Write the two pages of the summary as PDF",
+                ["the summary", "two pages"],
+                &[Kind::Pdf],
+                Make::Document(|at, watch| {
+                    asked!(Report, at, of => {
+                        let made = Summary::of_request(of, of.robot.read()?, at.call, at.words, watch)?;
+                        Ok(Made { warnings: made.warnings.clone(), ..made.pdf().into() })
+                    })
+                }),
+            )
+        }],
     ),
     (
         "modes",

@@ -117,9 +117,13 @@ fn entry(text: impl Into<String>, sample: Sample) -> Entry {
 /// # Errors
 /// The errors of `statics`.
 pub fn of_statics(of: &request::StaticsRequest) -> Result<Figure> {
-    let at_rest = at_rest::equilibrium(of.robot.read()?.robot, &of.robot, &of.state, &of.tensions)?;
+    Ok(of_rest(&at_rest::equilibrium(of.robot.read()?.robot, &of.robot, &of.state, &of.tensions)?))
+}
+
+/// Makes the figure of a robot at a known equilibrium.
+pub fn of_rest(at_rest: &AtRest) -> Figure {
     let space = Space::new(&at_rest.robot, &at_rest.equilibrium, None, Vec::new());
-    Ok(Figure(FigureContent::Space(Box::new(space))))
+    Figure(FigureContent::Space(Box::new(space)))
 }
 
 /// Makes the figure of the spectra of a response to gusts.
