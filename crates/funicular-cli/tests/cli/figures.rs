@@ -209,7 +209,7 @@ fn results_are_drawn_without_a_second_run() {
     for (line, part) in [
         ("winches WINCHES --pose 1,1,1.5 --required-velocity-m-s 1,1,0.5", "winch of cable"),
         ("speeds WINCHES --pose 1,1,1.5 --required-velocity-m-s 1,1,0.5", "motor drives"),
-        ("loads WINCHES --pose 1,1,1.5 --required-force-n 150,150,150", "maximum tension"),
+        ("loads WINCHES --pose 1,1,1.5 --required-force-n 150,150,150", "× required load: held"),
         ("payload WINCHES --pose 1,1,1.5", "maximum payload"),
         ("clearance WINCHES --pose 1,1,1.5", "required distance"),
         ("trajectory WINCHES --pose 1,1,1.5 --move-to 2,1,1.5 --speed-m-s 1 --acceleration-m-s2 1", "rope speed [m/s]"),

@@ -157,11 +157,8 @@ pub(super) fn of_loads(found: &Loads) -> Result<Chart> {
     let (Some(factor), false) = (held.load_factor, held.cables.is_empty()) else {
         bail!("no maximum tension limits the required loads, so that there is nothing to draw: give ⟪max_tension_n⟫");
     };
-    let numbers = |of: [f64; 3]| of.map(|value| significant(value, 3)).join(", ");
     let verdict = if held.held { "held" } else { "not held" };
-    let moment =
-        if held.moment_n_m == [0.0; 3] { String::new() } else { format!(", ({}) N m", numbers(held.moment_n_m)) };
-    let text = format!("{} times ({}) N{moment}: {verdict}", significant(factor, 3), numbers(held.force_n));
+    let text = format!("{} × required load: {verdict}", significant(factor, 3));
     let bars = vec![largest(text, BLUE, &held.cables)];
     let panel = BarPanel { title: "tension [N]".to_owned(), bars, marks: limits(&held.cables) };
     Ok(chart(format!("{}: required loads", found.robot), "cable", &names(&held.cables), &[panel], 0.5))

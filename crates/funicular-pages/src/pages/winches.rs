@@ -61,32 +61,26 @@ pub fn page(found: &Winches, offered: &[OfferedWinch], command_line: String) -> 
 /// Pose, load and velocity that ask for each number.
 fn asked(rows: &[AskedRow]) -> PageTable {
     let caption = "Pose, required load in addition to the dead load, and velocity that ask for each number.";
-    let columns = [
-        "<largest",
-        "value",
-        "<cable",
-        "at|m",
-        "roll, pitch, yaw|°",
-        "force|N",
-        "moment|N m",
-        "velocity|m/s",
-        "angular velocity|rad/s",
-    ];
+    let turns = rows.iter().any(|row| row.pose.roll_pitch_yaw_deg != [0.0; 3]);
+    let turning = rows.iter().filter_map(|row| row.angular_velocity_rad_s).any(|velocity| velocity != [0.0; 3]);
+    let mut columns = vec!["<largest", "value", "<cable", "at|m"];
+    columns.extend(turns.then_some("roll, pitch, yaw|°"));
+    columns.extend(["force|N", "moment|N m", "velocity|m/s"]);
+    columns.extend(turning.then_some("angular velocity|rad/s"));
     let mut table = PageTable::new("table-asked", caption, &columns);
     let three = |of: &[f64; 3], decimals: usize| of.map(|value| fixed(value, decimals)).join(", ");
     for row in rows {
         let moving = |of: &Option<[f64; 3]>| of.as_ref().map_or_else(|| NONE.to_owned(), |of| three(of, 2));
-        table.row(vec![
+        let mut cells = vec![
             row.quantity.to_owned(),
             with_unit(&significant(row.value, 4), row.unit),
             row.cable.clone(),
             three(&row.pose.position_m, 2),
-            three(&row.pose.roll_pitch_yaw_deg, 1),
-            three(&row.force_n, 1),
-            three(&row.moment_n_m, 1),
-            moving(&row.velocity_m_s),
-            moving(&row.angular_velocity_rad_s),
-        ]);
+        ];
+        cells.extend(turns.then(|| three(&row.pose.roll_pitch_yaw_deg, 1)));
+        cells.extend([three(&row.force_n, 1), three(&row.moment_n_m, 1), moving(&row.velocity_m_s)]);
+        cells.extend(turning.then(|| moving(&row.angular_velocity_rad_s)));
+        table.row(cells);
     }
     table
 }
