@@ -7,6 +7,7 @@ use funicular_files::endings::Kind;
 use funicular_formats::export::{self, ExportFormat};
 use funicular_formats::{import, new_robot};
 use funicular_pages::pages;
+use funicular_pages::pages::summary::Summary;
 use funicular_study::names::SchemaSubject;
 use funicular_study::request::{ExportRequest, Request, SchemaRequest};
 use funicular_study::schema::MoreCommands;
@@ -156,6 +157,10 @@ pub fn make(request: &Request, call: &str, words: Words, watch: &mut dyn Watch) 
         Request::Export(of) => {
             let made = export::of_request(of.robot.read()?.robot, of)?;
             text(made.text, made.warnings)
+        }
+        Request::Report(of) if of.summary => {
+            let made = Summary::of_request(of, of.robot.read()?, call, words, watch)?;
+            page(made.html()?, made.warnings)
         }
         Request::Report(of) => {
             let made = pages::report::of_request(of, of.robot.read()?, call.to_owned())?;

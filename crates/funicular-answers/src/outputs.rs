@@ -17,9 +17,11 @@ use funicular_formats::uff_writing::{frf_file, modes_file};
 use funicular_pages::figures::{self, Figure, RequestFigure};
 use funicular_pages::pages;
 use funicular_pages::pages::plot::SweepFigureChoice;
+use funicular_pages::pages::summary::Summary;
 use funicular_study::analyses::workspace::Workspace;
+use funicular_study::at_rest;
 use funicular_study::columns::ResultTable;
-use funicular_study::request::Request;
+use funicular_study::request::{OfferedWinch, Request};
 use funicular_study::text::counted;
 use funicular_study::wording::{Words, worded};
 use funicular_study::{Results, Watch};
@@ -63,6 +65,8 @@ enum Make {
     Figure(fn(&Answered<'_>, &FigureOptions, &mut dyn Watch) -> Result<Drawn>),
     /// Bytes by the kind of the file.
     Bytes(fn(&Answered<'_>, Option<Kind>) -> Result<Made>),
+    /// Bytes of a document that is computed from the request.
+    Document(fn(&Answered<'_>, &mut dyn Watch) -> Result<Made>),
 }
 
 /// Request with its results, from which files are made.
@@ -174,6 +178,11 @@ fn always(_: &Given, _: &Path) -> Result<()> {
     Ok(())
 }
 
+/// Winches on offer of a request.
+fn offered<'a>(at: &Answered<'a>) -> Result<&'a [OfferedWinch]> {
+    asked!(Winches, at, of => Ok(of.offers.as_deref().unwrap_or_default()))
+}
+
 type BytesOf = fn(&Answered<'_>, Option<Kind>) -> Result<Made>;
 
 /// File that `-o` does not name by its ending. `words` are its name and its content in messages.
@@ -273,6 +282,70 @@ static OUTPUTS: &[(&str, &[Output])] = &[
         }],
     ),
     (
+        "clearance",
+        &[figure(
+            "Draw the distances of the nearest pairs with the required ones",
+            |at, _, _| of!(Clearance, at, found => Ok(plain(figures::of_clearance(found)?))),
+        )],
+    ),
+    (
+        "payload",
+        &[figure(
+            "Draw the tensions with the minimum and the maximum payload",
+            |at, _, _| of!(Payload, at, found => Ok(plain(figures::of_payload(found)?))),
+        )],
+    ),
+    (
+        "loads",
+        &[figure(
+            "Draw the tensions with the largest multiple of the required loads",
+            |at, _, _| of!(Loads, at, found => Ok(plain(figures::of_loads(found)?))),
+        )],
+    ),
+    (
+        "speeds",
+        &[figure(
+            "Draw speeds, powers and used parts of the winches",
+            |at, _, _| of!(Speeds, at, found => Ok(plain(figures::of_speeds(found)))),
+        )],
+    ),
+    (
+        "winches",
+        &[
+            figure(
+                "Draw the needs of the winches, with those on offer",
+                |at, _, _| of!(Winches, at, found => Ok(plain(figures::of_winches(found, offered(at)?)))),
+            ),
+            page(
+                "Write a page with the needs of the winches, what asks for them, and the offers",
+                |at| of!(Winches, at, found => pages::winches::page(found, offered(at)?, at.call.to_owned())),
+            ),
+        ],
+    ),
+    (
+        "report",
+        &[Output {
+            by_ending: true,
+            of_request: true,
+            check: |given, _| match given.get("summary") {
+                Some(Value::Bool(true)) => Ok(()),
+                _ => bail!("a PDF of `report` has the two pages of a summary: give ⟪summary⟫, or write .html"),
+            },
+            ..file(
+                "pdf",
+                "Write the two pages of the summary as PDF",
+                ["the summary", "two pages"],
+                &[Kind::Pdf],
+                Make::Document(|at, watch| {
+                    asked!(Report, at, of => {
+                        let made = Summary::of_request(of, of.robot.read()?, at.call, at.words, watch)?;
+                        Ok(Made { warnings: made.warnings.clone(), ..made.pdf().into() })
+                    })
+                }),
+            )
+        }],
+    ),
+    (
         "modes",
         &[
             drawn(
@@ -346,6 +419,12 @@ static OUTPUTS: &[(&str, &[Output])] = &[
                  trajectory for `settle`",
                 |at, _| of!(Trajectory, at, found => Ok(as_csv(found.lengths_table())?.into())),
             ),
+            figure("Draw tensions, lengths, speeds and powers over time, with their limits", |at, _, _| {
+                let robot = asked!(Trajectory, at, of => {
+                    at_rest::with_limits(&of.robot.read()?.robot, &of.tensions)?
+                });
+                of!(Trajectory, at, found => Ok(plain(figures::of_trajectory(&robot, found))))
+            }),
             page("Write a page with the moving robot, and tensions, speeds and powers over time", |at| {
                 of!(Trajectory, at, found => {
                     let Some(robot) = at.request.robot() else { bail!("a trajectory belongs to a robot") };

@@ -6,6 +6,7 @@
 //! of the printed page. A PDF has the letters of its font embedded. The same figure always gives the same bytes.
 
 pub(crate) mod axis;
+mod bars;
 pub(crate) mod bodies;
 pub(crate) mod calibration;
 pub(crate) mod chart;
@@ -17,19 +18,22 @@ mod gusts;
 pub(crate) mod hull;
 mod making;
 pub(crate) mod map;
-mod pdf;
+mod motions;
+mod pairs;
+pub(crate) mod pdf;
 mod sections;
 mod settling;
 pub(crate) mod simulated;
 pub(crate) mod space;
 pub(crate) mod style;
 pub(crate) mod supports;
-mod svg;
+pub(crate) mod svg;
 pub(crate) mod view;
+mod winches;
 
 pub use making::{
-    RequestFigure, of_calibration, of_compare, of_decay, of_frf, of_gust, of_modes, of_sections, of_simulation,
-    of_statics,
+    RequestFigure, of_calibration, of_clearance, of_compare, of_decay, of_frf, of_gust, of_loads, of_modes, of_payload,
+    of_rest, of_sections, of_simulation, of_speeds, of_statics, of_trajectory, of_winches,
 };
 pub use space::animation_of_simulation;
 
@@ -89,6 +93,13 @@ impl Size {
     }
 }
 
+impl Size {
+    /// Size of a figure on a page of texts, with a width [mm] that the page knows to be possible.
+    pub(crate) fn of_page(width_mm: f64) -> Self {
+        Self { width_mm, font_size_pt: DEFAULT_FONT_SIZE_PT.min(MAX_FONT_TO_WIDTH * width_mm * POINTS) }
+    }
+}
+
 fn within(key: &str, value: f64, (low, high): (f64, f64), unit: &str) -> Result<f64> {
     let value = positive(value).map_err(|reason| anyhow!("⟪{key}⟫: {reason}"))?;
     if !(low..=high).contains(&value) {
@@ -123,7 +134,7 @@ impl Figure {
         pdf::pdf(&self.draw(size))
     }
 
-    fn draw(&self, size: Size) -> Drawing {
+    pub(crate) fn draw(&self, size: Size) -> Drawing {
         let (width, style) = (size.width_mm * POINTS, Type::new(size.font_size_pt));
         match &self.0 {
             FigureContent::Chart(chart) => chart.draw(width, &style),

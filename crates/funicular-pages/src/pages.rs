@@ -14,9 +14,11 @@ pub mod plot;
 pub mod report;
 pub mod settle;
 pub mod simulate;
+pub mod summary;
 pub(crate) mod table;
 pub mod trajectory;
 pub mod uncertainty;
+pub mod winches;
 pub mod workspace;
 
 use base64::Engine as _;

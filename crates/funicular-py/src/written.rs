@@ -16,6 +16,8 @@ use funicular_formats::export;
 use funicular_formats::fmu::{self, UnitModel};
 use funicular_formats::uff_writing::{frf_file, modes_file};
 use funicular_pages::pages::report;
+use funicular_pages::pages::summary::Summary;
+use funicular_study::Silent;
 use funicular_study::analyses;
 use funicular_study::analyses::frf;
 use funicular_study::analyses::reduce::{Reduced, ReducedForm};
@@ -195,6 +197,16 @@ pub(crate) fn report(py: Python<'_>, of: &PyEquilibrium, request: ReportRequest)
     let call = py.import("funicular._pages")?.getattr("report_call")?;
     let call: String = call.call1((joined(&of.state, &of.tensions)?, keys_of(&request)?))?.extract()?;
 
+    if request.summary {
+        let robot = of.of.get().source.clone();
+        let request = ReportRequest { robot, state: of.state.clone(), tensions: of.tensions.clone(), ..request };
+        let made = interruptible(py, move || {
+            let made = Summary::of_request(&request, request.robot.read()?, &call, Words::Python, &mut Silent)?;
+            Ok((made.html()?, made.warnings))
+        })?;
+        let (html, warnings) = made.map_err(|error: anyhow::Error| errors::study(&error))?;
+        return Ok((html, in_words(&warnings)));
+    }
     let (at_rest, text) = (Arc::clone(&of.at_rest), of.of.get().text.clone());
     let page = interruptible(py, move || report::about(&at_rest, &request, &request.robot.name, &text, call))?;
     let page = page.map_err(|error| errors::study(&error))?;

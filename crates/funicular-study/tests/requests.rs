@@ -46,6 +46,7 @@ fn requests() -> Vec<Value> {
     });
     let velocities = json!({
         "required_velocity_m_s": [1.0, 1.0, 0.5], "required_angular_velocity_rad_s": [0.1, 0.1, 0.2],
+        "required_velocity_shape": "ellipsoid",
     });
     let motion = json!({
         "path": { "t_s": [0.0, 1.0], "x_m": [0.0, 1.0], "y_m": [0.0, 0.5], "z_m": [1.5, 1.5] },

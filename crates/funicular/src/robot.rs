@@ -31,7 +31,7 @@ pub use motion::{OutOfPlane, Plane, PlatformMotion};
 pub(crate) use pulley::Wheel;
 pub use pulley::{Pulley, PulleyContact};
 pub(crate) use required::stacked;
-pub use required::{LoadShape, RequiredLoads, RequiredLoadsError, RequiredPayload};
+pub use required::{LoadShape, RequiredLoads, RequiredLoadsError, RequiredPayload, TwistSet};
 pub use support::{DrumPlace, Support};
 pub use turbulence::{MeasuredSpectrum, MeasuredSpectrumError, Turbulence, TurbulenceSpectrum};
 pub use winch::{Control, DrumSide, GuideWheel, LimitOfWinch, MotorLoad, Servo, Winch, WinchLimits, WinchMode};

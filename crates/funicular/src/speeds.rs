@@ -5,7 +5,7 @@
 
 use crate::gradient::{GradientError, LengthRates};
 use crate::math::{Vec6, roots};
-use crate::robot::{LimitOfWinch, PlatformMotion, Robot, Winch};
+use crate::robot::{LimitOfWinch, LoadShape, PlatformMotion, Robot, TwistSet, Winch};
 use crate::statics::{Equilibrium, StaticModel, TensionRule};
 
 /// Speed of a cable up to which limits are searched [m/s]; a winch that reaches it has no limit of speed.
@@ -14,12 +14,22 @@ const SEARCHED: f64 = 1e9;
 /// Speed of a cable that has begun to move [m/s], far below any other: the friction of the gear then has a direction.
 const BARELY: f64 = 1e-100;
 
+/// Maximum number of steps of an ascent; a convex sum of eight winches took at most five.
+const MAX_ASCENTS: usize = 30;
+
+/// Relative rise below which an ascent has ended.
+const ASCENDED: f64 = 1e-14;
+
+/// Half width of the differences of an ascent over that of the set: the sum is piecewise smooth, and a step that is too
+/// wide only chooses another direction.
+const DIFFERENCE: f64 = 1e-6;
+
 /// Work of the winches of a robot while its platform moves.
 ///
 /// # Example
 /// ```
 /// use funicular::math::Vec6;
-/// use funicular::robot::Robot;
+/// use funicular::robot::{Robot, TwistSet};
 /// use funicular::speeds::WinchSpeeds;
 /// use funicular::statics::{self, StaticModel};
 ///
@@ -28,7 +38,7 @@ const BARELY: f64 = 1e-100;
 /// let rest = statics::solve(&robot, StaticModel::Catenary, None)?.equilibrium;
 /// let speeds = WinchSpeeds::at(&robot, &rest, None)?;
 ///
-/// let required = Vec6::new(1.0, 1.0, 1.0, 0.2, 0.2, 0.2); // m/s and rad/s, both ways
+/// let required = TwistSet::in_box(Vec6::new(1.0, 1.0, 1.0, 0.2, 0.2, 0.2)); // m/s and rad/s, both ways
 /// let factor = speeds.factor(&required);
 /// assert!(factor.value > 1.0 && factor.cable.is_some());
 /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -79,7 +89,7 @@ pub struct LargestMotion {
     pub cable: Option<(usize, LimitOfWinch)>,
 }
 
-/// Work of one winch at the worst speeds of a box of twists.
+/// Work of one winch at the worst speeds of a set of twists.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct WorstUse {
     /// Largest speed of the cable at the drum [m/s].
@@ -143,10 +153,9 @@ impl WinchSpeeds {
         &self.winches
     }
 
-    /// Largest multiple of a box of twists, given by its half widths, all of whose twists the winches can follow.
-    /// Infinite for an empty box.
-    pub fn factor(&self, half_widths: &Vec6) -> LargestMotion {
-        self.largest(|winch| winch.slowest().over(winch.speed_in(half_widths)))
+    /// Largest multiple of a set of twists all of whose twists the winches can follow. Infinite for an empty set.
+    pub fn factor(&self, twists: &TwistSet) -> LargestMotion {
+        self.largest(|winch| winch.slowest().over(winch.speed_in(twists)))
     }
 
     /// Largest multiple of a twist.
@@ -172,22 +181,51 @@ impl WinchSpeeds {
         })
     }
 
-    /// Largest sums of the powers of all winches at the corners of a box of twists, given by its half widths: of those
-    /// that drive, and of those that brake. The sum of driving powers is convex, so that no twist inside needs more;
-    /// that of braking powers is convex without damping of the winches.
-    pub fn powers(&self, half_widths: &Vec6) -> SumOfPowers {
-        let axes: Vec<usize> = (0..6).filter(|axis| half_widths[*axis] > 0.0).collect();
-        let corners = (0..1_usize << axes.len()).map(|corner| {
-            let mut twist_w = Vec6::zeros();
-            for (bit, axis) in axes.iter().enumerate() {
-                twist_w[*axis] = if corner >> bit & 1 == 0 { half_widths[*axis] } else { -half_widths[*axis] };
-            }
-            self.powers_at(&twist_w)
-        });
-        corners.fold(SumOfPowers::default(), |most, of| SumOfPowers {
+    /// Largest sums of the powers of all winches in a set of twists: of those that drive, and of those that brake. The sum
+    /// of driving powers is convex, so that no twist inside a box needs more than its worst corner; that of braking
+    /// powers is convex without damping of the winches. In an ellipsoid the largest sums are those that an ascent finds
+    /// from every octant and from the fastest twist of every winch: equation (40z3a).
+    pub fn powers(&self, twists: &TwistSet) -> SumOfPowers {
+        let most = |most: SumOfPowers, of: SumOfPowers| SumOfPowers {
             driving: most.driving.max(of.driving),
             braking: most.braking.max(of.braking),
+        };
+        let corners = twists.corners();
+        if twists.shape == LoadShape::Box {
+            return corners.map(|twist_w| self.powers_at(&twist_w)).fold(SumOfPowers::default(), most);
+        }
+        let fastest = self.winches.iter().flat_map(|winch| [winch.by_twist, -winch.by_twist]);
+        let starts = corners.chain(fastest.map(|row| twists.farthest(&row)));
+        starts.fold(SumOfPowers::default(), |found, start_w| {
+            let driving = self.ascent(twists, start_w, |powers| powers.driving);
+            let braking = self.ascent(twists, start_w, |powers| powers.braking);
+            most(most(found, driving), braking)
         })
+    }
+
+    /// Powers at the end of an ascent over a set from a twist: each step goes to the twist that is farthest along the
+    /// gradient of a sum, which is higher wherever the sum is convex.
+    fn ascent(&self, twists: &TwistSet, start_w: Vec6, of: fn(&SumOfPowers) -> f64) -> SumOfPowers {
+        let mut best = self.powers_at(&start_w);
+        let mut twist_w = start_w;
+        for _ in 0..MAX_ASCENTS {
+            let gradient = Vec6::from_fn(|axis, _| {
+                let half = DIFFERENCE * twists.half_widths[axis];
+                let at = |side: f64| {
+                    let mut beside_w = twist_w;
+                    beside_w[axis] += side * half;
+                    of(&self.powers_at(&beside_w))
+                };
+                if half > 0.0 { (at(1.0) - at(-1.0)) / (2.0 * half) } else { 0.0 }
+            });
+            let next_w = twists.farthest(&gradient);
+            let next = self.powers_at(&next_w);
+            if of(&next) <= of(&best) * (1.0 + ASCENDED) {
+                break;
+            }
+            (best, twist_w) = (next, next_w);
+        }
+        best
     }
 
     /// Sums of the powers of all winches for a twist.
@@ -228,15 +266,15 @@ impl WinchAtRest {
         if self.inwards.value <= self.outwards.value { self.inwards } else { self.outwards }
     }
 
-    /// Largest speed of the cable at the drum in a box of twists with these half widths [m/s]. The speed is linear in
-    /// the twist, so that a corner has it, in both directions.
-    pub fn speed_in(&self, half_widths: &Vec6) -> f64 {
-        self.by_twist.abs().dot(half_widths)
+    /// Largest speed of the cable at the drum in a set of twists [m/s]. The speed is linear in the twist, and the set is
+    /// symmetric, so that it has this speed in both directions.
+    pub fn speed_in(&self, twists: &TwistSet) -> f64 {
+        twists.largest(&self.by_twist)
     }
 
-    /// Largest powers and uses of the limits in a box of twists with these half widths, at constant speeds.
-    pub fn worst_in(&self, half_widths: &Vec6) -> WorstUse {
-        self.worst_up_to(self.speed_in(half_widths), 0.0)
+    /// Largest powers and uses of the limits in a set of twists, at constant speeds.
+    pub fn worst_in(&self, twists: &TwistSet) -> WorstUse {
+        self.worst_up_to(self.speed_in(twists), 0.0)
     }
 
     /// Largest powers and uses of the limits up to a speed and an acceleration of the cable at the drum [m/s, m/s²],

@@ -6,8 +6,8 @@
 //! cable count together, even if no single motion has both.
 
 use crate::gradient::GradientError;
-use crate::math::{Vec3, Vec6};
-use crate::robot::{Constraint, PlatformMotion, Pose, Robot, State};
+use crate::math::{Mat3, Mat6, Vec3, Vec6, skew, symmetric};
+use crate::robot::{Constraint, LoadShape, PlatformMotion, Pose, Robot, State, TwistSet};
 use crate::speeds::WinchSpeeds;
 use crate::statics::{self, CableState, Equilibrium, StaticModel, StaticsError, TensionRule};
 use thiserror::Error;
@@ -77,7 +77,7 @@ pub struct CableNeeds {
 /// ```
 ///
 /// # References
-/// docs/theory.md, equations (40z4a) and (40z4b).
+/// docs/theory.md, equations (40z4a) to (40z4c).
 #[derive(Debug, Clone, PartialEq)]
 pub struct WinchNeeds {
     /// Needs of each cable.
@@ -156,13 +156,13 @@ impl WinchNeeds {
     /// Adds what a load asks for while the platform moves.
     fn add_motion(&mut self, under: &UnderLoad, speeds: &WinchSpeeds) {
         let required = &under.robot.required;
-        let [twists, accelerations] = [required.twists_w(), required.accelerations_w()];
+        let (twists, accelerations) = (required.twists_w(), TwistSet::in_box(required.accelerations_w()));
         let motion = &under.robot.platform.motion;
         let cables = self.cables.iter_mut().zip(speeds.winches()).zip(&under.rest.cables);
         for ((needs, winch), state) in cables {
             let pose = under.rest.pose;
             let with = |value, twist_w| LargestNeed { value, pose, load_w: under.load_w, twist_w };
-            let fastest_w = twists.zip_map(&winch.by_twist, |half, rate| half * sign(rate));
+            let fastest_w = twists.farthest(&winch.by_twist);
             let (bend, bending_w) = largest_bend(state, motion, &twists);
             let (speed, acceleration) = (winch.speed_in(&twists), winch.speed_in(&accelerations) + bend);
 
@@ -218,29 +218,97 @@ impl CableNeeds {
     }
 }
 
-/// One with the sign of a number; zero for zero.
-fn sign(value: f64) -> f64 {
-    if value == 0.0 { 0.0 } else { value.signum() }
-}
-
-/// Largest acceleration of a straight cable while the platform moves with a constant twist of a box, given by its half
-/// widths [m/s²], and the twist: equation (40z4b).
-fn largest_bend(state: &CableState, motion: &PlatformMotion, half_widths: &Vec6) -> (f64, Vec6) {
-    let axes: Vec<usize> = (0..6).filter(|axis| half_widths[*axis] > 0.0).collect();
-    let mut most = (0.0, Vec6::zeros());
-    // Opposite twists bend alike: the sign of the first axis is free.
-    for corner in 0..1_usize << axes.len().saturating_sub(1) {
-        let mut twist_w = Vec6::zeros();
-        for (bit, axis) in axes.iter().enumerate() {
-            let is_negative = bit > 0 && corner >> (bit - 1) & 1 == 1;
-            twist_w[*axis] = if is_negative { -half_widths[*axis] } else { half_widths[*axis] };
-        }
-        let bend = bend(state, &motion.allowed(&twist_w)).abs();
-        if bend > most.0 {
-            most = (bend, twist_w);
+/// Largest acceleration of a straight cable while the platform moves with a constant twist of a set [m/s²], and the twist:
+/// equation (40z4b).
+fn largest_bend(state: &CableState, motion: &PlatformMotion, twists: &TwistSet) -> (f64, Vec6) {
+    match twists.shape {
+        LoadShape::Box => largest_bend_in_box(state, motion, twists),
+        LoadShape::Ellipsoid => {
+            let form = bend_form(state, motion, &twists.half_widths);
+            let [rising, falling] = [form, -form].map(|form| largest_in_balls(&form));
+            let (value, unit) = if rising.0 >= falling.0 { rising } else { falling };
+            (value, unit.component_mul(&twists.half_widths))
         }
     }
-    most
+}
+
+/// Largest acceleration over the corners of a box.
+fn largest_bend_in_box(state: &CableState, motion: &PlatformMotion, twists: &TwistSet) -> (f64, Vec6) {
+    // Opposite twists bend alike: every second corner is one of a pair.
+    twists.corners().step_by(2).fold((0.0, Vec6::zeros()), |most, twist_w| {
+        let bend = bend(state, &motion.allowed(&twist_w)).abs();
+        if bend > most.0 { (bend, twist_w) } else { most }
+    })
+}
+
+/// Symmetric matrix of the acceleration of [`bend`] as a quadratic form of the twist over its half axes.
+fn bend_form(state: &CableState, motion: &PlatformMotion, half_axes: &Vec6) -> Mat6 {
+    let (length, lever_w) = (state.chord(), state.lever_w);
+    let outwards_w = -state.chord_w() / length;
+    let across = (Mat3::identity() - outwards_w * outwards_w.transpose()) / length;
+    let by_turn = -skew(&lever_w);
+    let product = outwards_w * lever_w.transpose();
+    let turning = 0.5 * (product + product.transpose()) - Mat3::identity() * outwards_w.dot(&lever_w);
+
+    let mut form = Mat6::zeros();
+    form.fixed_view_mut::<3, 3>(0, 0).copy_from(&across);
+    form.fixed_view_mut::<3, 3>(0, 3).copy_from(&(across * by_turn));
+    form.fixed_view_mut::<3, 3>(3, 0).copy_from(&(by_turn.transpose() * across));
+    form.fixed_view_mut::<3, 3>(3, 3).copy_from(&(by_turn.transpose() * across * by_turn + turning));
+    let mut scaled = Mat6::zeros();
+    for axis in 0..6 {
+        let mut along = Vec6::zeros();
+        along[axis] = half_axes[axis];
+        scaled.set_column(axis, &motion.allowed(&along));
+    }
+    scaled.transpose() * form * scaled
+}
+
+/// Largest value of a quadratic form over two unit balls, of the first and of the last three coordinates, and a point
+/// there; zero if the form is never positive.
+///
+/// For two such constraints the bound of Lagrange is exact: the largest value is the least of the largest eigenvalues of
+/// the form whose parts are scaled with 1/√p and 1/√(1 − p), over 0 < p < 1, equation (40z4c). This function of p has
+/// one minimum.
+fn largest_in_balls(form: &Mat6) -> (f64, Vec6) {
+    let [linear, angular] = [0, 3].map(|from| form.fixed_rows::<3>(from).iter().any(|entry| *entry != 0.0));
+    let scale = |part: f64| Vec6::from_fn(|axis, _| (if axis < 3 { part } else { 1.0 - part }).sqrt().recip());
+    let eigen = |scale: &Vec6| {
+        let scaled = Mat6::from_fn(|i, j| scale[i] * form[(i, j)] * scale[j]);
+        let (values, vectors) = symmetric::eigen(&scaled, 6);
+        (values[5], vectors[5])
+    };
+    // In one ball the value is the eigenvalue of its own part.
+    let scale = if linear && angular { scale(least_of(|part| eigen(&scale(part)).0)) } else { Vec6::repeat(1.0) };
+    let (value, vector) = eigen(&scale);
+    if value <= 0.0 {
+        return (0.0, Vec6::zeros());
+    }
+    // The parts of an eigenvector alone end on their balls where the eigenvalue is simple.
+    let point = vector.component_mul(&scale);
+    let size = [0, 3].map(|from| point.fixed_rows::<3>(from).norm()).into_iter().fold(0.0, f64::max);
+    (value, point / size)
+}
+
+/// Place between 0 and 1 of the minimum of a function that falls and then rises, by the golden section.
+fn least_of(value: impl Fn(f64) -> f64) -> f64 {
+    const GOLDEN: f64 = 0.618_033_988_749_894_8;
+    let (mut low, mut high) = (0.0, 1.0);
+    let mut inner = [high - GOLDEN * (high - low), low + GOLDEN * (high - low)];
+    let mut values = inner.map(&value);
+    // The bound is flat at its minimum: half the digits of the place are enough for all of the value.
+    while high - low > 1e-9 {
+        if values[0] <= values[1] {
+            high = inner[1];
+            inner = [high - GOLDEN * (high - low), inner[0]];
+            values = [value(inner[0]), values[0]];
+        } else {
+            low = inner[0];
+            inner = [inner[1], low + GOLDEN * (high - low)];
+            values = [values[1], value(inner[1])];
+        }
+    }
+    0.5 * (low + high)
 }
 
 /// Acceleration of the length of a straight cable while the platform moves with a constant twist [m/s²].

@@ -113,6 +113,7 @@ impl Opened {
                     Made { warnings, notes, ..bytes.into() }
                 }
                 Make::Bytes(make) => make(&at, kind)?,
+                Make::Document(make) => make(&at, watch)?,
             };
             Ok(Written { destination, bytes, size, warnings, notes })
         };

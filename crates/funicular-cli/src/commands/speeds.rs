@@ -33,10 +33,11 @@ impl Printed for Speeds {
 /// Work of the winches for the required velocities.
 fn required_text(required: &RequiredSpeeds) -> String {
     format!(
-        "  required velocities ({}) m/s, ({}) rad/s: {}\n  speed factor        {}\n  powers              motors that \
+        "  required velocities ({}) m/s, ({}) rad/s{}: {}\n  speed factor        {}\n  powers              motors that \
          drive {} W, motors that brake {} W, all together\n",
         vector(&required.velocity_m_s, 3),
         vector(&required.angular_velocity_rad_s, 3),
+        if required.velocity_shape == "box" { "" } else { ", half axes of ellipsoids" },
         if required.reached { "reached" } else { "not reached" },
         largest(&required.speed_factor, ""),
         significant(required.driving_power_w, 4),

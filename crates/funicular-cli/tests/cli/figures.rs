@@ -200,3 +200,86 @@ fn another_program_reads_the_pdf() {
     let size = run("pdfinfo", &[file]).unwrap();
     assert!(size.contains("Pages:           1") && size.contains("252 x "), "{size}");
 }
+
+/// Commands that compute first, whose figures show their results.
+#[test]
+fn results_are_drawn_without_a_second_run() {
+    let folder = tempfile::tempdir().unwrap();
+    let winches = robot("cogiro-winches.toml");
+    for (line, part) in [
+        ("winches WINCHES --pose 1,1,1.5 --required-velocity-m-s 1,1,0.5", "winch of cable"),
+        ("speeds WINCHES --pose 1,1,1.5 --required-velocity-m-s 1,1,0.5", "motor drives"),
+        ("loads WINCHES --pose 1,1,1.5 --required-force-n 150,150,150", "× required load: held"),
+        ("payload WINCHES --pose 1,1,1.5", "maximum payload"),
+        ("clearance WINCHES --pose 1,1,1.5", "required distance"),
+        ("trajectory WINCHES --pose 1,1,1.5 --move-to 2,1,1.5 --speed-m-s 1 --acceleration-m-s2 1", "rope speed [m/s]"),
+    ] {
+        let own: Vec<&str> = line.split(' ').map(|word| if word == "WINCHES" { &winches } else { word }).collect();
+        for ending in ["svg", "pdf"] {
+            let path = folder.path().join(format!("a.{ending}"));
+            let printed = succeed(&[&own[..], &["-o", path.to_str().unwrap()]].concat());
+            assert_eq!(printed, succeed(&own), "{line}: the text is that without a figure");
+            if ending == "svg" {
+                assert!(svg(&path).contains(part), "{line}: {part}");
+            } else {
+                assert!(fs::read(&path).unwrap().starts_with(b"%PDF-"), "{line}");
+            }
+        }
+    }
+}
+
+/// Winches in an ellipsoid of velocities need less than in the box around it.
+#[test]
+fn every_direction_up_to_a_speed_asks_for_less_than_all_axes_at_once() {
+    let winches = robot("cogiro-winches.toml");
+    let speed = |more: &[&str]| {
+        let line = ["winches", &winches, "--pose", "1,1,1.5", "--required-velocity-m-s", "1,1,1", "--format", "json"];
+        let found: serde_json::Value = serde_json::from_str(&succeed(&[&line[..], more].concat())).unwrap();
+        found["winches"][0]["speed_m_s"].as_f64().unwrap()
+    };
+    let (boxed, ball) = (speed(&[]), speed(&["--required-velocity-shape", "ellipsoid"]));
+    assert!(ball < 1.05 && ball > 0.95 && boxed > 1.4, "{ball} {boxed}");
+}
+
+#[test]
+fn the_page_of_winches_has_the_needs_what_asks_for_them_and_the_offers() {
+    let folder = tempfile::tempdir().unwrap();
+    let (path, offers) = (folder.path().join("winches.html"), folder.path().join("offers.csv"));
+    fs::write(&offers, "name,tension_n,speed_m_s\nsmall <1>,200,3\nbig,5000,3\n").unwrap();
+    let winches = robot("cogiro-winches.toml");
+    let line = ["winches", &winches, "--pose", "1,1,1.5", "--required-velocity-m-s", "1,1,0.5", "--offers"];
+    succeed(&[&line[..], &[offers.to_str().unwrap(), "-o", path.to_str().unwrap()]].concat());
+    let page = fs::read_to_string(&path).unwrap();
+    for part in ["id=\"table-needs\"", "id=\"table-asked\"", "id=\"table-offers\"", "every cable", "offer big", "<svg"]
+    {
+        assert!(page.contains(part), "{part}");
+    }
+    assert!(!page.contains("small <1>"), "names stay text");
+}
+
+#[test]
+fn a_summary_is_two_pages_as_html_and_as_pdf() {
+    let folder = tempfile::tempdir().unwrap();
+    let [html, pdf] = ["a.html", "a.pdf"].map(|name| folder.path().join(name));
+    for (file, pose) in [("yuan2014-4mm.toml", None), ("cogiro-winches.toml", Some("1,1,1.5"))] {
+        let own = robot(file);
+        let mut line = vec!["report", own.as_str(), "--below-hz", "5", "--summary"];
+        line.extend(pose.into_iter().flat_map(|pose| ["--pose", pose]));
+        succeed(&[&line[..], &["-o", html.to_str().unwrap()]].concat());
+        let page = fs::read_to_string(&html).unwrap();
+        assert_eq!(page.matches("<section class=\"sheet\">").count(), 2, "{file}");
+        for part in ["What it carries", "Where it works", "winches", "Clearance", "First resonance", "What was assumed"]
+        {
+            assert!(page.contains(part), "{file}: {part}");
+        }
+        assert!(!page.contains("http://") || page.matches("http://").count() == page.matches("www.w3.org").count());
+        assert!(!page.contains("⟪") && !page.contains("NaN"), "{file}");
+        succeed(&[&line[..], &["-o", pdf.to_str().unwrap()]].concat());
+        let bytes = fs::read(&pdf).unwrap();
+        let text = String::from_utf8_lossy(&bytes);
+        assert!(text.starts_with("%PDF-1.7") && text.contains("/Count 2"), "{file}");
+    }
+    let output = run(&["report", "ROBOT", "-o", pdf.to_str().unwrap()]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(stderr(&output).contains("give --summary"), "{}", stderr(&output));
+}

@@ -73,6 +73,20 @@ impl ChartAxis {
         Label::new(&text)
     }
 
+    /// Takes away the labels that have no room behind the one before them.
+    pub(crate) fn leave_out_crowded(&self, ticks: &mut Ticks, length: f64, room: &dyn Fn(&Label) -> f64) {
+        let mut end = f64::NEG_INFINITY;
+        for tick in &mut ticks.ticks {
+            let Some(half) = tick.label.as_ref().map(|label| 0.5 * room(label)) else { continue };
+            let middle = self.fraction(tick.at) * length;
+            if middle - half < end {
+                tick.label = None;
+            } else {
+                end = middle + half;
+            }
+        }
+    }
+
     fn linear_ticks(&self, length: f64, room: &dyn Fn(&Label) -> f64) -> Ticks {
         let exponent = common_exponent(self.low.abs().max(self.high.abs()));
         let unit = 10_f64.powi(exponent);

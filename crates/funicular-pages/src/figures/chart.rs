@@ -1,7 +1,9 @@
 //! Charts: panels one above the other with a common horizontal axis, and a legend above them.
 
 use super::axis::{ChartAxis, Placed, Ticks};
-use super::drawing::{Align, BLACK, Colour, Drawing, Frame, Label, PaperPoint, Stroke, WHITE, clipped, simplified};
+use super::drawing::{
+    Align, BLACK, Colour, Drawing, Frame, Label, MIN_FITTING, PaperPoint, Stroke, WHITE, clipped, simplified,
+};
 use super::map::{ColourBar, Map};
 use super::style::{AXIS_WIDTH, Symbol, Type};
 
@@ -36,6 +38,8 @@ pub(crate) enum Layer {
     Stems { x: Vec<f64>, from: f64, to: f64, stroke: Stroke },
     /// Grey bands over the whole height.
     Bands(Vec<(f64, f64)>),
+    /// Areas within corners, as far as the panel shows them.
+    Areas { areas: Vec<Vec<(f64, f64)>>, fill: Colour },
     /// Texts at points, upwards.
     Upright { texts: Vec<(f64, f64, String)>, colour: Colour },
     /// Map of values over both axes.
@@ -54,6 +58,7 @@ pub(crate) enum Sample {
     Symbol(Symbol),
     LineAndSymbol(Stroke, Symbol),
     Band,
+    Area(Colour),
     Hatch,
     Stem(Stroke),
 }
@@ -76,7 +81,7 @@ impl Chart {
         let y_room = |_: &Label| 1.9 * size;
 
         // Margins: the labels of the vertical axes on the left, half of the last label on the right.
-        let panel_heights: Vec<f64> = self.panels.iter().map(|panel| panel.height * width).collect();
+        let panel_heights: Vec<f64> = self.panels.iter().map(|panel| panel.height_in(&drawing, size)).collect();
         let y_ticks: Vec<Ticks> =
             self.panels.iter().zip(&panel_heights).map(|(panel, height)| panel.y.ticks(*height, &y_room)).collect();
         let widest = self.panels.iter().zip(&y_ticks).filter(|(panel, _)| !panel.bare);
@@ -87,7 +92,10 @@ impl Chart {
         let right = width - bar - 0.9 * size;
 
         let x_room = |label: &Label| drawing.width_of(label, size) + 0.9 * size;
-        let x_ticks = self.x.ticks(right - left, &x_room);
+        let mut x_ticks = self.x.ticks(right - left, &x_room);
+        if self.x.labels.is_some() {
+            self.x.leave_out_crowded(&mut x_ticks, right - left, &x_room);
+        }
         let top = self.draw_legend(&mut drawing, 0.25 * size, style);
 
         // Panels from top to bottom.
@@ -188,6 +196,7 @@ impl Sample {
                 symbol.draw(drawing, &[middle], style);
             }
             Self::Band => drawing.areas(vec![area.corners()], Some(BAND), None),
+            Self::Area(fill) => drawing.areas(vec![area.corners()], Some(*fill), None),
             Self::Hatch => super::map::hatch(drawing, &[area], style),
             Self::Stem(stroke) => drawing.line(vec![[middle[0], y - half], [middle[0], y + half]], stroke.clone()),
         }
@@ -232,13 +241,24 @@ fn draw_frame(
 
     if !panel.title_is_empty() {
         let title = panel.y.title(y_ticks.exponent);
-        let fitting = drawing.fitting(&title, size, frame.height() + 1.2 * size);
+        // Titles of neighbours do not meet between the panels.
+        let fitting = drawing.fitting(&title, size, frame.height() + 0.6 * size);
         let middle = 0.5 * (frame.top + frame.bottom);
         drawing.turned_text(title, [1.1 * size, middle], Align::Middle, 90.0, fitting, BLACK);
     }
 }
 
 impl Panel {
+    /// Height in a drawing, at least that of the title in its smallest letters.
+    fn height_in(&self, drawing: &Drawing, size: f64) -> f64 {
+        let height = self.height * drawing.width;
+        if self.title_is_empty() {
+            return height;
+        }
+        let title = drawing.width_of(&self.y.title(0), MIN_FITTING * size);
+        height.max(title - 0.5 * size)
+    }
+
     fn title_is_empty(&self) -> bool {
         self.bare || self.y.title.is_empty()
     }
@@ -277,6 +297,16 @@ fn draw_layer(drawing: &mut Drawing, placed: &Placed<'_>, layer: &Layer, style: 
             let x = |value: f64| placed.at(value, placed.y.low)[0].clamp(frame.left, frame.right);
             let areas = bands.iter().map(|(from, to)| Frame { left: x(*from), right: x(*to), ..frame }.corners());
             drawing.areas(areas.collect(), Some(BAND), None);
+        }
+
+        Layer::Areas { areas, fill } => {
+            let corner = |(x, y): &(f64, f64)| {
+                let [x, y] = placed.at(*x, *y);
+                // The logarithm of zero lies below every panel.
+                let y = if y.is_nan() { frame.bottom } else { y };
+                [x.clamp(frame.left, frame.right), y.clamp(frame.top, frame.bottom)]
+            };
+            drawing.areas(areas.iter().map(|area| area.iter().map(corner).collect()).collect(), Some(*fill), None);
         }
 
         Layer::Upright { texts, colour } => {

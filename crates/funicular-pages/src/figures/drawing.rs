@@ -229,7 +229,7 @@ impl Drawing {
 }
 
 /// Minimum size of a text that is made smaller to fit, relative to the other texts.
-const MIN_FITTING: f64 = 0.6;
+pub(crate) const MIN_FITTING: f64 = 0.6;
 
 /// Parts of a line inside a frame. Points that are not finite end a part.
 pub(crate) fn clipped(points: &[PaperPoint], frame: &Frame) -> Vec<Vec<PaperPoint>> {

@@ -5,7 +5,7 @@ use super::chart::{Chart, Entry, Layer, Panel, Sample};
 use super::drawing::{BLACK, Stroke};
 use super::space::{RobotShape, Space};
 use super::style::{self, GREY, ModelStyle, Symbol};
-use super::{Figure, FigureContent, calibration, gusts, sections, settling, simulated};
+use super::{Figure, FigureContent, bars, calibration, gusts, motions, pairs, sections, settling, simulated, winches};
 use crate::figure_style::{MODE_TICKS, ModeTick, rgb};
 use anyhow::{Result, bail};
 use funicular::cable::CableModel;
@@ -13,14 +13,21 @@ use funicular::cable_motion::CableStations;
 use funicular::dynamics::{Dynamics, Linearisation};
 use funicular::math::Vec3;
 use funicular::modes::{self, Mode};
+use funicular::robot::Robot;
 use funicular_study::Watch;
 use funicular_study::analyses::calibrate::Calibrated;
+use funicular_study::analyses::clearance::Clearances;
 use funicular_study::analyses::compare::Compared;
 use funicular_study::analyses::frf;
 use funicular_study::analyses::gust::Gusty;
+use funicular_study::analyses::loads::Loads;
 use funicular_study::analyses::modes::with_rigid_cables;
+use funicular_study::analyses::payload::Payload;
 use funicular_study::analyses::settle::Settled;
 use funicular_study::analyses::simulate::Simulated;
+use funicular_study::analyses::speeds::Speeds;
+use funicular_study::analyses::trajectory::TrajectoryResult;
+use funicular_study::analyses::winches::Winches;
 use funicular_study::analyses::workspace::Workspace;
 use funicular_study::at_rest::{self, AtRest, ModesBelow};
 use funicular_study::names::Named;
@@ -58,6 +65,45 @@ pub fn of_simulation(found: &Simulated) -> Figure {
     Figure(FigureContent::Chart(simulated::chart(found)))
 }
 
+/// Makes the figure of a trajectory that has been computed before. The robot has the limits.
+pub fn of_trajectory(robot: &Robot, found: &TrajectoryResult) -> Figure {
+    Figure(FigureContent::Chart(motions::chart(robot, found)))
+}
+
+/// Makes the figure of the distances at rest or on a move.
+///
+/// # Errors
+/// A robot without a pair.
+pub fn of_clearance(found: &Clearances) -> Result<Figure> {
+    Ok(Figure(FigureContent::Chart(pairs::chart(found)?)))
+}
+
+/// Makes the figure of the winches that are needed, with those on offer.
+pub fn of_winches(found: &Winches, offers: &[request::OfferedWinch]) -> Figure {
+    Figure(FigureContent::Chart(winches::needed(found, offers)))
+}
+
+/// Makes the figure of the speeds of the winches.
+pub fn of_speeds(found: &Speeds) -> Figure {
+    Figure(FigureContent::Chart(winches::speeds(found)))
+}
+
+/// Makes the figure of the tensions with the minimum and the maximum payload.
+///
+/// # Errors
+/// Payloads without limits.
+pub fn of_payload(found: &Payload) -> Result<Figure> {
+    Ok(Figure(FigureContent::Chart(bars::of_payload(found)?)))
+}
+
+/// Makes the figure of the tensions with the largest multiple of the required loads.
+///
+/// # Errors
+/// A robot without a largest multiple.
+pub fn of_loads(found: &Loads) -> Result<Figure> {
+    Ok(Figure(FigureContent::Chart(bars::of_loads(found)?)))
+}
+
 fn chart(chart: Chart, warnings: Vec<String>) -> RequestFigure {
     RequestFigure { figure: Figure(FigureContent::Chart(chart)), warnings }
 }
@@ -71,9 +117,13 @@ fn entry(text: impl Into<String>, sample: Sample) -> Entry {
 /// # Errors
 /// The errors of `statics`.
 pub fn of_statics(of: &request::StaticsRequest) -> Result<Figure> {
-    let at_rest = at_rest::equilibrium(of.robot.read()?.robot, &of.robot, &of.state, &of.tensions)?;
+    Ok(of_rest(&at_rest::equilibrium(of.robot.read()?.robot, &of.robot, &of.state, &of.tensions)?))
+}
+
+/// Makes the figure of a robot at a known equilibrium.
+pub fn of_rest(at_rest: &AtRest) -> Figure {
     let space = Space::new(&at_rest.robot, &at_rest.equilibrium, None, Vec::new());
-    Ok(Figure(FigureContent::Space(Box::new(space))))
+    Figure(FigureContent::Space(Box::new(space)))
 }
 
 /// Makes the figure of the spectra of a response to gusts.

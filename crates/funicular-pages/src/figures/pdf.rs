@@ -1,4 +1,4 @@
-//! Drawings as PDF: one page of the size of the figure, with the used letters of the font embedded.
+//! Drawings as PDF: a page of the size of each, with the used letters of the font embedded.
 
 use super::drawing::{Colour, Drawing, DrawnPath, Item, Moving, RAISED, Text};
 use super::font::Font;
@@ -16,43 +16,66 @@ const SYSTEM: SystemInfo<'_> = SystemInfo { registry: Str(b"Adobe"), ordering: S
 
 /// Bytes of the PDF file.
 pub(crate) fn pdf(drawing: &Drawing) -> Vec<u8> {
-    let [catalog, pages, page, content, info] = [1, 2, 3, 4, 5].map(Ref::new);
+    pages(std::slice::from_ref(drawing))
+}
+
+/// Bytes of a PDF file with a page for each drawing, the title of the first, and one font.
+///
+/// # Panics
+/// Without a drawing.
+pub(crate) fn pages(drawings: &[Drawing]) -> Vec<u8> {
+    let [catalog, tree, info] = [1, 2, 5].map(Ref::new);
     let font = Ref::new(6);
-    let (width, height) = (drawing.width as f32, drawing.height as f32);
-    let letters = Letters::of(drawing);
+    // The font takes five objects.
+    let of_page = |k: usize| {
+        let k = i32::try_from(k).expect("a document has few pages");
+        let first = if k == 0 { 3 } else { 9 + 2 * k };
+        [first, first + 1].map(Ref::new)
+    };
+    let letters = Letters::of(drawings);
 
     let mut pdf = Pdf::new();
-    pdf.catalog(catalog).pages(pages);
-    pdf.pages(pages).kids([page]).count(1);
-    let mut written = pdf.page(page);
-    written.parent(pages).media_box(Rect::new(0.0, 0.0, width, height)).contents(content);
-    written.resources().fonts().pair(FONT, font);
-    written.finish();
+    pdf.catalog(catalog).pages(tree);
+    let count = i32::try_from(drawings.len()).expect("a document has few pages");
+    pdf.pages(tree).kids((0..drawings.len()).map(|k| of_page(k)[0])).count(count);
+    let write_page = |pdf: &mut Pdf, k: usize, drawing: &Drawing| {
+        let [page, content] = of_page(k);
+        let mut written = pdf.page(page);
+        let sides = Rect::new(0.0, 0.0, drawing.width as f32, drawing.height as f32);
+        written.parent(tree).media_box(sides).contents(content);
+        written.resources().fonts().pair(FONT, font);
+    };
+    write_page(&mut pdf, 0, &drawings[0]);
     let creator = concat!("funicular ", env!("CARGO_PKG_VERSION"));
-    pdf.document_info(info).title(TextStr(&drawing.title)).creator(TextStr(creator)).producer(TextStr(creator));
+    pdf.document_info(info).title(TextStr(&drawings[0].title)).creator(TextStr(creator)).producer(TextStr(creator));
 
-    let bytes = packed(&page_content(drawing, &letters));
-    pdf.stream(content, &bytes).filter(Filter::FlateDecode);
-    embed(&mut pdf, font, &drawing.font, &letters);
+    let bytes = packed(&page_content(&drawings[0], &letters));
+    pdf.stream(of_page(0)[1], &bytes).filter(Filter::FlateDecode);
+    embed(&mut pdf, font, &drawings[0].font, &letters);
+    for (k, drawing) in drawings.iter().enumerate().skip(1) {
+        write_page(&mut pdf, k, drawing);
+        let bytes = packed(&page_content(drawing, &letters));
+        pdf.stream(of_page(k)[1], &bytes).filter(Filter::FlateDecode);
+    }
     pdf.finish()
 }
 
-/// Letters of a drawing with their glyphs in the embedded font.
+/// Letters of drawings with their glyphs in the embedded font.
 struct Letters {
     by_letter: BTreeMap<char, u16>,
     remapper: GlyphRemapper,
 }
 
 impl Letters {
-    fn of(drawing: &Drawing) -> Self {
+    fn of(drawings: &[Drawing]) -> Self {
         let mut by_letter = BTreeMap::new();
-        for item in &drawing.items {
+        for item in drawings.iter().flat_map(|drawing| &drawing.items) {
             let Item::Text(text) = item else { continue };
             by_letter.extend(text.label.0.iter().flat_map(|(run, _)| run.chars()).map(|letter| (letter, 0)));
         }
         let mut remapper = GlyphRemapper::new();
         for (letter, glyph) in &mut by_letter {
-            *glyph = remapper.remap(drawing.font.glyph(*letter));
+            *glyph = remapper.remap(drawings[0].font.glyph(*letter));
         }
         Self { by_letter, remapper }
     }

@@ -1,15 +1,21 @@
 //! Figure of `settle`: distance of the point from its rest over time, while a command runs and after it, with the bound
-//! of all modes and the tolerance.
+//! of all modes and the tolerance. Swings that follow each other too closely for lines are an area below their crests.
 
 use super::axis::ChartAxis;
 use super::chart::{Chart, Entry, Layer, Panel, Sample};
-use super::drawing::Stroke;
+use super::drawing::{Colour, Stroke};
 use super::style::{self, GREY};
 use funicular_study::analyses::settle::{HistoryRow, Settled};
 use funicular_study::text::significant;
 
 /// Room above the highest curve, as a part of it.
 const ABOVE: f64 = 0.08;
+
+/// Number of columns of the figure, each with its largest distance: more swings than columns would be a solid block.
+const COLUMNS: usize = 120;
+
+/// Part of white in the colour of the area below the crests.
+const WHITENED: f64 = 0.72;
 
 /// Motion after one command.
 struct Course<'a> {
@@ -38,7 +44,7 @@ pub(super) fn chart(found: &Settled) -> Chart {
         let bound = Stroke { dashes: vec![3.0, 1.5], width: 0.6 * stroke.width, ..stroke.clone() };
         let point = |row: &HistoryRow, value: f64| (of.end + row.t_s, 1e3 * value);
         let moved = of.during.iter().chain(of.history).map(|row| point(row, distance(row)));
-        layers.push(Layer::Line { points: moved.collect(), stroke: stroke.clone() });
+        layers.extend(motion(moved.collect(), last, &stroke));
         let bounded = of.history.iter().filter_map(|row| Some(point(row, row.envelope_m?)));
         layers.push(Layer::Line { points: bounded.collect(), stroke: bound.clone() });
         if !of.during.is_empty() {
@@ -69,6 +75,29 @@ pub(super) fn chart(found: &Settled) -> Chart {
         legend,
         colour_bar: None,
     }
+}
+
+/// Line of a motion up to a time, or the area below its crests where the swings are too close for a line.
+fn motion(points: Vec<(f64, f64)>, last: f64, stroke: &Stroke) -> Vec<Layer> {
+    let crests = points.windows(3).filter(|three| three[1].1 > three[0].1 && three[1].1 >= three[2].1).count();
+    if crests <= COLUMNS {
+        return vec![Layer::Line { points, stroke: stroke.clone() }];
+    }
+    let column = |t: f64| ((t / last * COLUMNS as f64) as usize).min(COLUMNS - 1);
+    let highest = |part: &[(f64, f64)]| part.iter().copied().reduce(|most, of| if of.1 > most.1 { of } else { most });
+    let crests: Vec<(f64, f64)> = points.chunk_by(|a, b| column(a.0) == column(b.0)).filter_map(highest).collect();
+    let ends = [points.first(), points.last()].map(|end| end.map_or(0.0, |end| end.0));
+    let area = [(ends[0], 0.0)].into_iter().chain(crests.iter().copied()).chain([(ends[1], 0.0)]).collect();
+    let line = Stroke { width: 0.7 * stroke.width, ..stroke.clone() };
+    vec![
+        Layer::Areas { areas: vec![area], fill: whitened(stroke.colour) },
+        Layer::Line { points: crests, stroke: line },
+    ]
+}
+
+/// Light tone of a colour.
+fn whitened(colour: Colour) -> Colour {
+    colour.map(|part| (f64::from(part) + WHITENED * (255.0 - f64::from(part))).round() as u8)
 }
 
 /// Distance of the point from its rest [m].

@@ -1,14 +1,22 @@
 //! Figures as files: what their SVG and PDF contain.
 
 use super::drawing::{Drawing, Item};
-use super::{Figure, FigureContent, Size, of_compare, of_frf, of_modes, of_statics, style::Type, width_mm};
+use super::{
+    Figure, FigureContent, Size, of_clearance, of_compare, of_decay, of_frf, of_gust, of_loads, of_modes, of_payload,
+    of_speeds, of_statics, of_trajectory, of_winches, style::Type, width_mm,
+};
+use funicular::robot::Robot;
 use funicular_study::{Request, Results, Silent, run};
 use serde_json::json;
 
 mod measured;
 
-fn request_of(mut request: serde_json::Value) -> Request {
-    request["robot"] = json!({"name": "robot.toml", "text": funicular_robots::YUAN2014_4MM});
+fn request_of(request: serde_json::Value) -> Request {
+    request_about(funicular_robots::YUAN2014_4MM, request)
+}
+
+fn request_about(robot: &str, mut request: serde_json::Value) -> Request {
+    request["robot"] = json!({"name": "robot.toml", "text": robot});
     Request::from_json(&request.to_string()).unwrap()
 }
 
@@ -17,11 +25,48 @@ fn made(request: serde_json::Value, mode: Option<usize>) -> Figure {
         Request::Statics(of) => of_statics(of).unwrap(),
         Request::Modes(of) => of_modes(of, mode).unwrap().figure,
         Request::Frf(of) => of_frf(of, &mut Silent).unwrap().figure,
-        request => match run(request, &mut Silent).unwrap() {
-            Results::Compare(found) => of_compare(&found),
-            _ => panic!("a command without a figure here"),
-        },
+        request => of_results(request, funicular_robots::YUAN2014_4MM).unwrap(),
     }
+}
+
+/// Figure of the results of a command.
+fn of_results(request: &Request, robot: &str) -> anyhow::Result<Figure> {
+    Ok(match run(request, &mut Silent).unwrap() {
+        Results::Compare(found) => of_compare(&found),
+        Results::Winches(found) => {
+            let Request::Winches(asked) = request else { panic!("the request is of winches") };
+            of_winches(&found, asked.offers.as_deref().unwrap_or_default())
+        }
+        Results::Speeds(found) => of_speeds(&found),
+        Results::Payload(found) => of_payload(&found)?,
+        Results::Loads(found) => of_loads(&found)?,
+        Results::Clearance(found) => of_clearance(&found)?,
+        Results::Trajectory(found) => of_trajectory(&Robot::from_toml(robot).unwrap(), &found),
+        Results::Settle(found) => of_decay(&found),
+        Results::Gust(found) => of_gust(&found),
+        _ => panic!("a command without a figure here"),
+    })
+}
+
+/// Figures of the robot with winches, which has eight cables.
+fn of_winch_robot(command: &str) -> Figure {
+    let mut request = match command {
+        "winches" => json!({
+            "required_velocity_m_s": [1.0, 1.0, 0.5], "required_acceleration_m_s2": [2.0, 2.0, 1.0],
+            "offers": [
+                {"name": "small", "tension_n": 500.0, "speed_m_s": 3.0, "power_w": 900.0},
+                {"name": "far too large", "tension_n": 1e6},
+            ],
+        }),
+        "speeds" => json!({"required_velocity_m_s": [1.0, 1.0, 0.5]}),
+        "loads" => json!({"required_force_n": [150.0, 150.0, 150.0], "required_moment_n_m": [30.0, 30.0, 30.0]}),
+        "trajectory" => json!({"move_to": [2.0, 1.0, 1.5], "speed_m_s": 1.0, "acceleration_m_s2": 1.0}),
+        _ => json!({}),
+    };
+    request["command"] = json!(command);
+    request["pose"] = json!([1.0, 1.0, 1.5]);
+    let robot = funicular_robots::COGIRO_WINCHES;
+    of_results(&request_about(robot, request), robot).unwrap()
 }
 
 fn response() -> Figure {
@@ -38,6 +83,13 @@ fn all() -> Vec<(&'static str, Figure)> {
         ("shape", made(json!({"command": "modes", "below_hz": 2.0}), Some(2))),
         ("frf", response()),
         ("compare", made(json!({"command": "compare", "below_hz": 3.0}), None)),
+        ("winches", of_winch_robot("winches")),
+        ("speeds", of_winch_robot("speeds")),
+        ("loads", of_winch_robot("loads")),
+        ("payload", of_winch_robot("payload")),
+        ("clearance", of_winch_robot("clearance")),
+        ("trajectory", of_winch_robot("trajectory")),
+        ("settle", made(json!({"command": "settle", "release_n": [0.0, 0.0, -20.0], "below_hz": 5.0}), None)),
     ]
 }
 
@@ -167,5 +219,66 @@ fn a_mode_that_is_not_in_the_list_is_refused() {
     for mode in [0, 99] {
         let said = of_modes(&request, Some(mode)).err().unwrap();
         assert!(said.to_string().contains("give 1 to 8"), "{said}");
+    }
+}
+
+/// Corners of the areas of a panel.
+fn areas(figure: &Figure, panel: usize) -> Vec<Vec<(f64, f64)>> {
+    let FigureContent::Chart(chart) = &figure.0 else { panic!("a chart") };
+    let layers = chart.panels[panel].layers.iter().filter_map(|layer| match layer {
+        super::chart::Layer::Areas { areas, .. } => Some(areas.clone()),
+        _ => None,
+    });
+    layers.flatten().collect()
+}
+
+#[test]
+fn bars_have_the_heights_of_the_results_and_far_offers_do_not_flatten_them() {
+    let robot = funicular_robots::COGIRO_WINCHES;
+    let request = request_about(robot, json!({"command": "winches", "pose": [1.0, 1.0, 1.5]}));
+    let Results::Winches(found) = run(&request, &mut Silent).unwrap() else { panic!("winches") };
+    let figure = of_winches(&found, &[]);
+    let bars = areas(&figure, 0);
+    assert_eq!(bars.len(), 8);
+    for (bar, row) in bars.iter().zip(&found.winches[1..]) {
+        assert_eq!(bar.iter().map(|corner| corner.1).fold(0.0, f64::max), row.tension_n);
+    }
+    // Without required velocities no winch needs a speed, an acceleration or power: tension, torque at rest and rope.
+    let FigureContent::Chart(chart) = &figure.0 else { panic!("a chart") };
+    let titles: Vec<&str> = chart.panels.iter().map(|panel| panel.y.title.as_str()).collect();
+    assert_eq!(titles, ["tension [N]", "torque [N m]"]);
+
+    let with_offers = of_winch_robot("winches");
+    let FigureContent::Chart(chart) = &with_offers.0 else { panic!("a chart") };
+    let high = areas(&with_offers, 0).iter().flatten().map(|corner| corner.1).fold(0.0, f64::max);
+    assert!(chart.panels[0].y.high < 3.0 * high, "the bars are seen");
+    let legend: Vec<&str> = chart.legend.iter().map(|entry| entry.text.as_str()).collect();
+    assert_eq!(legend, ["needed", "offer small"], "an offer that no panel shows has no entry");
+}
+
+#[test]
+fn swings_too_close_for_lines_are_an_area_below_their_crests() {
+    let about = |below_hz: f64| {
+        request_of(json!({
+            "command": "settle", "release_n": [0.0, 0.0, -20.0], "below_hz": below_hz, "tolerance_m": 1e-4,
+        }))
+    };
+    let Results::Settle(found) = run(&about(10.0), &mut Silent).unwrap() else { panic!("settle") };
+    let figure = of_decay(&found);
+    let area = areas(&figure, 0);
+    let distances = found.history.iter().map(|row| 1e3 * row.x_m.hypot(row.y_m).hypot(row.z_m));
+    let most = distances.fold(0.0, f64::max);
+    assert_eq!(area.len(), 1, "{} rows", found.history.len());
+    assert_eq!(area[0].iter().map(|corner| corner.1).fold(0.0, f64::max), most, "the highest crest is kept");
+    // Far fewer points than rows.
+    assert!(area[0].len() <= 122 && found.history.len() > 1000, "{} {}", area[0].len(), found.history.len());
+}
+
+#[test]
+fn results_without_anything_to_draw_are_refused_with_the_way_out() {
+    let text = funicular_robots::YUAN2014_4MM;
+    for (command, says) in [("loads", "nothing is required"), ("payload", "no tension limit bounds the payload")] {
+        let said = of_results(&request_about(text, json!({"command": command})), text).err().unwrap().to_string();
+        assert!(said.contains(says), "{said}");
     }
 }

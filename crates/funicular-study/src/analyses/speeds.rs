@@ -6,12 +6,13 @@ use super::gradient::no_solution;
 use super::shared::{Origin, PoseRow};
 use crate::at_rest::{self, AtRest};
 use crate::columns::{Field, ResultTable, Tabled, column};
+use crate::names::Named;
 use crate::request::SpeedsRequest;
 use crate::rows::rows;
 use crate::table::Column;
 use anyhow::{Result, bail};
 use funicular::math::Vec6;
-use funicular::robot::{LimitOfWinch, Robot};
+use funicular::robot::{LimitOfWinch, Robot, TwistSet};
 use funicular::speeds::{LargestMotion, SpeedLimit, WinchAtRest, WinchSpeeds};
 
 rows! {
@@ -39,6 +40,8 @@ rows! {
         pub reached: bool;
         pub velocity_m_s: [f64; 3];
         pub angular_velocity_rad_s: [f64; 3];
+        /// `box`, or `ellipsoid` with these half axes, for velocities and angular velocities each.
+        pub velocity_shape: &'static str;
         /// Largest multiple of the required velocities.
         pub speed_factor: LargestSpeed;
         /// Largest sums of the powers of all motors that drive and of all that brake.
@@ -175,8 +178,8 @@ pub fn run(robot: Robot, request: &SpeedsRequest) -> Result<Speeds> {
     let rule = rule.as_ref().filter(|_| at_rest.held_pose.is_none());
     let speeds = WinchSpeeds::at(robot, rest, rule).map_err(no_solution)?;
 
-    let half_widths = robot.required.twists_w();
-    let asks = half_widths != Vec6::zeros();
+    let twists = robot.required.twists_w();
+    let asks = !twists.is_empty();
     let cables = robot.cables.iter().zip(speeds.winches());
     let row = |of: LargestMotion| LargestSpeed::of(robot, of);
     Ok(Speeds {
@@ -184,11 +187,11 @@ pub fn run(robot: Robot, request: &SpeedsRequest) -> Result<Speeds> {
         static_model: rest.model.name(),
         origin: Origin::of(&at_rest),
         pose: PoseRow::of(&rest.pose),
-        required: asks.then(|| RequiredSpeeds::of(robot, &speeds, &half_widths)),
+        required: asks.then(|| RequiredSpeeds::of(robot, &speeds, &twists)),
         every_direction: row(speeds.in_every_direction()),
         directions: directions(robot, &speeds),
         cables: cables
-            .map(|(cable, winch)| CableSpeeds::of(cable.name.clone(), winch, asks.then_some(&half_widths)))
+            .map(|(cable, winch)| CableSpeeds::of(cable.name.clone(), winch, asks.then_some(&twists)))
             .collect(),
         warnings: (at_rest.warnings(None).into_iter())
             .chain(kink(&at_rest, &speeds))
@@ -233,13 +236,14 @@ impl LargestSpeed {
 }
 
 impl RequiredSpeeds {
-    fn of(robot: &Robot, speeds: &WinchSpeeds, half_widths: &Vec6) -> Self {
-        let factor = speeds.factor(half_widths);
-        let powers = speeds.powers(half_widths);
+    fn of(robot: &Robot, speeds: &WinchSpeeds, twists: &TwistSet) -> Self {
+        let factor = speeds.factor(twists);
+        let powers = speeds.powers(twists);
         Self {
             reached: factor.value >= 1.0,
             velocity_m_s: robot.required.velocity_w.into(),
             angular_velocity_rad_s: robot.required.angular_velocity_w.into(),
+            velocity_shape: robot.required.velocity_shape.name(),
             speed_factor: LargestSpeed::of(robot, factor),
             driving_power_w: powers.driving,
             braking_power_w: powers.braking,
@@ -248,7 +252,7 @@ impl RequiredSpeeds {
 }
 
 impl CableSpeeds {
-    fn of(name: String, at_rest: &WinchAtRest, half_widths: Option<&Vec6>) -> Self {
+    fn of(name: String, at_rest: &WinchAtRest, twists: Option<&TwistSet>) -> Self {
         let [x, y, z, rx, ry, rz] = at_rest.by_twist.into();
         let finite = |value: f64| value.is_finite().then_some(value);
         let SpeedLimit { value: slowest, limit } = at_rest.slowest();
@@ -262,14 +266,14 @@ impl CableSpeeds {
             speed_max_out_m_s: finite(at_rest.outwards.value),
             limit: limit.map(LimitOfWinch::name),
             platform_speed_max_m_s: finite(slowest / at_rest.by_twist.fixed_rows::<3>(0).norm()),
-            required: half_widths.map(|half_widths| WinchInUse::of(at_rest, half_widths)),
+            required: twists.map(|twists| WinchInUse::of(at_rest, twists)),
         }
     }
 }
 
 impl WinchInUse {
-    fn of(at_rest: &WinchAtRest, half_widths: &Vec6) -> Self {
-        let worst = at_rest.worst_in(half_widths);
+    fn of(at_rest: &WinchAtRest, twists: &TwistSet) -> Self {
+        let worst = at_rest.worst_in(twists);
         let limits = &at_rest.winch.limits;
         let used = |of: LimitOfWinch, is_given: bool| {
             worst.uses.iter().find(|(other, _)| is_given && *other == of).map(|(_, part)| *part)

@@ -46,6 +46,7 @@ pub(crate) fn with_required_velocities(mut robot: Robot, request: &RequiredVeloc
     let own = &mut robot.required;
     own.velocity_w = or(request.required_velocity_m_s, own.velocity_w);
     own.angular_velocity_w = or(request.required_angular_velocity_rad_s, own.angular_velocity_w);
+    own.velocity_shape = request.required_velocity_shape.unwrap_or(own.velocity_shape);
     robot.required.check(&robot.platform.motion)?;
     Ok(robot)
 }

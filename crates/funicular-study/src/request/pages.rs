@@ -11,6 +11,9 @@ declared! {
     pub struct ReportRequest {
         /// Robot file.
         robot: RobotText = RobotText::default() => (Data(shape::robot)).required();
+        /// Two pages A4 for the person who decides, instead of the page with all analyses; -o FILE.pdf writes them as
+        /// PDF.
+        summary: bool = false => (Switch);
         /// Upper limit of the frequencies [Hz].
         below_hz: f64 = 20.0 => (Number(Positive));
         /// Input of the frequency response: fx … mz, or f:ux,uy,uz, m:ux,uy,uz, see `funicular frf`.
@@ -37,6 +40,7 @@ declared! {
     examples {
         "funicular report",
         "funicular report robots/cogiro.toml -o cogiro.html",
+        "funicular report robots/cogiro.toml --pose 1,1,1.5 --summary -o cogiro.pdf",
         "funicular report robots/yuan2014-4mm.toml --pose 0,0,0.5 --below-hz 10 --input f:1,0,1 --output x",
     }
 }

@@ -4,6 +4,7 @@ use super::key::declared;
 use super::parts::{RobotText, State, Tensions, check};
 use crate::values::not_negative;
 use anyhow::Result;
+use funicular::robot::LoadShape;
 
 declared! {
     /// Velocities that the winches have to give the platform; they replace those of [required] in the robot file.
@@ -13,6 +14,11 @@ declared! {
         required_velocity_m_s: Option<[f64; 3]> = None => (Vector).under("Required velocities");
         /// Largest required angular velocity, both ways about each world axis [rad/s].
         required_angular_velocity_rad_s: Option<[f64; 3]> = None => (Vector).under("Required velocities");
+        /// Shape of the set of required velocities, and of that of angular velocities: an ellipsoid with equal half axes
+        /// is every direction up to one speed.
+        #[serde(with = "crate::names::optional")]
+        required_velocity_shape: Option<LoadShape> = None => (name::<LoadShape>())
+            .form("SHAPE").under("Required velocities").otherwise("from the robot file, or box");
     }
 }
 

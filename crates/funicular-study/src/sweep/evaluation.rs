@@ -9,12 +9,11 @@ use funicular::cable::CableModel;
 use funicular::clearance::{Clearance, Surroundings};
 use funicular::dynamics::{Dynamics, Linearisation};
 use funicular::gradient::Hold;
-use funicular::math::Vec6;
 use funicular::modes::Kind;
 use funicular::modes::damped::{DECAY_PERCENT, DampedMode};
 use funicular::pose_error::PoseDifference;
 use funicular::robot::parameters::Parameters;
-use funicular::robot::{Constraint, Robot};
+use funicular::robot::{Constraint, Robot, TwistSet};
 use funicular::speeds::WinchSpeeds;
 use funicular::statics::{
     self, Equilibrium, LimitAtCable, LoadCapacity, PayloadSide, RequestedPayload, Stability, StaticModel, StaticsError,
@@ -291,11 +290,14 @@ impl PointEvaluation<'_> {
     }
 
     /// Measure of the speeds for the required velocities; it is missing if none is required.
-    pub(super) fn of_required_speeds(&self, measure: impl FnOnce(&WinchSpeeds, &Vec6) -> f64) -> Result<f64, Status> {
-        let half_widths = self.robot.required.twists_w();
-        let asks = half_widths != Vec6::zeros();
+    pub(super) fn of_required_speeds(
+        &self,
+        measure: impl FnOnce(&WinchSpeeds, &TwistSet) -> f64,
+    ) -> Result<f64, Status> {
+        let twists = self.robot.required.twists_w();
+        let asks = !twists.is_empty();
         let none = if asks { "no winch limits the required velocities" } else { "no velocity is required" };
-        self.of_speeds(|speeds| asks.then(|| measure(speeds, &half_widths)), none)
+        self.of_speeds(|speeds| asks.then(|| measure(speeds, &twists)), none)
     }
 
     /// Largest need of a winch for everything that is required, over all cables.

@@ -31,6 +31,17 @@ pub struct RequiredLoads {
     pub velocity_w: Vec3,
     /// Half widths of the angular velocity, world axes [rad/s], not negative; no load either.
     pub angular_velocity_w: Vec3,
+    /// Shape of the set of velocities, and of that of angular velocities.
+    pub velocity_shape: LoadShape,
+}
+
+/// Set of twists: of a velocity and an angular velocity, each in a box or in an ellipsoid of its own.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TwistSet {
+    /// Half widths or half axes, world axes [m/s, rad/s], not negative.
+    pub half_widths: Vec6,
+    /// Shape of either part.
+    pub shape: LoadShape,
 }
 
 /// Payload of uncertain mass and centre of mass, carried by the platform.
@@ -89,10 +100,10 @@ impl RequiredLoads {
         no_vector && self.listed.is_empty() && self.payload.max_mass == 0.0 && self.wind_speed == 0.0
     }
 
-    /// Half widths of the box of twists that the winches have to give: velocity of the platform origin [m/s], then
-    /// angular velocity [rad/s], world axes.
-    pub fn twists_w(&self) -> Vec6 {
-        stacked(&self.velocity_w, &self.angular_velocity_w)
+    /// Twists that the winches have to give: velocity of the platform origin [m/s], then angular velocity [rad/s], world
+    /// axes.
+    pub fn twists_w(&self) -> TwistSet {
+        TwistSet { half_widths: stacked(&self.velocity_w, &self.angular_velocity_w), shape: self.velocity_shape }
     }
 
     /// Half widths of the box of accelerations from rest: of the platform origin [m/s²], then angular [rad/s²], world
@@ -115,6 +126,68 @@ impl RequiredLoads {
             return Err(RequiredLoadsError::TurnsPointMass);
         }
         self.listed.iter().try_for_each(|load| Ok(load.check(motion)?))
+    }
+}
+
+impl TwistSet {
+    /// Box with these half widths.
+    pub fn in_box(half_widths: Vec6) -> Self {
+        Self { half_widths, shape: LoadShape::Box }
+    }
+
+    /// True if the set has no twist but zero.
+    pub fn is_empty(&self) -> bool {
+        self.half_widths == Vec6::zeros()
+    }
+
+    /// Largest value of a linear function of the twist, given by its row: equation (40z3).
+    pub fn largest(&self, row: &Vec6) -> f64 {
+        let scaled = row.component_mul(&self.half_widths);
+        match self.shape {
+            LoadShape::Box => scaled.abs().sum(),
+            LoadShape::Ellipsoid => scaled.fixed_rows::<3>(0).norm() + scaled.fixed_rows::<3>(3).norm(),
+        }
+    }
+
+    /// Twist at which a linear function is largest; parts that do not matter are zero.
+    pub fn farthest(&self, row: &Vec6) -> Vec6 {
+        let scaled = row.component_mul(&self.half_widths);
+        let unit = match self.shape {
+            LoadShape::Box => scaled.map(|of| if of == 0.0 { 0.0 } else { of.signum() }),
+            LoadShape::Ellipsoid => {
+                let [linear, angular] = [0, 3].map(|from| {
+                    let part: Vec3 = scaled.fixed_rows::<3>(from).into();
+                    part.try_normalize(0.0).unwrap_or_else(Vec3::zeros)
+                });
+                stacked(&linear, &angular)
+            }
+        };
+        unit.component_mul(&self.half_widths)
+    }
+
+    /// Twists at the corners of the box of the half widths, moved into the set: all corners of a box, and points of the
+    /// surface of an ellipsoid in every octant.
+    pub(crate) fn corners(&self) -> impl Iterator<Item = Vec6> + use<> {
+        let half_widths = self.half_widths;
+        let inside = match self.shape {
+            LoadShape::Box => Vec6::repeat(1.0),
+            LoadShape::Ellipsoid => {
+                let part = |from: usize| {
+                    let count = (from..from + 3).filter(|axis| half_widths[*axis] > 0.0).count();
+                    Vec3::repeat((count.max(1) as f64).sqrt().recip())
+                };
+                stacked(&part(0), &part(3))
+            }
+        };
+        let axes: Vec<usize> = (0..6).filter(|axis| half_widths[*axis] > 0.0).collect();
+        (0..1_usize << axes.len()).map(move |corner| {
+            let mut twist_w = Vec6::zeros();
+            for (bit, axis) in axes.iter().enumerate() {
+                let side = if corner >> bit & 1 == 0 { 1.0 } else { -1.0 };
+                twist_w[*axis] = side * inside[*axis] * half_widths[*axis];
+            }
+            twist_w
+        })
     }
 }
 

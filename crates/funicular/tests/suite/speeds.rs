@@ -3,7 +3,7 @@
 
 use funicular::gradient::LengthRates;
 use funicular::math::{Vec3, Vec6};
-use funicular::robot::{LimitOfWinch, Pose, Robot, State, WinchLimits};
+use funicular::robot::{LimitOfWinch, LoadShape, Pose, Robot, State, TwistSet, WinchLimits};
 use funicular::speeds::WinchSpeeds;
 use funicular::statics::{self, Equilibrium, StaticModel, TensionRule};
 use proptest::prelude::*;
@@ -221,8 +221,8 @@ proptest! {
     ) {
         let speeds = limited(efficiency, damping, &limits);
         let half_widths = Vec6::from(half_widths);
-        let factor = speeds.factor(&half_widths);
-        let powers = speeds.powers(&half_widths);
+        let boxed = TwistSet::in_box(half_widths);
+        let (factor, powers) = (speeds.factor(&boxed), speeds.powers(&boxed));
         let most_used = |twist_w: &Vec6| {
             speeds.winches().iter().fold(0.0_f64, |most, winch| {
                 let speed = winch.by_twist.dot(twist_w);
@@ -239,7 +239,7 @@ proptest! {
                 prop_assert!(sum.braking <= powers.braking * (1.0 + 1e-12));
             }
             for winch in speeds.winches() {
-                let worst = winch.worst_in(&half_widths);
+                let worst = winch.worst_in(&boxed);
                 let speed = winch.by_twist.dot(&twist_w);
                 let motor = winch.winch.motor(winch.tension, speed, 0.0);
                 prop_assert!(speed.abs() <= worst.speed * (1.0 + 1e-12));
@@ -259,5 +259,62 @@ proptest! {
         let corner = speeds.winches()[i].by_twist.map(f64::signum).component_mul(&half_widths);
         let beyond = [1.0, -1.0].map(|sign| most_used(&(corner * (sign * factor.value * (1.0 + 1e-6) + sign * 1e-9))));
         prop_assert!(beyond[0].max(beyond[1]) > 1.0);
+    }
+}
+
+/// Twists of two unit balls, of velocities and angular velocities: many inside, and many on both surfaces.
+fn twists_in_balls(count: usize) -> impl Iterator<Item = Vec6> {
+    // Fractions of irrational numbers fill the cube evenly.
+    let ways = [2.0_f64, 3.0, 5.0, 7.0, 11.0, 13.0].map(f64::sqrt);
+    (1..=count).map(move |k| {
+        let of = |axis: usize| 2.0 * (k as f64 * ways[axis]).fract() - 1.0;
+        let ball = |from: usize| {
+            let point = Vec3::new(of(from), of(from + 1), of(from + 2));
+            if k % 2 == 0 || point.norm() > 1.0 { point.normalize() } else { point }
+        };
+        let (linear, angular) = (ball(0), ball(3));
+        Vec6::new(linear.x, linear.y, linear.z, angular.x, angular.y, angular.z)
+    })
+}
+
+/// In ellipsoids the largest speed is reached and no twist exceeds it; with equal half axes it is the speed times the
+/// length of the rates. Sums of powers found by the ascent are never below those of the samples.
+#[test]
+fn ellipsoids_are_judged_by_their_worst_twist() {
+    let pose = Pose::new([1.0, 1.0, 1.5], [3.0, -2.0, 10.0]);
+    let robot = cogiro("gear_ratio = 3\ngear_efficiency = 0.9");
+    let rest = at(&robot, &pose, &TensionRule::Lowest);
+    let speeds = WinchSpeeds::at(&robot, &rest, None).unwrap();
+    for half_widths in [[1.5, 1.5, 1.5, 0.0, 0.0, 0.0], [1.0, 0.5, 0.0, 0.1, 0.2, 0.3], [0.0, 0.0, 0.0, 0.2, 0.2, 0.2]]
+    {
+        let half_widths = Vec6::from(half_widths);
+        let set = TwistSet { half_widths, shape: LoadShape::Ellipsoid };
+        let boxed = TwistSet::in_box(half_widths);
+        for winch in speeds.winches() {
+            let most = winch.speed_in(&set);
+            let farthest = set.farthest(&winch.by_twist);
+            assert!((winch.by_twist.dot(&farthest) / most - 1.0).abs() < 1e-12, "it is reached");
+            let scaled = farthest.zip_map(&half_widths, |of, half| if half > 0.0 { of / half } else { 0.0 });
+            assert!(scaled.fixed_rows::<3>(0).norm() < 1.0 + 1e-12 && scaled.fixed_rows::<3>(3).norm() < 1.0 + 1e-12);
+            let sampled = twists_in_balls(4000).map(|unit| winch.by_twist.dot(&unit.component_mul(&half_widths)).abs());
+            let sampled = sampled.fold(0.0, f64::max);
+            assert!(sampled <= most * (1.0 + 1e-12) && sampled > 0.9 * most, "{sampled} of {most}");
+            assert!(most <= winch.speed_in(&boxed) * (1.0 + 1e-12));
+        }
+        if half_widths[3] == 0.0 {
+            let winch = &speeds.winches()[0];
+            let length = winch.by_twist.fixed_rows::<3>(0).norm();
+            assert!((winch.speed_in(&set) - 1.5 * length).abs() < 1e-12);
+        }
+        let powers = speeds.powers(&set);
+        let mut sampled = [0.0_f64; 2];
+        for unit in twists_in_balls(4000) {
+            let of = speeds.powers_at(&unit.component_mul(&half_widths));
+            sampled = [sampled[0].max(of.driving), sampled[1].max(of.braking)];
+        }
+        for (most, sampled) in [powers.driving, powers.braking].into_iter().zip(sampled) {
+            assert!(sampled <= most * (1.0 + 1e-9) && sampled > 0.85 * most, "{sampled} of {most}");
+        }
+        assert!(speeds.factor(&set).value >= speeds.factor(&boxed).value * (1.0 - 1e-12));
     }
 }

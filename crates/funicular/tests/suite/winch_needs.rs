@@ -2,7 +2,7 @@
 //! accelerations against differences of lengths, required wind, loads that are not held.
 
 use funicular::math::{Rotation, Vec3, Vec6};
-use funicular::robot::{Load, Pose, Robot, State};
+use funicular::robot::{Load, LoadShape, Pose, Robot, State};
 use funicular::speeds::WinchSpeeds;
 use funicular::statics::{self, CableState, Equilibrium, StaticModel, TensionRule};
 use funicular::winch_needs::{WinchNeed, WinchNeeds, WinchNeedsError};
@@ -251,4 +251,41 @@ fn a_load_that_is_not_held_is_named() {
         "{error}"
     );
     assert!(error.to_string().contains("100000.0, 0.0, 0.0) N"), "{error}");
+}
+
+/// Velocities in a ball: the speed of the tripod is that of the rope's own direction, and the bend of a rope across it;
+/// with turns as well no sampled twist bends more, and one bends nearly as much.
+#[test]
+fn needs_in_a_ball_of_velocities_are_those_of_its_worst_twist() {
+    let mut robot = tripod(60.0);
+    robot.required.velocity_w = Vec3::repeat(2.0);
+    robot.required.velocity_shape = LoadShape::Ellipsoid;
+    for cable in &needs(&robot, &Pose::new([0.0; 3], [0.0; 3])).cables {
+        let value = |need| cable.of(need).unwrap().value;
+        // Any direction with 2 m/s; ropes of 5 m.
+        assert!((value(WinchNeed::Speed) / 2.0 - 1.0).abs() < 1e-7);
+        assert!((value(WinchNeed::Acceleration) / (4.0 / 5.0) - 1.0).abs() < 1e-7);
+    }
+
+    let mut robot = Robot::from_toml(funicular_robots::COGIRO_WINCHES).unwrap();
+    let (half, turn) = (Vec3::new(1.0, 0.7, 0.4), Vec3::new(0.3, 0.3, 0.6));
+    robot.required.velocity_w = half;
+    robot.required.angular_velocity_w = turn;
+    robot.required.velocity_shape = LoadShape::Ellipsoid;
+    let pose = Pose::new([0.5, 1.0, 1.5], [0.0, 0.0, 4.0]);
+    let found = needs(&robot, &pose);
+    let rest = statics::solve_at(&robot, &State::Pose(pose), StaticModel::Catenary, &RULE).unwrap().equilibrium;
+    for (cable, state) in found.cables.iter().zip(&rest.cables) {
+        let need = cable.of(WinchNeed::Acceleration).unwrap();
+        let mut sampled = 0.0_f64;
+        for k in 1..4000 {
+            let of = |root: f64| 2.0 * (f64::from(k) * root.sqrt()).fract() - 1.0;
+            let [v, w] = [[2.0, 3.0, 5.0], [7.0, 11.0, 13.0]].map(|roots| Vec3::from(roots.map(of)).normalize());
+            let twist = Vec6::new(v.x * half.x, v.y * half.y, v.z * half.z, w.x * turn.x, w.y * turn.y, w.z * turn.z);
+            sampled = sampled.max(bend(state, &twist));
+        }
+        let reached = bend(state, &need.twist_w);
+        assert!(sampled < need.value * (1.0 + 1e-6) && sampled > 0.8 * need.value, "{sampled} of {}", need.value);
+        assert!((reached / need.value - 1.0).abs() < 1e-4, "{reached} at the twist of {}", need.value);
+    }
 }

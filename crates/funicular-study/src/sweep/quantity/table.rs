@@ -302,7 +302,7 @@ pub(super) static TABLE: &[Definition] = &[
         needs: RequiredModel::HeldPose,
         columns: |_, _| one("speed_factor", "1", "largest multiple of the required velocities that the winches allow"),
         values: |row, _, out| {
-            let found = row.of_required_speeds(|speeds, half_widths| speeds.factor(half_widths).value);
+            let found = row.of_required_speeds(|speeds, twists| speeds.factor(twists).value);
             row.push(Some(found), out);
         },
         ..Definition::PLAIN
@@ -338,7 +338,7 @@ pub(super) static TABLE: &[Definition] = &[
         needs: RequiredModel::HeldPose,
         columns: |_, _| one("motor_power_w", "W", "power of all motors that drive, at the worst required velocity"),
         values: |row, _, out| {
-            let found = row.of_required_speeds(|speeds, half_widths| speeds.powers(half_widths).driving);
+            let found = row.of_required_speeds(|speeds, twists| speeds.powers(twists).driving);
             row.push(Some(found), out);
         },
         ..Definition::PLAIN
@@ -351,7 +351,7 @@ pub(super) static TABLE: &[Definition] = &[
         needs: RequiredModel::HeldPose,
         columns: |_, _| one("brake_power_w", "W", "power of all motors that brake, at the worst required velocity"),
         values: |row, _, out| {
-            let found = row.of_required_speeds(|speeds, half_widths| speeds.powers(half_widths).braking);
+            let found = row.of_required_speeds(|speeds, twists| speeds.powers(twists).braking);
             row.push(Some(found), out);
         },
         ..Definition::PLAIN

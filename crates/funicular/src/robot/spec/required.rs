@@ -13,6 +13,12 @@ const SHAPES: &[(&str, &str)] = &[
     ("ellipsoid", "ellipsoid with these half axes; a ball if they are equal"),
 ];
 
+/// Words of `velocity_shape`.
+const VELOCITY_SHAPES: &[(&str, &str)] = &[
+    ("box", "largest along all axes at once"),
+    ("ellipsoid", "half axes of an ellipsoid; every direction up to one speed if they are equal"),
+];
+
 /// Keys of `[required]`.
 pub(super) const REQUIRED: &[Key] = &[
     Key::numeric(
@@ -119,6 +125,13 @@ pub(super) const REQUIRED: &[Key] = &[
         "largest required angular velocity, both ways about each world axis; for `speeds`, it is no load",
     )
     .or([0.0; 3]),
+    Key::other(
+        "velocity_shape",
+        "velocity_shape = \"box\"",
+        KeyValue::Word(VELOCITY_SHAPES),
+        "shape of the set of velocities, and of that of angular velocities",
+    )
+    .without(Absent::DefaultWord("box")),
 ];
 
 /// Reads `[required]` and `[[required_loads]]`.
@@ -135,7 +148,8 @@ pub(super) fn read(
     let table = reader.table("required", "[required]", value)?;
     let section = reader.open("[required]", value.span(), table, REQUIRED);
 
-    let shape = reader.word(&section, "shape");
+    let [shape, velocity_shape] = ["shape", "velocity_shape"].map(|key| reader.word(&section, key));
+    let shape_of = |word| if word == "ellipsoid" { LoadShape::Ellipsoid } else { LoadShape::Box };
     let mut vector = |key: &str| reader.vector_or_default(&section, key).map(Vec3::from);
     let (force_w, moment_w) = (vector("force_n"), vector("moment_n_m"));
     let (center_p, center_reach_p) = (vector("payload_center_m"), vector("payload_center_reach_m"));
@@ -151,7 +165,7 @@ pub(super) fn read(
         center_reach_p: center_reach_p?,
     };
     let required = RequiredLoads {
-        shape: if shape? == "ellipsoid" { LoadShape::Ellipsoid } else { LoadShape::Box },
+        shape: shape_of(shape?),
         force_w: force_w?,
         moment_w: moment_w?,
         listed: listed?,
@@ -161,6 +175,7 @@ pub(super) fn read(
         wind_speed: speed?,
         velocity_w: velocity_w?,
         angular_velocity_w: angular_velocity_w?,
+        velocity_shape: shape_of(velocity_shape?),
     };
 
     // Numbers that are right by themselves, but not together.
