@@ -62,6 +62,11 @@ impl Air {
         Ok(Self { mean: robot.wind, gusts: Some(DrawnGusts::new(&field, &all, duration, seed)), places })
     }
 
+    /// Mean velocity [m/s].
+    pub(super) fn mean_w(&mut self) -> &mut Vec3 {
+        &mut self.mean.velocity_w
+    }
+
     fn at(&self, place: usize, time: f64) -> Wind {
         let gust_w = self.gusts.as_ref().map_or_else(Vec3::zeros, |gusts| gusts.at(place, time));
         Wind { velocity_w: self.mean.velocity_w + gust_w, ..self.mean }

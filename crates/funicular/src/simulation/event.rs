@@ -265,7 +265,7 @@ pub(super) struct Faulty {
 }
 
 /// Least length of a cable over that at the start.
-const LEAST_LENGTH: f64 = 0.01;
+pub(super) const LEAST_LENGTH: f64 = 0.01;
 /// Difference of lengths that counts as a jump, over the length: above the rounding of tables in micrometres.
 const JUMP: f64 = 1e-5;
 

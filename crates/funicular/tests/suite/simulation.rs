@@ -3,6 +3,7 @@
 mod drives;
 mod scenarios;
 mod small_motion;
+mod stepping;
 
 use funicular::math::{Mat3, Vec3};
 use funicular::robot::{Damping, Robot, State};
