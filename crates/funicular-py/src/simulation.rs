@@ -117,7 +117,8 @@ impl PySimulation {
         py: Python<'_>,
         change: impl Send + FnOnce(&mut SteppedSimulation) -> Result<(), StepError>,
     ) -> PyResult<()> {
-        let mut state = self.state()?;
+        let mut guard = self.state()?;
+        let state = &mut *guard;
         let changed = py.detach(|| {
             change(&mut state.simulation)?;
             state.now = state.simulation.now();
@@ -204,7 +205,8 @@ impl PySimulation {
             }
         }
 
-        let mut state = self.state()?;
+        let mut guard = self.state()?;
+        let state = &mut *guard;
         if force.is_some() || moment.is_some() {
             let mut wrench = state.simulation.held_wrench();
             if let Some(force_w) = force {
@@ -460,8 +462,8 @@ impl PySimulation {
         Ok(cut.map(|(_, name)| name.clone()).collect())
     }
 
-    /// Energies at the present time and works since the start [J]: `kinetic`, `strain`, `potential`, `winches`, `loads`,
-    /// `dissipated`, `payloads`, `defect`.
+    /// Energies at the present time and works since the start [J]: `kinetic`, `strain`, `potential`, `winches`,
+    /// `loads`, `dissipated`, `payloads`, `defect`.
     #[getter]
     fn energy_j<'py>(&self, py: Python<'py>) -> PyResult<TextKeyed<'py>> {
         let energy = self.state()?.now.energy;

@@ -89,8 +89,8 @@ impl Winding {
         }
     }
 
-    /// Takes a polynomial of the time since `from` in place of all changes; it goes on with the acceleration that it has
-    /// at `until`.
+    /// Takes a polynomial of the time since `from` in place of all changes; it goes on with the acceleration that it
+    /// has at `until`.
     pub(super) fn command(&mut self, from: f64, until: f64, coefficients: [f64; 6]) {
         let [length, ..] = coefficients;
         self.initial = length;

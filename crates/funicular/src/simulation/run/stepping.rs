@@ -1,8 +1,8 @@
 //! A simulation that advances by intervals whose inputs are known only when they begin.
 //!
 //! The integrator's own steps do not end where an interval ends, as long as the inputs go on as they were: the robot
-//! there is read off within the step. Where an input changes, the last step is cut short at that time and the next one
-//! begins there with the same size and, if nothing jumps, the same factored matrix.
+//! there is read off within the step. Where an input changes, the last step is taken again to that time, and the next
+//! one begins there with the same size and, if nothing jumps, the same factored matrix.
 
 mod events;
 mod inputs;
@@ -140,13 +140,6 @@ impl From<SimulationError> for StepError {
     }
 }
 
-/// Records from before the last step, which a step that is cut short goes back to.
-#[derive(Debug, Clone)]
-struct LookBack {
-    slack: Vec<SlackCable>,
-    off_tangent: Vec<f64>,
-}
-
 /// Simulation of a robot in intervals, with inputs and events that are known only when they come.
 ///
 /// # Example
@@ -175,15 +168,16 @@ pub struct SteppedSimulation {
     time: f64,
     /// Least unstrained lengths [m].
     least: Vec<f64>,
-    look_back: LookBack,
+    /// Records of slack cables before the last step.
+    slack_before: Vec<SlackCable>,
     fingerprint: u64,
     /// Numbers before a step.
     before: Vec<f64>,
 }
 
 impl SteppedSimulation {
-    /// Simulation that begins at `rest`. `tension_control` names the cables whose winches may be told to hold a tension,
-    /// by their indices.
+    /// Simulation that begins at `rest`. `tension_control` has the indices of the cables whose winches may be told to
+    /// hold a tension.
     ///
     /// # Errors
     /// [`SimulationError`], as those of [`Simulation::new`]; [`StepError::NoCable`].
@@ -205,17 +199,15 @@ impl SteppedSimulation {
         }
         run.breaks.clear();
         let least = |cable: &CableState| cable.unstrained_length - (1.0 - LEAST_LENGTH) * cable.free_length();
-        let mut simulation = Self {
+        Ok(Self {
             robot: robot.clone(),
             time: 0.0,
             least: rest.cables.iter().map(least).collect(),
-            look_back: LookBack { slack: run.slack.clone(), off_tangent: vec![0.0; cables] },
+            slack_before: run.slack.clone(),
             fingerprint: fingerprint(robot, rest, tension_control, settings),
             before: Vec::new(),
             run,
-        };
-        simulation.note();
-        Ok(simulation)
+        })
     }
 
     /// Present time [s].
@@ -274,39 +266,36 @@ impl SteppedSimulation {
         let goes_on = self.take_inputs(end, inputs)?;
         // A cable must not fail in a future that may not come.
         let latest = if goes_on && self.run.fuses.is_empty() { f64::INFINITY } else { end };
-        while self.run.stepper.time < end {
-            self.note();
-            self.run.advance(latest)?;
-        }
+        self.reach(end, latest)?;
         self.time = end;
         let sample = self.run.sample(end);
         if is_finite(&sample) { Ok(sample) } else { Err(StepError::Failed(self.run.too_fast(end))) }
     }
 
-    /// Notes what a step that is cut short goes back to.
-    fn note(&mut self) {
-        self.look_back.slack.clone_from(&self.run.slack);
-        for (noted, far) in self.look_back.off_tangent.iter_mut().zip(&self.run.stepper.system.far_ends) {
-            *noted = far.as_ref().map_or(0.0, |far| far.off_tangent);
+    /// Takes steps, none beyond `latest`, until the integrator is at a time or beyond it.
+    fn reach(&mut self, time: f64, latest: f64) -> Result<(), StepError> {
+        while self.run.stepper.time < time {
+            self.slack_before.clone_from(&self.run.slack);
+            self.run.advance(latest)?;
         }
+        Ok(())
     }
 
-    /// Cuts the last step short at the present time.
-    fn go_back(&mut self) {
+    /// Cuts the last step short at the present time: it is taken again from its beginning.
+    fn go_back(&mut self) -> Result<(), StepError> {
         if self.run.stepper.time <= self.time {
-            return;
+            return Ok(());
         }
-        let Some((dense, powers, books)) = self.run.last.take() else { return };
+        let Some((dense, powers, books)) = self.run.last.take() else { return Ok(()) };
         (self.run.books, self.run.powers) = (books, powers.at[0]);
-        self.run.slack.clone_from(&self.look_back.slack);
-        for (noted, far) in self.look_back.off_tangent.iter().zip(&mut self.run.stepper.system.far_ends) {
-            if let Some(far) = far {
-                far.off_tangent = *noted;
-            }
+        self.run.slack.clone_from(&self.slack_before);
+        for far in self.run.stepper.system.far_ends.iter_mut().flatten() {
+            far.off_tangent = far.off_tangent_before;
         }
-        self.run.stepper.go_back(&dense, self.time);
-        self.run.book(dense, self.time);
-        self.run.follow();
+        self.run.stepper.go_back(&dense, dense.from);
+        self.run.stepper.counts.accepted -= 1;
+        self.run.stepper.counts.rejected += 1;
+        self.reach(self.time, self.time)
     }
 
     /// New accelerations at the present time, after a jump of what acts.

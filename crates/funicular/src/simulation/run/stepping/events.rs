@@ -18,7 +18,7 @@ impl SteppedSimulation {
         event.check(&self.robot, f64::INFINITY).map_err(StepError::Event)?;
         self.check_cables(event)?;
         self.or_as_before(|simulation| {
-            simulation.go_back();
+            simulation.go_back()?;
             simulation.run.breaks.retain(|at| *at > now);
             simulation.let_happen(event)
         })

@@ -118,7 +118,7 @@ impl SteppedSimulation {
             return Ok(true);
         }
 
-        self.go_back();
+        self.go_back()?;
         let now = self.time;
         self.run.breaks.retain(|at| *at > now);
         let system = &mut self.run.stepper.system;

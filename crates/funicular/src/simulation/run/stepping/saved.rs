@@ -98,12 +98,14 @@ impl SteppedSimulation {
     fn each_number(&mut self, each: EachNumber) {
         each(&mut self.time);
         // Lists whose parts follow from numbers of the run.
-        for SlackCable { first, duration, last } in &mut self.look_back.slack {
+        for SlackCable { first, duration, last } in &mut self.slack_before {
             optional(first, each);
             each(duration);
             optional(last, each);
         }
-        self.look_back.off_tangent.iter_mut().for_each(&mut *each);
+        for far in self.run.stepper.system.far_ends.iter_mut().flatten() {
+            each(&mut far.off_tangent_before);
+        }
         self.run.with_factor(each);
         resized(&mut self.run.breaks, 0.0, each);
         self.run.breaks.iter_mut().for_each(&mut *each);
