@@ -2,12 +2,14 @@
 
 use crate::analyses::PyAnalyses;
 use crate::answers::{self, in_words};
-use crate::arrays::{Count, Matrix, PickleParts, Tensor, TextKeyed, Vector};
+use crate::arrays::{Count, Matrix, Number, PickleParts, Tensor, TextKeyed, Vector};
 use crate::errors;
 use crate::pose::PyPose;
 use crate::request::{Keywords, joined};
 use crate::robot::PyRobot;
+use crate::simulation::PySimulation;
 use funicular::cable::Sag;
+use funicular::simulation::{ElementMesh, SimulationSettings};
 use funicular::statics;
 use funicular_study::analyses;
 use funicular_study::analyses::statics::Extras;
@@ -246,6 +248,67 @@ impl PyEquilibrium {
             }
         }
         Ok(Tensor::of_rows(flat, points, 3))
+    }
+
+    /// Begins a simulation that advances by intervals, at this equilibrium.
+    ///
+    /// Parameters
+    /// ----------
+    /// tension_control
+    ///     Names of the cables whose winches may be told to hold a tension; none if not given.
+    /// tolerance_m
+    ///     Error of a position that one step may have [m]; 1e-7 if not given.
+    /// elements
+    ///     Number of elements of each rope; 3 if not given.
+    /// degree
+    ///     Degree of the polynomials of each element; 8 if not given.
+    /// damping_frequency_hz
+    ///     Frequency at which the damping ratio of the ropes holds [Hz]; the first natural frequency if not given.
+    /// stretch_damping_time_s
+    ///     Damping time of the stretch of all ropes [s] in place of that of the robot file.
+    /// hold_platform
+    ///     Hold the platform where it is, so that only the ropes move.
+    /// gust_seed
+    ///     Number from which the gusts of the wind's turbulence are drawn; the mean wind alone if not given.
+    #[pyo3(signature = (*, tension_control=None, tolerance_m=None, elements=None, degree=None,
+        damping_frequency_hz=None, stretch_damping_time_s=None, hold_platform=false, gust_seed=None))]
+    #[expect(clippy::too_many_arguments, reason = "keywords of Python")]
+    fn simulation(
+        &self,
+        py: Python<'_>,
+        tension_control: Option<Vec<String>>,
+        tolerance_m: Option<Number>,
+        elements: Option<Count>,
+        degree: Option<Count>,
+        damping_frequency_hz: Option<Number>,
+        stretch_damping_time_s: Option<Number>,
+        hold_platform: bool,
+        gust_seed: Option<Count>,
+    ) -> PyResult<PySimulation> {
+        let mut settings = SimulationSettings { platform_is_held: hold_platform, ..SimulationSettings::default() };
+        if let Some(tolerance) = tolerance_m {
+            let [least, most] = SimulationSettings::TOLERANCES;
+            settings.tolerance = tolerance.positive("tolerance_m")?;
+            if !(least..=most).contains(&settings.tolerance) {
+                let text = format!("`tolerance_m` is {} m: give {least} to {most} m", settings.tolerance);
+                return Err(errors::input(text));
+            }
+        }
+        if let Some(elements) = elements {
+            let rule = format!("give 1 to {}", ElementMesh::MAX_ELEMENTS);
+            settings.mesh.elements = elements.within("elements", 1..=ElementMesh::MAX_ELEMENTS, &rule)?;
+        }
+        if let Some(degree) = degree {
+            let rule = format!("give 1 to {}", ElementMesh::MAX_DEGREE);
+            settings.mesh.degree = degree.within("degree", 1..=ElementMesh::MAX_DEGREE, &rule)?;
+        }
+        settings.damping_frequency_hz =
+            damping_frequency_hz.map(|number| number.positive("damping_frequency_hz")).transpose()?;
+        settings.stretch_damping_time =
+            stretch_damping_time_s.map(|number| number.not_negative("stretch_damping_time_s")).transpose()?;
+        let seed = |seed: Count| seed.within("gust_seed", 0..=u32::MAX as usize, "give a whole number below 2³²");
+        settings.gust_seed = gust_seed.map(seed).transpose()?.map(|seed| seed as u64);
+        PySimulation::begun(py, &self.at_rest, &tension_control.unwrap_or_default(), settings)
     }
 
     /// Returns a dictionary with the keys of the program's JSON.

@@ -4,6 +4,7 @@ use funicular::cable_motion::CableMotionError;
 use funicular::dynamics::DynamicsError;
 use funicular::reduced_model::ReductionError;
 use funicular::response::ResponseError;
+use funicular::simulation::StepError;
 use funicular::statics::StaticsError;
 use funicular_files::FilesError;
 use funicular_study::robot_file::Refused;
@@ -87,6 +88,12 @@ pub(crate) fn of_file(error: &anyhow::Error) -> PyErr {
 /// Exception for a file that cannot be written.
 pub(crate) fn unwritable(text: String) -> PyErr {
     python::FileError::new_err(text)
+}
+
+/// Exception for a simulation in intervals that does not take an input, or cannot follow a motion.
+pub(crate) fn step(error: &StepError) -> PyErr {
+    let text = told(&error.to_string(), Words::Python);
+    if matches!(error, StepError::Failed(_)) { python::NoSolutionError::new_err(text) } else { input(text) }
 }
 
 pub(crate) fn response(error: &ResponseError) -> PyErr {

@@ -23,6 +23,7 @@ mod reading;
 mod request;
 mod robot;
 mod robot_text;
+mod simulation;
 mod sweep;
 mod texts;
 mod threads;
@@ -57,6 +58,8 @@ mod _funicular {
     use crate::reading::{argument, declarations, interval, number, numbers, suggested, unit_of_name};
     #[pymodule_export]
     use crate::robot::{PyRobot, robot_of_source};
+    #[pymodule_export]
+    use crate::simulation::PySimulation;
     #[pymodule_export]
     use crate::sweep::{PyPlan, PyTable, PyWork};
     #[pymodule_export]

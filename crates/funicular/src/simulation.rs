@@ -34,5 +34,8 @@ pub use esdirk::StepCounts;
 pub use event::{CutAt, EventFault, SimulationEvent};
 pub use planned::{CommandedLengths, without_payload};
 pub use rope::WoundLength;
-pub use run::{CableSample, RobotSample, Simulation, SlackCable};
+pub use run::{
+    CableSample, LengthCommand, RobotSample, Simulation, SlackCable, StepError, StepInputs, SteppedSimulation,
+    WrenchInput,
+};
 pub use start::{ElementMesh, LossOfMode, RestFault, SimulationError, SimulationSettings};

@@ -756,6 +756,29 @@ class Equilibrium(Analyses):
         """
         Ratios of sag to chord; NaN for a cable without tension.
         """
+    def simulation(self, /, *, tension_control: list[str] | None = None, tolerance_m: SupportsFloat | SupportsIndex | None = None, elements: SupportsIndex | None = None, degree: SupportsIndex | None = None, damping_frequency_hz: SupportsFloat | SupportsIndex | None = None, stretch_damping_time_s: SupportsFloat | SupportsIndex | None = None, hold_platform: bool = False, gust_seed: SupportsIndex | None = None) -> Simulation:
+        """
+        Begins a simulation that advances by intervals, at this equilibrium.
+
+        Parameters
+        ----------
+        tension_control
+            Names of the cables whose winches may be told to hold a tension; none if not given.
+        tolerance_m
+            Error of a position that one step may have [m]; 1e-7 if not given.
+        elements
+            Number of elements of each rope; 3 if not given.
+        degree
+            Degree of the polynomials of each element; 8 if not given.
+        damping_frequency_hz
+            Frequency at which the damping ratio of the ropes holds [Hz]; the first natural frequency if not given.
+        stretch_damping_time_s
+            Damping time of the stretch of all ropes [s] in place of that of the robot file.
+        hold_platform
+            Hold the platform where it is, so that only the ropes move.
+        gust_seed
+            Number from which the gusts of the wind's turbulence are drawn; the mean wind alone if not given.
+        """
     @property
     def stable(self, /) -> bool | None:
         """
@@ -1998,6 +2021,220 @@ class Robot(Analyses):
         References
         ----------
         docs/theory.md, section 10b.
+        """
+
+@final
+class Simulation:
+    """
+    Robot in motion that advances by intervals, with inputs and events that are known only when they come.
+
+    Made by `Equilibrium.simulation`. Arrays with one entry per cable are in the order of the file. What raises an
+    exception leaves the simulation as it was.
+    """
+    def __copy__(self, /) -> Simulation: ...
+    def __deepcopy__(self, /, memo: Any) -> Simulation: ...
+    def __repr__(self, /) -> str: ...
+    @property
+    def acceleration_m_s2(self, /) -> NDArray[float64]:
+        """
+        Acceleration of the platform origin, world axes [m/s²].
+        """
+    @property
+    def angular_acceleration_rad_s2(self, /) -> NDArray[float64]:
+        """
+        Angular acceleration of the platform, world axes [rad/s²].
+        """
+    @property
+    def angular_velocity_rad_s(self, /) -> NDArray[float64]:
+        """
+        Angular velocity of the platform, world axes [rad/s].
+        """
+    @property
+    def cable_names(self, /) -> list[str]:
+        """
+        Names of the cables, in the order of the file.
+        """
+    def change_lengths(self, /, changes_m: dict[str, Any] | ArrayLike, duration_s: SupportsFloat | SupportsIndex) -> None:
+        """
+        Lets winches at rest change lengths within a time, from rest to rest.
+
+        Parameters
+        ----------
+        changes_m
+            Changes of the unstrained lengths [m]: one per cable, or a dictionary by names.
+        duration_s
+            Duration [s].
+        """
+    def clone(self, /) -> Simulation:
+        """
+        Returns a simulation of its own in the same state.
+        """
+    def cut(self, /, cable: str, *, at_tension_n: SupportsFloat | SupportsIndex | None = None) -> None:
+        """
+        Cuts a cable at the platform, now or when its tension at either end reaches a value.
+
+        Parameters
+        ----------
+        cable
+            Name of the cable.
+        at_tension_n
+            Tension at which it fails [N]; it is cut now if not given.
+        """
+    @property
+    def cut_cables(self, /) -> list[str]:
+        """
+        Names of the cables that have been cut or have failed.
+        """
+    @property
+    def energy_j(self, /) -> dict[str, Any]:
+        """
+        Energies at the present time and works since the start [J]: `kinetic`, `strain`, `potential`, `winches`,
+        `loads`, `dissipated`, `payloads`, `defect`.
+        """
+    def hold_tensions(self, /, tensions_n: dict[str, Any] | ArrayLike, duration_s: SupportsFloat | SupportsIndex) -> None:
+        """
+        Lets winches hold tensions from now on in place of lengths, by their torque.
+
+        Parameters
+        ----------
+        tensions_n
+            Tensions at the drums [N]: one per cable, or a dictionary by names.
+        duration_s
+            Time within which the tension goes from the present one to the given one [s].
+        """
+    @property
+    def length_rate_m_s(self, /) -> NDArray[float64]:
+        """
+        Rates of the unstrained lengths [m/s].
+        """
+    def pick(self, /, mass_kg: SupportsFloat | SupportsIndex, point_m: ArrayLike | None = None, *, velocity_m_s: ArrayLike | None = None) -> None:
+        """
+        Takes a payload up now, a point mass that sticks to the platform.
+
+        Parameters
+        ----------
+        mass_kg
+            Mass of the payload [kg].
+        point_m
+            Its place in the platform frame [m]; the centre of mass if not given.
+        velocity_m_s
+            Its velocity before, world axes [m/s]; that of the platform if not given.
+        """
+    @property
+    def pose(self, /) -> Pose:
+        """
+        Pose of the platform.
+        """
+    def push(self, /, duration_s: SupportsFloat | SupportsIndex, *, force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, point_m: ArrayLike | None = None, rise_s: SupportsFloat | SupportsIndex | None = None) -> None:
+        """
+        Pushes the platform for a while from now on.
+
+        Parameters
+        ----------
+        duration_s
+            Duration [s].
+        force_n
+            Force, world axes [N].
+        moment_n_m
+            Moment, world axes [N m].
+        point_m
+            Point at which the force acts, platform frame [m]; the origin if not given.
+        rise_s
+            Time in which the push grows at its beginning and fades at its end [s]; at once if not given.
+        """
+    def release(self, /, mass_kg: SupportsFloat | SupportsIndex, point_m: ArrayLike | None = None) -> None:
+        """
+        Lets a payload go now.
+
+        Parameters
+        ----------
+        mass_kg
+            Mass of the payload, a part of the platform's mass [kg].
+        point_m
+            Its place in the platform frame [m]; the centre of mass if not given.
+        """
+    def restore(self, /, state: bytes) -> None:
+        """
+        Takes over a state that `save` returned, of a simulation with the same robot, start and settings. It goes on
+        with the same bits.
+        """
+    def save(self, /) -> bytes:
+        """
+        Returns the state as bytes, for `restore`.
+        """
+    def step(self, /, dt_s: SupportsFloat | SupportsIndex, *, lengths_m: dict[str, Any] | ArrayLike | None = None, rates_m_s: dict[str, Any] | ArrayLike | None = None, accelerations_m_s2: dict[str, Any] | ArrayLike | None = None, force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, force_rate_n_s: ArrayLike | None = None, moment_rate_n_m_s: ArrayLike | None = None, wind_m_s: ArrayLike | None = None) -> None:
+        """
+        Advances by an interval. What is left out goes on as it is: lengths with their last rates, force and moment with
+        their last rates, the wind.
+
+        Parameters
+        ----------
+        dt_s
+            Interval [s], from 1e-6 to 1.
+        lengths_m
+            Unstrained lengths at the end of the interval [m]: one per cable, or a dictionary by names.
+        rates_m_s
+            Rates of these lengths at the end [m/s]. Without them a length may change by a micrometre.
+        accelerations_m_s2
+            Accelerations of these lengths at the end [m/s²]; without them the course is a cubic polynomial.
+        force_n
+            Force on the platform at the beginning, world axes [N], besides the load of the robot.
+        moment_n_m
+            Moment at the beginning about the platform origin, world axes [N m].
+        force_rate_n_s
+            Rate of the force [N/s]; zero if a force is given without.
+        moment_rate_n_m_s
+            Rate of the moment [N m/s]; zero if a moment is given without.
+        wind_m_s
+            Mean velocity of the wind, world axes [m/s].
+
+        Raises
+        ------
+        InputError
+            An input is wrong; the simulation is as it was.
+        NoSolutionError
+            The motion cannot be followed; the simulation is as it was.
+        """
+    @property
+    def steps(self, /) -> dict[str, Any]:
+        """
+        Numbers of the integrator's own steps so far: `accepted`, `rejected`, `factored`, `evaluations`.
+        """
+    def stop(self, /, duration_s: SupportsFloat | SupportsIndex, cables: list[str] | None = None) -> None:
+        """
+        Brings winches to rest, with a continuous acceleration.
+
+        Parameters
+        ----------
+        duration_s
+            Duration [s].
+        cables
+            Names of the cables; all if not given.
+        """
+    @property
+    def tension_anchor_n(self, /) -> NDArray[float64]:
+        """
+        Tensions at the anchors [N].
+        """
+    @property
+    def tension_platform_n(self, /) -> NDArray[float64]:
+        """
+        Tensions at the platform [N].
+        """
+    @property
+    def time_s(self, /) -> float:
+        """
+        Present time [s].
+        """
+    @property
+    def unstrained_length_m(self, /) -> NDArray[float64]:
+        """
+        Unstrained lengths [m].
+        """
+    @property
+    def velocity_m_s(self, /) -> NDArray[float64]:
+        """
+        Velocity of the platform origin, world axes [m/s].
         """
 
 @final

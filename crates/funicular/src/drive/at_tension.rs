@@ -39,6 +39,8 @@ pub(crate) struct AtTension<'a, T> {
     pub(crate) anchor: &'a Anchor,
     /// Place on the pulley near which the cable is; `None` without one.
     pub(crate) contact: Option<PulleyContact>,
+    /// True if the direction of the load varies: it may then turn a swivel whose axis is along it now.
+    pub(crate) load_turns: bool,
 }
 
 /// Unknowns: change of the wrap angle [rad], swivel angle from that place [rad], unstrained length of the span [m].
@@ -91,7 +93,7 @@ impl<T: Real> AtTension<'_, T> {
     /// True if the load of the rope turns the swivel, because the axis is not along it.
     fn turns_swivel(&self, contact: &PulleyContact) -> bool {
         let up = Vec3::from_fn(|k, _| self.up_w[k].value());
-        self.load.value() > 0.0 && up.cross(&contact.axis_w).norm() > ALONG_AXIS
+        self.load.value() > 0.0 && (self.load_turns || up.cross(&contact.axis_w).norm() > ALONG_AXIS)
     }
 
     /// Load per unstrained length, world axes [N/m].
@@ -192,6 +194,7 @@ impl<'a> AtTension<'a, f64> {
             axial_stiffness: self.axial_stiffness,
             anchor: self.anchor,
             contact: self.contact,
+            load_turns: self.load_turns,
         }
     }
 

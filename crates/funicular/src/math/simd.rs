@@ -187,6 +187,14 @@ impl Lanes {
     }
 }
 
+impl Clone for Lanes {
+    fn clone(&self) -> Self {
+        let mut lanes = Self::any(self.0.len());
+        lanes.0.copy_from_slice(&self.0);
+        lanes
+    }
+}
+
 impl Drop for Lanes {
     fn drop(&mut self) {
         let lanes = std::mem::take(&mut self.0);

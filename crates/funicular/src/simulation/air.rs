@@ -67,6 +67,11 @@ impl Air {
         self.places.push(self.places[rope]);
     }
 
+    /// Mean velocity [m/s].
+    pub(super) fn mean_w(&mut self) -> &mut Vec3 {
+        &mut self.mean.velocity_w
+    }
+
     fn at(&self, place: usize, time: f64) -> Wind {
         let gust_w = self.gusts.as_ref().map_or_else(Vec3::zeros, |gusts| gusts.at(place, time));
         Wind { velocity_w: self.mean.velocity_w + gust_w, ..self.mean }

@@ -10,6 +10,7 @@ use super::system::{MotionNumbers, RopeEnd, System, six, three};
 use crate::math::{DMat, DVec, Mat3, Mat6, Vec3, inverse6, skew};
 
 /// Factored Newton matrix of the system.
+#[derive(Clone)]
 pub(super) struct Arrow {
     factors: Vec<Skyline>,
     /// The factors side by side, with the right-hand sides.
@@ -27,6 +28,7 @@ pub(super) struct Arrow {
 }
 
 /// Supports in the matrix.
+#[derive(Clone)]
 struct SupportBlock {
     /// Inverse of their own matrix.
     inverse: DMat,

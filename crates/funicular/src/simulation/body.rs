@@ -15,6 +15,25 @@ pub(super) struct Push {
     pub(super) point_p: Vec3,
 }
 
+/// Force and moment on the platform that begin at a time and change with a constant rate, about the platform's origin.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(super) struct HeldWrench {
+    pub(super) from: f64,
+    pub(super) force_w: Vec3,
+    pub(super) moment_w: Vec3,
+    /// Rates [N/s, N m/s].
+    pub(super) force_rate_w: Vec3,
+    pub(super) moment_rate_w: Vec3,
+}
+
+impl HeldWrench {
+    /// Force and moment at a time.
+    pub(super) fn at(&self, time: f64) -> [Vec3; 2] {
+        let since = time - self.from;
+        [self.force_w + self.force_rate_w * since, self.moment_w + self.moment_rate_w * since]
+    }
+}
+
 impl Push {
     /// Share of the push that acts from a time on.
     pub(super) fn share(&self, time: f64) -> f64 {
@@ -49,6 +68,8 @@ pub(super) struct MovingBody {
     pub(super) translational_damping_p: Vec3,
     pub(super) rotational_damping_p: Vec3,
     pub(super) pushes: Vec<Push>,
+    /// Load that a caller gives from step to step.
+    pub(super) held: Option<HeldWrench>,
 }
 
 /// Motion of the body: position of the centre of mass, rotation, velocity and acceleration (translation in world axes,
@@ -101,6 +122,7 @@ impl MovingBody {
             translational_damping_p: robot.platform.translational_damping_p,
             rotational_damping_p: robot.platform.rotational_damping_p,
             pushes: Vec::new(),
+            held: None,
         }
     }
 
@@ -124,6 +146,11 @@ impl MovingBody {
         force += motion.rot_wp * damping;
         moment += -self.center_p.cross(&damping) - self.rotational_damping_p.component_mul(&omega);
 
+        if let Some(held) = &self.held {
+            let [force_w, moment_w] = held.at(time);
+            force += force_w;
+            moment += to_p * moment_w - self.center_p.cross(&(to_p * force_w));
+        }
         for push in &self.pushes {
             let share = push.share(time);
             if share > 0.0 {

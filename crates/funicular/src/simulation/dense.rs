@@ -4,6 +4,7 @@ use super::system::{BODY, MotionNumbers, turn_rate};
 use crate::math::{Rotation, Vec3};
 
 /// Motion between the two ends of a step.
+#[derive(Clone)]
 pub(super) struct DenseOutput {
     pub(super) from: f64,
     pub(super) until: f64,

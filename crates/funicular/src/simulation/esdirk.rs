@@ -16,6 +16,7 @@ use super::system::{BODY, MotionNumbers, System, three, turn_rate};
 use crate::math::Vec3;
 use rolling::Rolling;
 use stage::NotSolved;
+use state::FactorPlace;
 
 /// Number of stages.
 pub(super) const STAGES: usize = 6;
@@ -80,6 +81,7 @@ pub struct StepCounts {
 }
 
 /// System with its motion at one time, which goes on in steps.
+#[derive(Clone)]
 pub(super) struct Stepper {
     pub(super) system: System,
     pub(super) time: f64,
@@ -96,6 +98,8 @@ pub(super) struct Stepper {
     arrow: Arrow,
     /// Step of the factored matrix [s].
     factored: Option<f64>,
+    /// Place at which the matrix was factored.
+    factor_place: FactorPlace,
     contraction: f64,
     stages: Vec<MotionNumbers>,
     work: MotionNumbers,
@@ -118,6 +122,7 @@ impl Stepper {
             error_before: 1.0,
             arrow,
             factored: None,
+            factor_place: FactorPlace::new(size, system.windings.len()),
             contraction: 0.1,
             stages: vec![MotionNumbers::zeros(size); STAGES],
             work: MotionNumbers::zeros(size),
@@ -236,7 +241,7 @@ impl Stepper {
     }
 
     /// Accelerations from the forces at the present places and velocities.
-    fn accelerate(&mut self) -> Result<(), TooFast> {
+    pub(super) fn accelerate(&mut self) -> Result<(), TooFast> {
         let lengths = self.system.lengths(self.time);
         let of = Newton { mass: 1.0, damping: 0.0, stiffness: 0.0 };
         self.now.a.fill(0.0);

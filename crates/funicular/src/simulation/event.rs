@@ -290,7 +290,7 @@ pub(super) struct Faulty {
 }
 
 /// Least length of a cable over that at the start.
-const LEAST_LENGTH: f64 = 0.01;
+pub(super) const LEAST_LENGTH: f64 = 0.01;
 /// Least part of a free span that a half has after a failure at a place. Ropes of 6 m with 24 nodes are followed with
 /// 0.02 of it, in 5000 steps for 0.08 s; with 0.01 some need steps below the shortest one.
 const MIN_HALF: f64 = 0.02;

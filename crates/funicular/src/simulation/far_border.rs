@@ -8,6 +8,7 @@ use super::system::{MotionNumbers, System, three};
 use crate::math::{DMat, DVec, Mat6, Vec3};
 
 /// Far end of a rope in the matrix: its own numbers z, behind them the end of the rope at the platform and the support.
+#[derive(Clone)]
 pub(super) struct FarBorder {
     border: Border,
     /// Forward solutions of the columns of z and of the support, in the order of the rope's rows.

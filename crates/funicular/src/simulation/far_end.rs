@@ -45,6 +45,8 @@ pub(super) struct FarEnd {
     pub(super) feed: Option<Feed>,
     /// Angle by which the rope leaves the wheel off its tangent, without fast waves [rad].
     pub(super) off_tangent: f64,
+    /// Value of it at the beginning of the last step [rad].
+    pub(super) off_tangent_before: f64,
 }
 
 /// Places among the coordinates of a far end: swivel (as the arc rγ), stations, integral of a servo's error, delayed
@@ -88,6 +90,7 @@ impl FarEnd {
             support: support.map(on_support),
             feed,
             off_tangent: 0.0,
+            off_tangent_before: 0.0,
         })
     }
 
@@ -100,6 +103,7 @@ impl FarEnd {
             support: Some(SupportedEnd { index: support, from_ground_w: None }),
             feed: None,
             off_tangent: 0.0,
+            off_tangent_before: 0.0,
         }
     }
 

@@ -160,12 +160,12 @@ fn rounded(square: f64, corner: f64) -> f64 {
 mod tests {
     use super::super::basis::ElementBasis;
     use super::*;
-    use std::rc::Rc;
+    use std::sync::Arc;
 
     fn rope(elements: usize, degree: usize) -> RopeMesh {
         let gravity_w = Vec3::new(0.0, 0.0, -9.81);
         RopeMesh {
-            basis: Rc::new(ElementBasis::new(degree)),
+            basis: Arc::new(ElementBasis::new(degree)),
             elements,
             mass: 0.05,
             stiffness: 2e4,

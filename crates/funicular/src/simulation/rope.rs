@@ -8,7 +8,7 @@ use super::basis::ElementBasis;
 use super::skyline::Skyline;
 use crate::math::{Mat3, Vec3};
 use crate::robot::Wind;
-use std::rc::Rc;
+use std::sync::Arc;
 
 /// Unstrained length of a rope at one time, with its rate and acceleration [m, m/s, m/s²].
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -24,7 +24,7 @@ pub struct WoundLength {
 /// Rope as a mesh; its state is kept by the system.
 #[derive(Debug, Clone)]
 pub(super) struct RopeMesh {
-    pub(super) basis: Rc<ElementBasis>,
+    pub(super) basis: Arc<ElementBasis>,
     pub(super) elements: usize,
     /// Mass per unstrained length [kg/m].
     pub(super) mass: f64,

@@ -15,6 +15,9 @@ use crate::statics::Equilibrium;
 
 mod picture;
 mod state;
+mod stepping;
+
+pub use stepping::{LengthCommand, StepError, StepInputs, SteppedSimulation, WrenchInput};
 
 const SLACK: f64 = SlackCable::TENSION;
 
@@ -87,6 +90,7 @@ pub struct SlackCable {
 /// assert!(sample.pose.position_w.z > rest.pose.position_w.z); // the lighter platform goes up
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
+#[derive(Clone)]
 pub struct Simulation {
     stepper: Stepper,
     settings: SimulationSettings,
@@ -122,11 +126,23 @@ impl Simulation {
         duration: f64,
         settings: &SimulationSettings,
     ) -> Result<Self, SimulationError> {
+        let holds_tension = |i: usize| events.iter().any(|event| event.tension_of(i).is_some());
+        Self::begun(robot, rest, events, (duration, duration), settings, &holds_tension)
+    }
+
+    /// Simulation whose gusts and events have their own durations; some winches may hold tensions.
+    fn begun(
+        robot: &Robot,
+        rest: &Equilibrium,
+        events: &[SimulationEvent],
+        (gusts, duration): (f64, f64),
+        settings: &SimulationSettings,
+        holds_tension: &dyn Fn(usize) -> bool,
+    ) -> Result<Self, SimulationError> {
         let CommandedLengths { windings, order } = CommandedLengths::new(robot, rest, events, duration)?;
         let mut breaks: Vec<f64> = windings.iter().flat_map(Winding::breaks).collect();
-        let holds_tension = |i: usize| events.iter().any(|event| event.tension_of(i).is_some());
         let parting = parting(robot, events);
-        let (stepper, losses) = at_rest(robot, rest, settings, (windings, &holds_tension), &parting, duration)?;
+        let (stepper, losses) = at_rest(robot, rest, settings, (windings, holds_tension), &parting, gusts)?;
 
         let (count, size) = (robot.cables.len(), stepper.system.size);
         let mut simulation = Self {
@@ -237,7 +253,7 @@ impl Simulation {
             if is_due {
                 self.happen()?;
             } else {
-                self.advance()?;
+                self.advance(f64::INFINITY)?;
             }
         }
     }
@@ -304,11 +320,11 @@ impl Simulation {
         Ok(())
     }
 
-    /// One step.
-    fn advance(&mut self) -> Result<(), SimulationError> {
+    /// One step, at most to a time [s].
+    fn advance(&mut self, latest: f64) -> Result<(), SimulationError> {
         let now = self.stepper.time;
         let next = self.breaks.partition_point(|at| *at <= now);
-        let until = self.breaks.get(next).copied().unwrap_or(now + 1.0);
+        let until = self.breaks.get(next).copied().unwrap_or(now + 1.0).min(latest);
         let dense = self.stepper.advance(until).map_err(|of| self.too_fast(of.time))?;
         if let Some((Fuse { event, cable, place, .. }, time)) = self.blown(&dense) {
             // Back to the time at which the cable fails.
@@ -530,7 +546,7 @@ impl Simulation {
 }
 
 /// Cable that fails at a tension.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Default)]
 struct Fuse {
     /// Index of the event.
     event: usize,

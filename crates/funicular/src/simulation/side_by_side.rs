@@ -26,6 +26,7 @@ fn packs<K: PartialEq>(keys: impl Iterator<Item = Option<K>>) -> Vec<Vec<usize>>
 }
 
 /// Up to eight ropes of one mesh, for their inner forces.
+#[derive(Clone)]
 pub(super) struct RopePack {
     ropes: Vec<usize>,
     law: StretchLaw,
@@ -35,7 +36,7 @@ pub(super) struct RopePack {
 }
 
 /// Numbers of the law of the tension, a rope in each lane.
-#[derive(Default)]
+#[derive(Clone, Default)]
 struct StretchLaw {
     /// Elements per unstrained length [1/m].
     per_length: Line,
@@ -231,14 +232,14 @@ mod tests {
     use super::*;
     use crate::math::Vec3;
     use crate::simulation::basis::ElementBasis;
-    use std::rc::Rc;
+    use std::sync::Arc;
 
     /// Ropes of two meshes, more of one than there are lanes; some are slack in parts, every second one is damped.
     pub(super) fn ropes() -> (Vec<RopeMesh>, Vec<WoundLength>, [Vec<f64>; 2], Vec<usize>) {
         let mut random = fastrand::Rng::with_seed(7);
         let (mut ropes, mut lengths, mut offsets) = (vec![], vec![], vec![]);
         let (mut x, mut v) = (vec![], vec![]);
-        let meshes = [(3, 8), (2, 5)].map(|(elements, degree)| (elements, Rc::new(ElementBasis::new(degree))));
+        let meshes = [(3, 8), (2, 5)].map(|(elements, degree)| (elements, Arc::new(ElementBasis::new(degree))));
         for i in 0..13 {
             let (elements, basis) = meshes[usize::from(i % 6 == 5)].clone();
             let rope = RopeMesh {

@@ -17,7 +17,7 @@ use crate::modes::{self, StretchOfMode};
 use crate::robot::{Cable, Control, Damping, Material, Robot, Winch};
 use crate::statics::{CableState, Equilibrium, Stability};
 use std::f64::consts::TAU;
-use std::rc::Rc;
+use std::sync::Arc;
 use thiserror::Error;
 
 /// Elements of each rope.
@@ -310,8 +310,8 @@ fn ropes(
     damping: &[RopeDamping],
     holds_tension: &dyn Fn(usize) -> bool,
 ) -> Vec<RopeMesh> {
-    let basis = Rc::new(ElementBasis::new(settings.mesh.degree));
-    let bar = Rc::new(ElementBasis::new(1));
+    let basis = Arc::new(ElementBasis::new(settings.mesh.degree));
+    let bar = Arc::new(ElementBasis::new(1));
     let mesh = |(i, cable): (usize, &Cable)| {
         let rope = &cable.material;
         // A rope without mass is one straight bar. If rope passes its far end, it has a little inertia there.
@@ -322,7 +322,7 @@ fn ropes(
         let (elements, basis) = if is_bar { (1, &bar) } else { (settings.mesh.elements, &basis) };
         let has_air = robot.wind.air_density > 0.0;
         RopeMesh {
-            basis: Rc::clone(basis),
+            basis: Arc::clone(basis),
             elements,
             mass,
             stiffness: rope.axial_stiffness,

@@ -60,6 +60,7 @@ impl MovingSupport {
 }
 
 /// Platform and ropes.
+#[derive(Clone)]
 pub(super) struct System {
     pub(super) body: MovingBody,
     pub(super) ropes: Vec<RopeMesh>,

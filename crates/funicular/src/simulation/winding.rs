@@ -1,6 +1,7 @@
 //! Unstrained length of one rope over time: changes by the winch, each with continuous rate and acceleration.
 
 use super::rope::WoundLength;
+use super::state::EachNumber;
 
 /// Course of one change of length.
 #[derive(Debug, Clone, PartialEq)]
@@ -9,6 +10,8 @@ enum LengthCourse {
     Ramp { change: f64 },
     /// Spline through changes since its beginning, from rest to rest.
     Spline(LengthSpline),
+    /// Polynomial of the time since the beginning, which goes on with the acceleration at its end.
+    Commanded([f64; 6]),
     /// Brake from a rate and an acceleration to rest.
     Brake { rate: f64, acceleration: f64 },
 }
@@ -46,12 +49,6 @@ impl Winding {
     /// From now on the length counts from a place this far from its old beginning [m].
     pub(super) fn cut_off(&mut self, length: f64) {
         self.cut_off += length;
-    }
-
-    /// Gives the numbers away that events change.
-    pub(super) fn each_number(&mut self, each: super::state::EachNumber) {
-        each(&mut self.initial);
-        each(&mut self.cut_off);
     }
 
     /// Length, rate and acceleration at a time.
@@ -97,6 +94,26 @@ impl Winding {
         if is_winding {
             let course = LengthCourse::Brake { rate: now.rate, acceleration: now.acceleration };
             self.changes.push(Change { from, until: from + duration, length: now.value, course });
+        }
+    }
+
+    /// Takes a polynomial of the time since `from` in place of all changes; it goes on with the acceleration that it
+    /// has at `until`.
+    pub(super) fn command(&mut self, from: f64, until: f64, coefficients: [f64; 6]) {
+        let [length, ..] = coefficients;
+        self.initial = length;
+        self.changes = vec![Change { from, until, length, course: LengthCourse::Commanded(coefficients) }];
+    }
+
+    /// Gives its numbers away, those of a [command](Self::command) included, to be read or replaced.
+    pub(super) fn each_number(&mut self, each: EachNumber) {
+        each(&mut self.initial);
+        each(&mut self.cut_off);
+        for Change { from, until, length, course } in &mut self.changes {
+            [from, until, length].into_iter().for_each(&mut *each);
+            if let LengthCourse::Commanded(coefficients) = course {
+                coefficients.iter_mut().for_each(&mut *each);
+            }
         }
     }
 
@@ -149,11 +166,15 @@ impl Winding {
 impl Change {
     fn at(&self, time: f64) -> WoundLength {
         let duration = self.until - self.from;
+        if let LengthCourse::Commanded(coefficients) = &self.course {
+            return commanded(coefficients, time - self.from, duration);
+        }
         let s = (time - self.from).clamp(0.0, duration);
         let [value, rate, acceleration] = match &self.course {
             LengthCourse::Ramp { change } => ramp(s / duration).map(|of| change * of),
             LengthCourse::Spline(spline) => spline.at(s),
             LengthCourse::Brake { rate, acceleration } => brake(*rate, *acceleration, s, duration),
+            LengthCourse::Commanded(_) => [0.0; 3],
         };
         let [rate, acceleration] = match &self.course {
             LengthCourse::Ramp { .. } => [rate / duration, acceleration / (duration * duration)],
@@ -173,6 +194,45 @@ impl Change {
 pub(super) fn ramp(x: f64) -> [f64; 3] {
     let rest = 1.0 - x;
     [x * x * x * (10.0 - x * (15.0 - 6.0 * x)), 30.0 * x * x * rest * rest, 60.0 * x * rest * (1.0 - 2.0 * x)]
+}
+
+/// Polynomial after a time `s`, from its end on with a constant acceleration.
+fn commanded([c0, c1, c2, c3, c4, c5]: &[f64; 6], s: f64, duration: f64) -> WoundLength {
+    let (within, beyond) = (s.min(duration), (s - duration).max(0.0));
+    let value = c0 + within * (c1 + within * (c2 + within * (c3 + within * (c4 + within * c5))));
+    let rate = c1 + within * (2.0 * c2 + within * (3.0 * c3 + within * (4.0 * c4 + within * 5.0 * c5)));
+    let acceleration = 2.0 * c2 + within * (6.0 * c3 + within * (12.0 * c4 + within * 20.0 * c5));
+    WoundLength {
+        value: value + beyond * (rate + 0.5 * beyond * acceleration),
+        rate: rate + beyond * acceleration,
+        acceleration,
+    }
+}
+
+/// Coefficients of the polynomial between two lengths with their rates, `duration` apart; of the fifth degree with both
+/// accelerations, else of the third.
+pub(super) fn between(from: &WoundLength, to: &WoundLength, duration: f64, keeps_acceleration: bool) -> [f64; 6] {
+    let (t, change) = (duration, to.value - from.value);
+    if keeps_acceleration {
+        let d = (change - t * (from.rate + 0.5 * t * from.acceleration)) / t.powi(3);
+        let e = (to.rate - from.rate - t * from.acceleration) / t.powi(2);
+        let f = (to.acceleration - from.acceleration) / t;
+        let (c3, c4, c5) = (10.0 * d - 4.0 * e + 0.5 * f, -15.0 * d + 7.0 * e - f, 6.0 * d - 3.0 * e + 0.5 * f);
+        [from.value, from.rate, 0.5 * from.acceleration, c3, c4 / t, c5 / (t * t)]
+    } else {
+        let mean = change / t;
+        let c2 = (3.0 * mean - 2.0 * from.rate - to.rate) / t;
+        let c3 = (from.rate + to.rate - 2.0 * mean) / (t * t);
+        [from.value, from.rate, c2, c3, 0.0, 0.0]
+    }
+}
+
+/// Coefficients of the polynomial that brakes to rest, as [`Winding::brake`].
+pub(super) fn braking(from: &WoundLength, duration: f64) -> [f64; 6] {
+    let (r, t) = (from.rate, duration);
+    let slope = from.acceleration * t;
+    let c3 = (-3.0 * r - 2.0 * slope) / 3.0 / (t * t);
+    [from.value, r, 0.5 * from.acceleration, c3, (2.0 * r + slope) / 4.0 / t.powi(3), 0.0]
 }
 
 /// Change, rate and acceleration after a time `s` of braking; the rate is the cubic that begins with the given rate and

@@ -4,6 +4,7 @@ mod drives;
 mod parted;
 mod scenarios;
 mod small_motion;
+mod stepping;
 
 use funicular::math::{Mat3, Vec3};
 use funicular::robot::{Damping, Robot, State};

@@ -25,6 +25,9 @@ impl Stepper {
     /// Follows how far the ropes leave their wheels off their tangents, without the fast waves of their ends.
     pub(in crate::simulation) fn follow_tangents(&mut self, lengths: &[WoundLength], duration: f64) {
         for (i, given) in lengths.iter().enumerate() {
+            if let Some(far) = &mut self.system.far_ends[i] {
+                far.off_tangent_before = far.off_tangent;
+            }
             if self.system.far_ends[i].as_ref().is_none_or(|far| far.contact.is_none()) {
                 continue;
             }

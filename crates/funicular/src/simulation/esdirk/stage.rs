@@ -61,6 +61,7 @@ impl Stepper {
                 self.counts.factored += 1;
                 self.arrow.factor(&self.system, time, &lengths, current, &self.needed, of).map_err(|_| NotSolved)?;
                 self.factored = Some(h);
+                self.factor_place.set((time, h, self.system.rotation), &lengths, current, &self.needed);
                 is_fresh = true;
             }
             self.change.copy_from_slice(&self.needed);

@@ -44,6 +44,13 @@ impl Simulation {
         is_complete && rest.next().is_none()
     }
 
+    /// Gives every number away, and the place of the factored matrix.
+    pub(super) fn with_factor(&mut self, each: EachNumber) {
+        let is_factored = self.stepper.is_factored();
+        self.each_number(each);
+        self.stepper.factor_numbers(is_factored, each);
+    }
+
     fn each_number(&mut self, each: EachNumber) {
         self.stepper.each_number(each);
         // Events that have happened are gone; those to come are known from the start.

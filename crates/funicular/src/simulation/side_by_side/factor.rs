@@ -15,6 +15,7 @@ const ENTRY: [[usize; 3]; 3] = [[0, 1, 2], [1, 3, 4], [2, 4, 5]];
 
 /// Newton's matrices of up to eight ropes of one mesh, all with a last node that is kept or all without, their factors
 /// and right-hand sides.
+#[derive(Clone)]
 pub(in crate::simulation) struct FactorPack {
     /// Ropes in the lanes.
     pub(in crate::simulation) ropes: Vec<usize>,

@@ -78,7 +78,8 @@ impl<'a> TensionCurve<'a> {
             Some(width) if self.robot().wind.velocity_w != Vec3::zeros() => self.load_in_wind(&start_w, width),
             _ => (Jet::from(at.load), at.up_w.map(Jet::from)),
         };
-        AtTension { start_w, load, up_w, axial_stiffness: at.axial_stiffness, anchor: at.anchor, contact: at.contact }
+        let (axial_stiffness, anchor, contact) = (at.axial_stiffness, at.anchor, at.contact);
+        AtTension { start_w, load, up_w, axial_stiffness, anchor, contact, load_turns: false }
     }
 
     /// Load in a wind of a cable with a drag width [m] as if it were straight, as [`Robot::line_load`]: its size, and

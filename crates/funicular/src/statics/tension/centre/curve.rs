@@ -1,12 +1,13 @@
 //! Cable whose tension along the chord varies while the pose is held, its exit point following, and its limits.
 
+mod second;
+
 use super::corners::{RoundedTension, SpanForces};
+use crate::catenary::Catenary;
 use crate::catenary::space::HangingCable;
-use crate::catenary::{Catenary, Rope};
 use crate::drive::at_tension::AtTension;
-use crate::drive::derivatives::{OuterRow, VARIABLES, place};
 use crate::drive::{BeyondExit, CableAtRest, tension_at_drum};
-use crate::math::{Mat3, Rotation, Vec3};
+use crate::math::{Mat3, Vec3};
 use crate::robot::{Cable, Pose, PulleyContact, Robot};
 use crate::statics::equilibrium::CableState;
 use crate::statics::error::StaticsError;
@@ -47,10 +48,6 @@ const HELD_SLOPE: f64 = 1e-3;
 
 /// Minimum slope of a tension by τ; see `MIN_SLOPE` in `tension/search.rs`.
 const MIN_SLOPE: f64 = 1e-3;
-
-/// Step of differences over the size of what changes. They are of the fourth order: the step leaves 1e-12 of a second
-/// derivative, and rounding leaves 1e-12.
-const PART: f64 = 1e-3;
 
 /// Cable at a pose as a curve over its tension τ parallel to the chord.
 #[derive(Debug, Clone)]
@@ -344,62 +341,6 @@ impl<'a> TensionCurve<'a> {
         force_by_tau_over_pulley(self.cable(), &self.span, contact, self.tau)
     }
 
-    /// Second derivatives of the force on the platform, as far as it acts along a vector: of [`Self::force_by_tau`] by
-    /// the outer variables of the cable at the same τ, and by τ in the place of the length. The winch and the drum side
-    /// do not count at the same τ. `None` as there.
-    pub(crate) fn second_by_outer(&self, along_w: &Vec3) -> Option<OuterRow> {
-        let contact = self.contact.filter(|_| self.has_moving_exit())?;
-        let rope = self.span.catenary.rope();
-        let mut row = [0.0; VARIABLES];
-        for (variable, by) in row.iter_mut().enumerate() {
-            let size = match variable {
-                place::REACH..place::LOAD => self.span.chord_w().norm(),
-                place::LOAD..place::AXIAL_STIFFNESS => rope.weight_per_length,
-                place::AXIAL_STIFFNESS => rope.axial_stiffness,
-                place::RADIUS => contact.radius,
-                place::LENGTH => self.tau,
-                place::DRUM_SIDE | place::COMPLIANCE => continue,
-                _ => 1.0,
-            };
-            let at = |parts: f64| {
-                let force_w = self.force_by_tau_after(contact, variable, parts * PART * size)?;
-                Some(along_w.dot(&force_w))
-            };
-            *by = (8.0 * (at(1.0)? - at(-1.0)?) - (at(2.0)? - at(-2.0)?)) / (12.0 * PART * size);
-        }
-        Some(row)
-    }
-
-    /// Derivative of the force by τ after a change of one of the variables of [`Self::second_by_outer`].
-    fn force_by_tau_after(&self, contact: PulleyContact, variable: usize, change: f64) -> Option<Vec3> {
-        let unit = |k: usize| Vec3::from_fn(|i, _| f64::from(u8::from(i == k)));
-        let mut cable = self.cable().clone();
-        let (mut load_w, mut rope, mut tau) = (self.span.load_w(), self.span.catenary.rope(), self.tau);
-        match variable {
-            place::REACH..place::LOAD => cable.anchor.point_w += unit(variable - place::REACH) * change,
-            place::LOAD..place::AXIAL_STIFFNESS => load_w += unit(variable - place::LOAD) * change,
-            place::AXIAL_STIFFNESS => rope.axial_stiffness += change,
-            place::LENGTH => tau += change,
-            _ => {}
-        }
-        if let Some(pulley) = &mut cable.anchor.pulley {
-            match variable {
-                place::RADIUS => pulley.radius += change,
-                place::TURN..place::DRUM_SIDE => {
-                    let turn = Rotation::from_scaled_axis(unit(variable - place::TURN) * change);
-                    pulley.entry_direction_w = turn * pulley.entry_direction_w;
-                }
-                _ => {}
-            }
-        }
-
-        let rope = Rope { weight_per_length: load_w.norm(), ..rope };
-        let up_w = -load_w / rope.weight_per_length;
-        let span = HangingCable::with_parallel_tension(self.span.start_w, self.span.end_w, up_w, rope, tau);
-        let (span, contact) = exit_points::at_own_exit_point(&cable, &span, contact, tau);
-        force_by_tau_over_pulley(&cable, &span, contact, tau)
-    }
-
     /// Cable beyond the free span with its present tension.
     pub(crate) fn beyond_exit(&self) -> BeyondExit {
         BeyondExit::of(&self.span, &self.cable().anchor, self.contact.as_ref())
@@ -459,5 +400,6 @@ fn at_tension<'a>(cable: &'a Cable, span: &HangingCable, contact: Option<PulleyC
         axial_stiffness: rope.axial_stiffness,
         anchor: &cable.anchor,
         contact,
+        load_turns: false,
     }
 }
