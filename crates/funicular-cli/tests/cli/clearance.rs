@@ -89,9 +89,9 @@ fn a_body_between_two_points_is_the_one_that_is_turned_there() {
     assert_eq!(checked["clearance"]["obstacles_m"].as_f64(), Some(0.1));
 
     // An end is a number of the file, and the place that it stands for is none.
-    let moved = json(&["check", &file, "--set", "obstacles.guy wire.to_m.2=4"]);
+    let moved = json(&["check", &file, "--set", "obstacles.\"guy wire\".to_m.2=4"]);
     assert_eq!(moved["obstacles"][1]["to_m"][2].as_f64(), Some(4.0));
-    let refused = run(&["check", &file, "--set", "obstacles.guy wire.position_m.2=4"]);
+    let refused = run(&["check", &file, "--set", "obstacles.\"guy wire\".position_m.2=4"]);
     assert_eq!(refused.status.code(), Some(2), "{}", stderr(&refused));
 }
 

@@ -413,7 +413,7 @@ fn found(at_rest: &AtRest, request: &SimulateRequest, first: History, finer: Opt
     }
     if !first.below.is_empty() {
         let told: Vec<String> = first.below.iter().map(BelowRow::in_words).collect();
-        warnings.push(format!("{} Nothing stops it: contact is not simulated", told.join(" ")));
+        warnings.push(format!("contact is not simulated, so that nothing stops what falls: {}", told.join(" ")));
     }
     if is_statistical {
         warnings.push(

@@ -30,9 +30,11 @@ impl BelowRow {
         let word = if self.is_floor { "below" } else { "behind" };
         let [first, deepest, time] = [(self.first_s, 4), (self.deepest_m, 3), (self.deepest_s, 4)]
             .map(|(value, digits)| significant(value, digits));
+        let (initial, rest) = self.part.split_at(1);
         format!(
-            "{} is {word} the surface of \"{}\" from {first} s on, by up to {deepest} m at {time} s.",
-            self.part, self.obstacle
+            "{}{rest} is {word} the surface of \"{}\" from {first} s on, by up to {deepest} m at {time} s.",
+            initial.to_uppercase(),
+            self.obstacle
         )
     }
 }
