@@ -12,6 +12,9 @@ use std::fmt::Display;
 /// Digits of a number that is shown as it is.
 const MAX_DIGITS: usize = 12;
 
+/// Digits of a number in a table for reading whose columns do not say how many.
+const READ_DIGITS: usize = 5;
+
 /// Mark between the components of a vector in a cell, until the table of a terminal knows how wide they are.
 pub const COMPONENTS: &str = "\u{1f}";
 
@@ -534,8 +537,7 @@ impl<R> Columns<R> {
 
 /// Rows of a table: cells for files, and texts for reading.
 pub trait TableRows: Iterator<Item = Vec<Cell>> {
-    /// The rows that are left, as a table for reading; of rows that say nothing about it, with `columns` and all digits
-    /// that a table shows.
+    /// The rows that are left, as a table for reading; of rows that say nothing about it, with `columns` and five digits.
     fn reading(self: Box<Self>, columns: &[Column]) -> ReadingTable;
 }
 
@@ -610,12 +612,12 @@ impl<I: Iterator<Item = Vec<Cell>>> TableRows for CellRows<I> {
 
 fn reading_of_cells(columns: &[Column], rows: impl Iterator<Item = Vec<Cell>>) -> ReadingTable {
     let of = |column: &Column| ReadingColumn {
-        name: units::without_unit(&column.name).to_owned(),
+        name: units::without_unit(&column.name).replace('_', " "),
         unit: units::shown(&column.unit).to_owned(),
         is_text: column.kind == ColumnKind::Text,
     };
     let text = |cell: Cell| match cell {
-        Cell::Number(value) => Style::Plain.short(value, MAX_DIGITS),
+        Cell::Number(value) => Style::Plain.significant(value, READ_DIGITS),
         Cell::Count(count) => count.to_string(),
         Cell::Flag(is) => if is { "yes" } else { "no" }.to_owned(),
         Cell::Text(text) => text,

@@ -387,7 +387,7 @@ fn tables_for_papers_have_the_cells_of_the_text() {
     let at = |name: &str| folder.path().join(name).display().to_string();
     let cogiro = super::robot("cogiro.toml");
     for line in
-        [&["statics", &cogiro][..], &["modes", &cogiro, "--below-hz", "3"], &["compare", &cogiro, "--below-hz", "3"]]
+        [&["statics", &cogiro][..], &["modes", &cogiro, "--below-hz", "8"], &["compare", &cogiro, "--below-hz", "8"]]
     {
         for (name, format) in [("t.tex", "latex"), ("t.md", "markdown")] {
             succeed(&[line, &["-o", &at(name)]].concat());

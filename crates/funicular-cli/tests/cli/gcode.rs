@@ -109,7 +109,7 @@ fn distance(point: [f64; 2], line: &[([f64; 2], f64)]) -> f64 {
 
 /// Position of a row in the frame of the job [mm].
 fn place(row: &Value) -> [f64; 2] {
-    let position = numbers(&row["pose"]["position_m"]);
+    let position = numbers(&row["position_m"]);
     [1e3 * (position[0] - 2.2), 1e3 * (position[1] - 1.8)]
 }
 
@@ -123,7 +123,7 @@ fn a_job_is_followed_as_a_plain_interpreter_reads_it() {
     let folder = Folder::new();
     for job in [
         "G21 G90\nG0 X100 Y0\nG1 X300 F1500\nG3 X400 Y100 I0 J100\nG1 Y200\nG2 X300 Y300 R-100\nG0 X0 Y0\n",
-        "G20 G91 ; inches, relative\nG1 X4 Y1 F60\nG2 X2 Y2 R3 (short arc)\nG2 X0 Y0 I2 J0\nX-3\nG0 Y-2\nG3 X1 Y1 R-2.5\n",
+        "G20 G91 ; inches, relative\nG1 X4 Y1 F60\nG2 X2 Y2 R3 (short arc)\nG2 X0 Y0 I2 J0\nG1 X-3\nG0 Y-2\nG3 X1 Y1 R-2.5\n",
     ] {
         let path = folder.file("job.nc", &format!("%\n{job}M30\n"));
         let found = trajectory(&path, &["--sample-time-s", "0.05"]);
@@ -221,11 +221,14 @@ fn square() -> String {
 fn belts_go_slack_under_geometric_lengths_where_the_load_hangs_on_two_of_them() {
     let folder = Folder::new();
     let machine = folder.file("square.toml", &square());
-    let path = folder.file("way.csv", "x_m,y_m,z_m,feed_m_s\n2,2,0,0\n2.05,2,0,0.1\n");
-    let found = json(&[&["trajectory", &machine, "--path", &path], &COURSE[..]].concat());
+    let path = folder.file("way.csv", "x_m,y_m,z_m,feed_m_s\n2,2,0,0\n2,2.005,0,0.002\n");
+    let slowly = ["--speed-m-s", "0.2", "--acceleration-m-s2", "0.01", "--jerk-m-s3", "20"];
+    let found = json(&[&["trajectory", &machine, "--path", &path], &slowly[..]].concat());
     let commands = found["length_commands"].as_array().unwrap();
     assert_eq!((&commands[0]["lengths"], &commands[1]["lengths"]), (&"computed".into(), &"geometric".into()));
-    assert!(commands[0]["slack"].as_array().unwrap().is_empty() && number(&commands[0]["lowest_tension_n"]) >= 20.0);
+    assert!(
+        commands[0]["slack"].as_array().unwrap().is_empty() && number(&commands[0]["lowest_tension_n"]) > 20.0 - 1e-9
+    );
 
     // Two massless belts carry 86.3 N, the others are longer than their chords from the start on.
     let slack = commands[1]["slack"].as_array().unwrap();
@@ -238,9 +241,9 @@ fn belts_go_slack_under_geometric_lengths_where_the_load_hangs_on_two_of_them() 
     let sine = dy / length;
     let sinks = 8.8 * 9.81 / 2.0 / sine * length / 178.9e3 / sine;
     let moved = number(&commands[1]["displacement_m"]);
-    assert!((moved / sinks - 1.0).abs() < 0.05, "{moved} {sinks}");
+    assert!((moved / sinks - 1.0).abs() < 0.01, "{moved} {sinks}");
 
-    let text = succeed(&[&["trajectory", &machine, "--path", &path], &COURSE[..]].concat());
+    let text = succeed(&[&["trajectory", &machine, "--path", &path], &slowly[..]].concat());
     assert!(text.contains("cable \"bl\" goes slack at t = 0 s"), "{text}");
     assert!(text.contains("no cable goes slack; lowest tension 20.00 N"), "{text}");
 

@@ -25,7 +25,10 @@ fn every_command_runs_on_a_new_robot_at_once() {
         for line in [&["check", "-"][..], &["statics", "-"], &["modes", "-", "--below-hz", "5"], &["parameters", "-"]] {
             let output = run_with(line, &text);
             assert_eq!(output.status.code(), Some(0), "{arguments:?} {line:?}: {}", stderr(&output));
-            assert!(stderr(&output).is_empty(), "{arguments:?} {line:?}: {}", stderr(&output));
+            // A guide carries a platform that lies in its plane, which is said.
+            let is_told = |line: &&str| !(arguments.contains(&"planar-xy") && line.contains("the guide carries it"));
+            let told: Vec<&str> = stderr(&output).lines().filter(is_told).collect();
+            assert!(told.is_empty(), "{arguments:?} {line:?}: {told:?}");
         }
         assert_eq!(json_of(&["statics", "-"], &text)["stable"], true, "{arguments:?}");
     }
@@ -60,7 +63,7 @@ fn mistakes_in_the_options_of_new_say_what_to_do() {
         (&["--cables", "1"][..], "--cables 1: one cable does not keep"),
         (&["--cables", "0"], "give 2 to 64 cables"),
         (&["--cables", "many"], "invalid value 'many'"),
-        (&["--motion", "planar-xyz"], "a similar value exists: 'planar-xz'"),
+        (&["--motion", "planar-xyz"], "a similar value exists: 'planar-xy'"),
         (&["--box-m", "1,2"], "2 numbers where x,y,z are needed"),
         (&["--axial-stiffness-n", "1e6"], "give --mass-kg-per-m"),
         (&["--csv-unit", "mm"], "--csv-unit is the unit of the table of --from-csv"),
