@@ -7,7 +7,7 @@ use crate::pose::PyPose;
 use funicular::math::Vec3;
 use funicular::robot::Robot;
 use funicular::simulation::{
-    CutAt, LengthCommand, RobotSample, SimulationEvent, SimulationSettings, StepError, StepInputs, SteppedSimulation,
+    CutAt, LengthAtEnd, RobotSample, SimulationEvent, SimulationSettings, StepError, StepInputs, SteppedSimulation,
 };
 use funicular_study::at_rest::AtRest;
 use pyo3::prelude::*;
@@ -509,7 +509,7 @@ impl PySimulation {
         lengths: Option<PerCable<'_>>,
         rates: Option<PerCable<'_>>,
         accelerations: Option<PerCable<'_>>,
-    ) -> PyResult<Vec<Option<LengthCommand>>> {
+    ) -> PyResult<Vec<Option<LengthAtEnd>>> {
         let read = |what: &str, of: Option<PerCable<'_>>| {
             of.map_or_else(|| Ok(vec![None; self.names.len()]), |of| of.of(what, &self.names))
         };
@@ -520,7 +520,7 @@ impl PySimulation {
             return Ok(Vec::new());
         }
         let command = |i: usize| match (lengths[i], rates[i], accelerations[i]) {
-            (Some(length), rate, acceleration) => Ok(Some(LengthCommand { length, rate, acceleration })),
+            (Some(length), rate, acceleration) => Ok(Some(LengthAtEnd { length, rate, acceleration })),
             (None, None, None) => Ok(None),
             _ => {
                 let name = &self.names[i];

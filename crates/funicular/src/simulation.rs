@@ -35,7 +35,7 @@ pub use event::{CutAt, EventFault, SimulationEvent};
 pub use planned::{CommandedLengths, without_payload};
 pub use rope::WoundLength;
 pub use run::{
-    CableSample, LengthCommand, RobotSample, Simulation, SlackCable, StepError, StepInputs, SteppedSimulation,
+    CableSample, LengthAtEnd, RobotSample, Simulation, SlackCable, StepError, StepInputs, SteppedSimulation,
     WrenchInput,
 };
 pub use start::{ElementMesh, LossOfMode, RestFault, SimulationError, SimulationSettings};

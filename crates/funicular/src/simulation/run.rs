@@ -17,7 +17,7 @@ mod picture;
 mod state;
 mod stepping;
 
-pub use stepping::{LengthCommand, StepError, StepInputs, SteppedSimulation, WrenchInput};
+pub use stepping::{LengthAtEnd, StepError, StepInputs, SteppedSimulation, WrenchInput};
 
 const SLACK: f64 = SlackCable::TENSION;
 

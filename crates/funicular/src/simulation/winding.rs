@@ -1,7 +1,6 @@
 //! Unstrained length of one rope over time: changes by the winch, each with continuous rate and acceleration.
 
 use super::rope::WoundLength;
-use super::state::EachNumber;
 
 /// Course of one change of length.
 #[derive(Debug, Clone, PartialEq)]
@@ -106,7 +105,7 @@ impl Winding {
     }
 
     /// Gives its numbers away, those of a [command](Self::command) included, to be read or replaced.
-    pub(super) fn each_number(&mut self, each: EachNumber) {
+    pub(super) fn each_number(&mut self, each: &mut dyn FnMut(&mut f64)) {
         each(&mut self.initial);
         each(&mut self.cut_off);
         for Change { from, until, length, course } in &mut self.changes {

@@ -15,7 +15,7 @@ use crate::simulation::feed::WinchHold;
 use crate::simulation::start::{SimulationError, SimulationSettings};
 use crate::simulation::system::RopeEnd;
 use crate::statics::{CableState, Equilibrium};
-pub use inputs::{LengthCommand, StepInputs, WrenchInput};
+pub use inputs::{LengthAtEnd, StepInputs, WrenchInput};
 use saved::fingerprint;
 use thiserror::Error;
 
@@ -30,19 +30,19 @@ const GUSTS: f64 = 100.0;
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum StepError {
     /// An interval that is not one.
-    #[error("⟪dt_s⟫ is {interval} s: give {} to {} s", INTERVALS[0], INTERVALS[1])]
+    #[error("`dt_s` is {interval} s: give {} to {} s", INTERVALS[0], INTERVALS[1])]
     Interval {
         /// Given interval [s].
         interval: f64,
     },
     /// A number that is not finite.
-    #[error("⟪{key}⟫ has a number that is not finite: leave the input out, or give a number")]
+    #[error("`{key}` has a number that is not finite: leave the input out, or give a number")]
     NotFinite {
         /// Key of the input.
         key: &'static str,
     },
     /// Another number of values than there are cables.
-    #[error("⟪{key}⟫ has {given} values, and the robot has {cables} cables: give one for each")]
+    #[error("`{key}` has {given} values, and the robot has {cables} cables: give one for each")]
     Count {
         /// Key of the input.
         key: &'static str,
@@ -82,7 +82,7 @@ pub enum StepError {
     },
     /// A tension is asked of a winch that cannot hold one.
     #[error(
-        "the winch of cable \"{cable}\" does not hold a tension: name the cable in ⟪tension_control⟫ when the \
+        "the winch of cable \"{cable}\" does not hold a tension: name the cable in `tension_control` when the \
          simulation begins"
     )]
     NoTensionControl {
@@ -130,7 +130,7 @@ pub enum StepError {
     #[error("{0}")]
     Failed(SimulationError),
     /// Bytes that are no state.
-    #[error("this is no saved state of a simulation: give the bytes that ⟪save⟫ returned")]
+    #[error("this is no saved state of a simulation: give the bytes that `save` returned")]
     NotSaved,
     /// A state with other bytes than it was saved with.
     #[error("the saved state is damaged: its checksum is another one")]

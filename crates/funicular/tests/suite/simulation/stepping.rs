@@ -3,7 +3,7 @@
 use funicular::math::Vec3;
 use funicular::robot::Robot;
 use funicular::simulation::{
-    CutAt, ElementMesh, LengthCommand, RobotSample, Simulation, SimulationEvent, SimulationSettings, StepError,
+    CutAt, ElementMesh, LengthAtEnd, RobotSample, Simulation, SimulationEvent, SimulationSettings, StepError,
     StepInputs, SteppedSimulation, WrenchInput,
 };
 use funicular::statics::{self, Equilibrium, StaticModel};
@@ -48,7 +48,7 @@ fn lengths(initial: &[f64], time: f64) -> StepInputs {
     let (sin, cos) = (omega * time).sin_cos();
     let command = |(i, length): (usize, &f64)| {
         let part = size * (1.0 - 0.3 * i as f64);
-        Some(LengthCommand {
+        Some(LengthAtEnd {
             length: length + part * (1.0 - cos),
             rate: Some(part * omega * sin),
             acceleration: Some(part * omega * omega * cos),
@@ -227,7 +227,7 @@ fn refused_input_changes_nothing() {
     }
     let command = |length: f64, rate: Option<f64>| {
         let mut inputs = StepInputs { lengths: vec![None; initial.len()], ..StepInputs::default() };
-        inputs.lengths[1] = Some(LengthCommand { length, rate, acceleration: None });
+        inputs.lengths[1] = Some(LengthAtEnd { length, rate, acceleration: None });
         inputs
     };
     let few = StepInputs { lengths: vec![None], ..StepInputs::default() };

@@ -23,7 +23,7 @@ const MIN_JUMP: f64 = 1e-6;
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct StepInputs {
     /// Unstrained length that each winch is to have at the end, in file order; empty to leave all out.
-    pub lengths: Vec<Option<LengthCommand>>,
+    pub lengths: Vec<Option<LengthAtEnd>>,
     /// Force and moment on the platform besides the load of the robot file.
     pub wrench: Option<WrenchInput>,
     /// Mean velocity of the wind, world axes [m/s].
@@ -32,7 +32,7 @@ pub struct StepInputs {
 
 /// Unstrained length at the end of an interval.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct LengthCommand {
+pub struct LengthAtEnd {
     /// Length [m].
     pub length: f64,
     /// Rate at the end [m/s]; `None` for a length that does not change by more than a micrometre.
@@ -87,7 +87,7 @@ impl SteppedSimulation {
         Ok(())
     }
 
-    fn check_length(&self, cable: usize, interval: f64, command: &LengthCommand) -> Result<(), StepError> {
+    fn check_length(&self, cable: usize, interval: f64, command: &LengthAtEnd) -> Result<(), StepError> {
         let name = || self.robot.cables[cable].name.clone();
         if self.holds_tension(cable) {
             return Err(StepError::HoldsTension { cable: name() });

@@ -15,9 +15,9 @@ use crate::math::{Mat3, Vec3};
 /// Orders that are right one after the other: the derivative by τ, and that of it.
 const ORDERS: usize = 2;
 
-/// Change with the variable t of the jets.
+/// CurveChange with the variable t of the jets.
 #[derive(Debug, Clone, Copy, Default)]
-struct Change {
+struct CurveChange {
     /// Point of the pulley [m].
     reach_w: Vec3,
     /// Load per unstrained length [N/m].
@@ -34,7 +34,7 @@ impl TensionCurve<'_> {
         let contact = self.contact.filter(|_| self.has_moving_exit())?;
         let rope = self.span.catenary.rope();
         let by_tension = self.at_tension().by_tension(self.tau, rope.unstrained_length)?;
-        let by = |change: Change| self.force_by_tau_along(&change, along_w, &by_tension.inverse);
+        let by = |change: CurveChange| self.force_by_tau_along(&change, along_w, &by_tension.inverse);
 
         // By the place of the pulley, the load and τ.
         let unit = |k: usize| Vec3::from_fn(|i, _| f64::from(u8::from(i == k)));
@@ -42,10 +42,10 @@ impl TensionCurve<'_> {
             Vec3::from_fn(|k, _| {
                 let (moved, none) = (unit(k), Vec3::zeros());
                 let (reach_w, load_w) = if is_reach { (moved, none) } else { (none, moved) };
-                by(Change { reach_w, load_w, tau: 0.0 })
+                by(CurveChange { reach_w, load_w, tau: 0.0 })
             })
         });
-        let by_tau = by(Change { tau: 1.0, ..Change::default() });
+        let by_tau = by(CurveChange { tau: 1.0, ..CurveChange::default() });
 
         // By the other variables, from the symmetries.
         let (reach_w, load_w) = (self.cable().anchor.point_w - self.span.start_w, self.span.load_w());
@@ -64,7 +64,7 @@ impl TensionCurve<'_> {
     }
 
     /// Derivative, along a change, of the force on the platform by τ, as far as it acts along a vector.
-    fn force_by_tau_along(&self, change: &Change, along_w: &Vec3, inverse: &Mat3) -> f64 {
+    fn force_by_tau_along(&self, change: &CurveChange, along_w: &Vec3, inverse: &Mat3) -> f64 {
         let fixed = self.at_tension();
         let number = |value: f64, rate: f64| Jet::<2>::of_time([value, rate, 0.0]);
         let load_w = self.span.load_w();
