@@ -168,9 +168,9 @@ fn section(
 ) -> (Result<Figure, String>, String) {
     let height = rest.equilibrium.pose.position_w.z;
     let what = if robot.required.is_empty() {
-        "positions at which tensions within their limits hold the platform"
+        "tensions within limits hold it and distances of [clearance] are kept"
     } else {
-        "positions at which all required loads are held"
+        "all required loads are held and distances of [clearance] kept"
     };
     let about = format!("Where it works at z = {} m: {what}.", significant(height, 4));
     // A thin slab about the height of the pose is enough for a section; a guide that holds z has its own plane.
