@@ -2,6 +2,7 @@
 
 use crate::figures::{self, Figure};
 use anyhow::Result;
+use funicular::math::rotation;
 use funicular::modes;
 use funicular::robot::{RequiredLoads, Robot};
 use funicular_study::Watch;
@@ -9,8 +10,8 @@ use funicular_study::analyses::winches::Winches;
 use funicular_study::analyses::{clearance, gust, loads, payload, settle, winches, workspace};
 use funicular_study::at_rest::{self, AtRest};
 use funicular_study::request::{
-    Axis, ClearanceRequest, GustRequest, LoadsRequest, PointOptions, ReportRequest, SettleRequest, WinchesRequest,
-    WorkspaceRequest,
+    Axis, ClearanceRequest, GustRequest, LoadsRequest, PointOptions, Pose, ReportRequest, SettleRequest, State,
+    WinchesRequest, WorkspaceRequest,
 };
 use funicular_study::text::significant;
 use std::time::{Duration, Instant};
@@ -68,7 +69,7 @@ impl Parts {
         let mut warnings = rest.warnings(None);
         let asks = &rest.robot.required;
         let (section, section_about) = section(request, &robot, &rest, watch);
-        let winches = winches(request, &robot, &mut warnings, watch);
+        let winches = winches(request, &rest, &mut warnings, watch);
         let answers = vec![
             ("Clearance", clearance(request, &robot, watch)),
             ("Stop", stop(request, &rest, &mut warnings)),
@@ -167,12 +168,7 @@ fn section(
     watch: &mut dyn Watch,
 ) -> (Result<Figure, String>, String) {
     let height = rest.equilibrium.pose.position_w.z;
-    let what = if robot.required.is_empty() {
-        "positions at which tensions within their limits hold the platform"
-    } else {
-        "positions at which all required loads are held"
-    };
-    let about = format!("Where it works at z = {} m: {what}.", significant(height, 4));
+    let about = format!("Positions at z = {} m", significant(height, 4));
     // A thin slab about the height of the pose is enough for a section; a guide that holds z has its own plane.
     let rises = robot.platform.motion.components().contains(&Z);
     let slab = Axis::Range { axis: "z".to_owned(), from: height - HALF_SLAB, to: height + HALF_SLAB, count: LAYERS };
@@ -188,27 +184,48 @@ fn section(
         ..WorkspaceRequest::default()
     };
     let mut until = UntilTime { inner: &*watch, end: Instant::now() + MAX_TIME };
-    let found = workspace::run(robot.clone(), &of, &mut until).and_then(|found| figures::of_sections(&found));
+    let found = workspace::run(robot.clone(), &of, &mut until);
     let late = until.is_cancelled();
     let reason = |error: anyhow::Error| {
         if late { format!("not within {} s: `workspace` finds it", MAX_TIME.as_secs()) } else { error.to_string() }
     };
-    (found.map_err(reason), about)
+    match found {
+        Ok(found) => {
+            let conditions = found.conditions.iter().map(|of| in_words(&of.to_string())).collect::<Vec<_>>().join(", ");
+            let figure = figures::of_sections(&found).map_err(|error| error.to_string());
+            (figure, format!("{about} that keep: {conditions}."))
+        }
+        Err(error) => (Err(reason(error)), format!("{about}.")),
+    }
+}
+
+/// Condition of the workspace for a reader who knows no names of quantities.
+fn in_words(condition: &str) -> String {
+    match condition {
+        "load_factor at least 1" => "all required loads are held".to_owned(),
+        "clearance_margin_m at least 0" => "every pair keeps its required distance".to_owned(),
+        other => other.to_owned(),
+    }
 }
 
 fn winches(
     request: &ReportRequest,
-    robot: &Robot,
+    rest: &AtRest,
     warnings: &mut Vec<String>,
     watch: &mut dyn Watch,
 ) -> Result<Winches, String> {
+    // Lengths that the file gives hold this pose; the winches give it again.
+    let pose = &rest.equilibrium.pose;
+    let [roll, pitch, yaw] = rotation::to_roll_pitch_yaw_deg(&pose.rot_wp);
+    let [x, y, z] = pose.position_w.into();
+    let pose = Some(Pose::Angles([x, y, z, roll, pitch, yaw]));
     let of = WinchesRequest {
         robot: request.robot.clone(),
-        state: request.state.clone(),
+        state: State { pose, lengths_m: None, hold_lengths_of_pose: false, ..request.state.clone() },
         tensions: request.tensions.clone(),
         ..WinchesRequest::default()
     };
-    let found = winches::run(robot.clone(), &of, watch).map_err(|error| error.to_string())?;
+    let found = winches::run(rest.robot.clone(), &of, watch).map_err(|error| error.to_string())?;
     warnings.extend(found.warnings.iter().cloned());
     Ok(found)
 }
