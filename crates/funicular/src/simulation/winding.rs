@@ -26,9 +26,9 @@ struct Change {
 /// Unstrained length of one rope over time.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Winding {
-    initial: f64,
+    pub(super) initial: f64,
     /// Length that has been cut off at the platform [m].
-    cut_off: f64,
+    pub(super) cut_off: f64,
     changes: Vec<Change>,
 }
 
@@ -46,12 +46,6 @@ impl Winding {
     /// From now on the length counts from a place this far from its old beginning [m].
     pub(super) fn cut_off(&mut self, length: f64) {
         self.cut_off += length;
-    }
-
-    /// Gives the numbers away that events change.
-    pub(super) fn each_number(&mut self, each: super::state::EachNumber) {
-        each(&mut self.initial);
-        each(&mut self.cut_off);
     }
 
     /// Length, rate and acceleration at a time.
