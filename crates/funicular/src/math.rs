@@ -40,6 +40,9 @@ pub type CMat6 = nalgebra::Matrix6<Complex>;
 /// Rotation from the platform frame to the world frame.
 pub type Rotation = nalgebra::UnitQuaternion<f64>;
 
+/// Rotation as a matrix.
+pub(crate) type RotationMatrix = nalgebra::Rotation3<f64>;
+
 /// Quaternion, not necessarily of a rotation.
 pub type Quaternion = nalgebra::Quaternion<f64>;
 

@@ -57,14 +57,8 @@ impl Printed for Checked {
             None => "none: analyses need --lengths-m or --pose".to_owned(),
         };
         say(format!("  state       {state}"));
-        for (line, name) in requirements(self).iter().zip(std::iter::once("required").chain(std::iter::repeat(""))) {
-            say(format!("  {name:<12}{line}"));
-        }
-        let has_bodies = !self.obstacles.is_empty() || !self.platform_bodies.is_empty();
-        match &self.clearance {
-            Some(clearance) => say(format!("  clearance   {}", clearance.text())),
-            None if has_bodies => say("  clearance   no distances required: things must not touch".to_owned()),
-            None => {}
+        for line in labelled_requirements(self) {
+            say(line);
         }
         out += &("\n".to_owned()
             + &Table::of(&CheckedRope::columns(&self.materials), &self.materials).to_string()
@@ -188,6 +182,21 @@ fn requirements(found: &Checked) -> Vec<String> {
         *first = first.trim_start_matches("or ").to_owned();
     }
     lines
+}
+
+/// Required loads, velocities and distances, as lines of the description.
+fn labelled_requirements(found: &Checked) -> Vec<String> {
+    let loads = requirements(found);
+    let label = |k: usize| if k == 0 { "required" } else { "" };
+    let loads = loads.iter().enumerate().map(|(k, line)| format!("  {:<12}{line}", label(k)));
+    loads.chain(clearance(found).map(|line| format!("  clearance   {line}"))).collect()
+}
+
+/// Required distances; `None` for a robot that is not judged by distances.
+fn clearance(found: &Checked) -> Option<String> {
+    let has_bodies = !found.obstacles.is_empty() || !found.platform_bodies.is_empty();
+    let without = || has_bodies.then(|| "no distances required: things must not touch".to_owned());
+    found.clearance.as_ref().map_or_else(without, |clearance| Some(clearance.text()))
 }
 
 /// Obstacles or bodies of the platform; empty without any.

@@ -383,6 +383,18 @@ impl History {
     }
 }
 
+/// Warning about the nearest pair if it is too near.
+fn too_near(NearestRow { t_s, margin_m, pair }: &NearestRow) -> Option<String> {
+    let pair = pair.as_deref().unwrap_or("two parts of the robot");
+    (*margin_m < 0.0).then(|| {
+        format!(
+            "{pair} are nearer than required by {} mm at {} s; the simulation goes on as if they did not touch",
+            significant(-1e3 * margin_m, 3),
+            significant(*t_s, 4)
+        )
+    })
+}
+
 fn found(at_rest: &AtRest, request: &SimulateRequest, first: History, finer: Option<&History>) -> Simulated {
     let RowNames { cables, points, .. } = RowNames::of(&at_rest.robot, &request.point);
     let has_mass = |name: &str| {
@@ -401,20 +413,8 @@ fn found(at_rest: &AtRest, request: &SimulateRequest, first: History, finer: Opt
     if at_rest.robot.cables.iter().any(|cable| cable.anchor.pulley.as_ref().is_some_and(|of| of.friction.is_some())) {
         warnings.push("the friction of pulleys is left out".to_owned());
     }
-    if let Some(NearestRow { t_s, margin_m, pair }) = &first.nearest
-        && *margin_m < 0.0
-    {
-        let pair = pair.as_deref().unwrap_or("two parts of the robot");
-        warnings.push(format!(
-            "{pair} are nearer than required by {} mm at {} s; the simulation goes on as if they did not touch",
-            significant(-1e3 * margin_m, 3),
-            significant(*t_s, 4)
-        ));
-    }
-    if !first.below.is_empty() {
-        let told: Vec<String> = first.below.iter().map(BelowRow::in_words).collect();
-        warnings.push(format!("contact is not simulated, so that nothing stops what falls: {}", told.join(" ")));
-    }
+    warnings.extend(first.nearest.as_ref().and_then(too_near));
+    warnings.extend(below::warning(&first.below));
     if is_statistical {
         warnings.push(
             "ropes with mass go slack: from the first time on at which one is taut again the history depends on the \

@@ -1,6 +1,6 @@
 //! Rotations: roll, pitch, yaw in degrees as users write them; rotation vectors for the steps of the solvers.
 
-use super::{Mat3, Rotation, Vec3};
+use super::{Mat3, Rotation, RotationMatrix, Vec3};
 
 /// Rotation `R = Rz(yaw) Ry(pitch) Rx(roll)`, angles in degrees.
 pub fn from_roll_pitch_yaw_deg(roll: f64, pitch: f64, yaw: f64) -> Rotation {
@@ -9,7 +9,7 @@ pub fn from_roll_pitch_yaw_deg(roll: f64, pitch: f64, yaw: f64) -> Rotation {
 
 /// Rotation whose axes, three unit vectors at right angles, are the columns of a matrix.
 pub(crate) fn from_axes(axes: &Mat3) -> Rotation {
-    Rotation::from_rotation_matrix(&nalgebra::Rotation3::from_matrix_unchecked(*axes))
+    Rotation::from_rotation_matrix(&RotationMatrix::from_matrix_unchecked(*axes))
 }
 
 /// Angles (roll, pitch, yaw) in degrees of `R = Rz(yaw) Ry(pitch) Rx(roll)`.

@@ -353,7 +353,7 @@ pub(super) fn at_rest(
         (0..ropes.len()).map(|i| FarEnd::of(robot, i, &rest.cables[i], holds_tension(i))).collect();
     let mut supports: Vec<MovingSupport> =
         robot.supports.iter().map(|support| MovingSupport::of(support, omega)).collect();
-    let gusty = gusty_places(&ropes, rest);
+    let air = air(robot, rest, settings, (&ropes, parting), duration)?;
 
     // Halves at the platform wait until their cables fail.
     let (mut windings, mut ends) = (windings, vec![RopeEnd::Attached; ropes.len()]);
@@ -377,13 +377,6 @@ pub(super) fn at_rest(
     };
     let offsets: Vec<usize> = ropes.iter().zip(&far_ends).map(&mut offset).collect();
 
-    let mut air = match settings.gust_seed {
-        None => Air::steady(robot.wind, robot.cables.len()),
-        Some(seed) => Air::gusty(robot, rest.pose.position_w, &gusty, (duration, seed))?,
-    };
-    for cable in parting {
-        air.add_rope_like(*cable);
-    }
     let mut system = System {
         body,
         ends,
@@ -407,6 +400,24 @@ pub(super) fn at_rest(
     }
     let_go(robot, &mut stepper, holds_tension);
     Ok((stepper, losses))
+}
+
+/// Wind over time at the platform, at the ropes of the cables, and at the halves of those that may fail at a place.
+fn air(
+    robot: &Robot,
+    rest: &Equilibrium,
+    settings: &SimulationSettings,
+    (ropes, parting): (&[RopeMesh], &[usize]),
+    duration: f64,
+) -> Result<Air, SimulationError> {
+    let mut air = match settings.gust_seed {
+        None => Air::steady(robot.wind, robot.cables.len()),
+        Some(seed) => Air::gusty(robot, rest.pose.position_w, &gusty_places(ropes, rest), (duration, seed))?,
+    };
+    for cable in parting {
+        air.add_rope_like(*cable);
+    }
+    Ok(air)
 }
 
 /// Most likely reason why a robot does not come to rest.

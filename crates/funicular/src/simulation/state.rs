@@ -49,7 +49,10 @@ impl System {
             far.each_number(each);
         }
         if !self.halves.is_empty() {
-            self.windings.iter_mut().for_each(|winding| winding.each_number(each));
+            for winding in &mut self.windings {
+                each(&mut winding.initial);
+                each(&mut winding.cut_off);
+            }
             for MovingSupport { stiffness_w, mass, .. } in &mut self.supports {
                 stiffness_w.iter_mut().for_each(&mut *each);
                 each(mass);

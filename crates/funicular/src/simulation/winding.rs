@@ -28,9 +28,9 @@ struct Change {
 /// Unstrained length of one rope over time.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Winding {
-    initial: f64,
+    pub(super) initial: f64,
     /// Length that has been cut off at the platform [m].
-    cut_off: f64,
+    pub(super) cut_off: f64,
     changes: Vec<Change>,
 }
 

@@ -39,6 +39,13 @@ impl BelowRow {
     }
 }
 
+/// Warning about everything that falls; `None` if nothing does.
+pub(super) fn warning(below: &[BelowRow]) -> Option<String> {
+    let told: Vec<String> = below.iter().map(BelowRow::in_words).collect();
+    let sentence = || format!("contact is not simulated, so that nothing stops what falls: {}", told.join(" "));
+    (!told.is_empty()).then(sentence)
+}
+
 /// Depth that counts as below: ropes and platforms that lie on a floor at the start are off it by rounding [m].
 const MIN_DEPTH: f64 = 1e-6;
 
