@@ -154,7 +154,9 @@ impl Stepper {
         /// Change below which Newton's method takes all nodes along [m]: far below their distance, far above rounding.
         const CLOSE: f64 = 1e-6;
         let mut by_ends = narrow.iter().any(Option::is_some);
-        let lengths = self.system.lengths(self.time);
+        // A table may begin with an acceleration: the rest before it has none.
+        let at_rest = |length: WoundLength| WoundLength { rate: 0.0, acceleration: 0.0, ..length };
+        let lengths: Vec<WoundLength> = self.system.lengths(self.time).into_iter().map(at_rest).collect();
         let of = Newton { mass: 0.0, damping: 0.0, stiffness: 1.0 };
         self.now.v.fill(0.0);
         self.now.a.fill(0.0);

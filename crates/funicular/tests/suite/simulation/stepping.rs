@@ -44,17 +44,29 @@ fn force(x: f64) -> StepInputs {
 
 /// Lengths of a smooth course at a time, with rates and accelerations.
 fn lengths(initial: &[f64], time: f64) -> StepInputs {
-    let (omega, size) = (20.0, 0.003);
+    let (omega, size) = (20.0, 0.001);
     let (sin, cos) = (omega * time).sin_cos();
     let command = |(i, length): (usize, &f64)| {
         let part = size * (1.0 - 0.3 * i as f64);
         Some(LengthAtEnd {
-            length: length + part * (1.0 - cos),
-            rate: Some(part * omega * sin),
-            acceleration: Some(part * omega * omega * cos),
+            length: length + part * (omega * time - sin),
+            rate: Some(part * omega * (1.0 - cos)),
+            acceleration: Some(part * omega * omega * sin),
         })
     };
     StepInputs { lengths: initial.iter().enumerate().map(command).collect(), ..StepInputs::default() }
+}
+
+/// Difference of positions [m] and largest difference of tensions [N].
+fn differences(a: &RobotSample, b: &RobotSample) -> [f64; 2] {
+    let tensions = a.cables.iter().zip(&b.cables).map(|(a, b)| (a.tension_platform - b.tension_platform).abs());
+    [(a.pose.position_w - b.pose.position_w).norm(), tensions.fold(0.0, f64::max)]
+}
+
+/// Largest stiffness of a cable along itself [N/m].
+fn stiffest(robot: &Robot, rest: &Equilibrium) -> f64 {
+    let stiffness = rest.cables.iter().zip(&robot.cables);
+    stiffness.map(|(state, cable)| cable.material.axial_stiffness / state.unstrained_length).fold(0.0, f64::max)
 }
 
 /// As long as inputs go on, the steps are those of a free run, to the last bit, wherever the intervals end.
@@ -73,6 +85,58 @@ fn intervals_without_new_inputs_are_a_free_run() {
     let counts = [stepped.run().counts(), free.counts()];
     assert_eq!(counts[0].accepted, counts[1].accepted);
     assert!(counts[0].evaluations - counts[1].evaluations < 10, "{counts:?}");
+}
+
+/// A force that is held from call to call is that of a push; its steps are as long as those of the free run.
+#[test]
+fn a_held_force_is_that_of_a_push() {
+    let (robot, rest) = robot();
+    let push = SimulationEvent::Push {
+        time: 0.0,
+        duration: 5.0,
+        rise: 0.0,
+        force_w: Vec3::new(20.0, 0.0, 0.0),
+        moment_w: Vec3::zeros(),
+        point_p: Vec3::zeros(),
+    };
+    let mut free = Simulation::new(&robot, &rest, &[push], 5.0, &settings()).unwrap();
+    let (mut stepped, _) = new();
+    for k in 0..200 {
+        let found = stepped.step(0.001, &force(20.0)).unwrap();
+        let wanted = free.at(stepped.time()).unwrap();
+        // Other ends of steps: some tolerances for the place, and these over the stretch for the tensions.
+        let [place, tension] = differences(&found, &wanted);
+        assert!(place < 2e-6, "{k}: {place:e} {tension:e}");
+        assert!(found.energy.defect().abs() < 1e-3 * found.energy.moved().max(1e-3), "{k}: {:?}", found.energy);
+    }
+    let steps = [stepped.run().counts().accepted, free.counts().accepted];
+    assert!(steps[0] < steps[1] + 5, "{steps:?}");
+}
+
+/// Lengths that are commanded every millisecond with rates and accelerations are those of a table in one run.
+#[test]
+fn commanded_lengths_are_those_of_a_table() {
+    let (robot, rest) = robot();
+    let (mut stepped, initial) = new();
+    let times: Vec<f64> = (0..=314).map(|k| 0.001 * f64::from(k)).collect();
+    let column = |i: usize| {
+        let at = |time: &f64| lengths(&initial, *time).lengths[i].unwrap().length;
+        Some(times.iter().map(at).collect())
+    };
+    let table = (0..initial.len()).map(column).collect();
+    let follow = SimulationEvent::Follow { time: 0.0, times: times.clone(), lengths: table };
+    let finer = SimulationSettings { tolerance: 1e-8, ..settings() };
+    let mut one = Simulation::new(&robot, &rest, &[follow], 1.0, &finer).unwrap();
+    for time in &times[1..300] {
+        let found = stepped.step(0.001, &lengths(&initial, *time)).unwrap();
+        let wanted = one.at(*time).unwrap();
+        let [place, tension] = differences(&found, &wanted);
+        assert!(place < 2e-5 && tension < 2e-5 * stiffest(&robot, &rest), "{time}: {place:e} {tension:e}");
+        assert!((stepped.time() - time).abs() < 1e-12);
+    }
+    // One step an interval, each with the factor of the one before.
+    let counts = stepped.run().counts();
+    assert!(counts.accepted < 330 && counts.factored < 200, "{counts:?}");
 }
 
 /// Inputs and events of a lively course at interval `k`.
