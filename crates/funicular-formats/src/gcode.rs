@@ -1,8 +1,8 @@
-//! Jobs in G-code (RS274/NGC, as LinuxCNC, Grbl and Maslow read it): moves and arcs with feed rates become the columns of
-//! a path of moves.
+//! Jobs in G-code (RS274/NGC, as LinuxCNC, Grbl and Maslow read it): moves and arcs with feed rates become the columns
+//! of a path of moves.
 //!
-//! Followed are G0 to G3 with I, J, K or R, G17 to G19, G20, G21, G90, G91, G90.1, G91.1 and F; words of spindle, coolant
-//! and tool are passed over and counted. Any other word is refused with its line.
+//! Followed are G0 to G3 with I, J, K or R, G17 to G19, G20, G21, G90, G91, G90.1, G91.1 and F; words of spindle,
+//! coolant and tool are passed over and counted. Any other word is refused with its line.
 
 mod arcs;
 mod words;
@@ -16,8 +16,8 @@ use words::{Block, block};
 /// Endings of the names of files that are jobs in G-code.
 const ENDINGS: [&str; 7] = ["nc", "gcode", "ngc", "tap", "gco", "cnc", "g"];
 
-/// Columns of a path of moves: where each ends in the frame of the job, its feed rate (0 for a rapid move), and for arcs
-/// the centre and the angle about each axis.
+/// Columns of a path of moves: where each ends in the frame of the job, its feed rate (0 for a rapid move), and for
+/// arcs the centre and the angle about each axis.
 pub const COLUMNS: [&str; 10] = [
     "job_x_m",
     "job_y_m",

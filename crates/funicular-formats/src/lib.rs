@@ -3,7 +3,8 @@
 //! [`import`] makes a robot file of their descriptions of a robot, and [`new_robot`] one to start from. [`export`]
 //! writes the robot at rest for them. [`measurements`] reads measured responses and frequencies for `identify`, and
 //! [`uff_writing`] writes computed ones in the same format. [`fmu`] makes units of simulations of reduced models.
-//! [`number_columns`] reads tables of numbers, [`gcode`] jobs of machine tools, [`belt_lengths`] readings of a machine, and [`surface`] writes the surfaces of workspaces. Requests and results
+//! [`number_columns`] reads tables of numbers, [`gcode`] jobs of machine tools, [`belt_lengths`] readings of a machine,
+//! and [`surface`] writes the surfaces of workspaces. Requests and results
 //! are those of [`funicular_study`].
 
 pub mod belt_lengths;

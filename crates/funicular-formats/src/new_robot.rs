@@ -156,7 +156,10 @@ fn side_of_box(side: f64) -> Result<f64, String> {
 fn unlikely_unit(cables: &[CablePoints]) -> Option<String> {
     let largest = cables.iter().flat_map(|cable| [cable.anchor.amax(), cable.attachment.amax()]).fold(0.0, f64::max);
     (largest > UNLIKELY_M).then(|| {
-        format!("the table has a coordinate of {largest} m; if the table is in millimetres or inches, give ⟪csv_unit⟫ mm or in")
+        format!(
+            "the table has a coordinate of {largest} m; if the table is in millimetres or inches, give ⟪csv_unit⟫ mm \
+             or in"
+        )
     })
 }
 

@@ -537,7 +537,8 @@ impl<R> Columns<R> {
 
 /// Rows of a table: cells for files, and texts for reading.
 pub trait TableRows: Iterator<Item = Vec<Cell>> {
-    /// The rows that are left, as a table for reading; of rows that say nothing about it, with `columns` and five digits.
+    /// The rows that are left, as a table for reading; of rows that say nothing about it, with `columns` and five
+    /// digits.
     fn reading(self: Box<Self>, columns: &[Column]) -> ReadingTable;
 }
 

@@ -1,5 +1,5 @@
-//! Units, which the ends of names tell: `mass_kg`, `speed_m_s`. One table for help texts, columns, figures and Python. A second one has
-//! the units that tables may have instead.
+//! Units, which the ends of names tell: `mass_kg`, `speed_m_s`. One table for help texts, columns, figures and Python.
+//! A second one has the units that tables may have instead.
 
 use serde_json::{Map, Value};
 

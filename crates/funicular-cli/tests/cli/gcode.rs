@@ -123,7 +123,8 @@ fn a_job_is_followed_as_a_plain_interpreter_reads_it() {
     let folder = Folder::new();
     for job in [
         "G21 G90\nG0 X100 Y0\nG1 X300 F1500\nG3 X400 Y100 I0 J100\nG1 Y200\nG2 X300 Y300 R-100\nG0 X0 Y0\n",
-        "G20 G91 ; inches, relative\nG1 X4 Y1 F60\nG2 X2 Y2 R3 (short arc)\nG2 X0 Y0 I2 J0\nG1 X-3\nG0 Y-2\nG3 X1 Y1 R-2.5\n",
+        "G20 G91 ; inches, relative\nG1 X4 Y1 F60\nG2 X2 Y2 R3 (short arc)\n\
+         G2 X0 Y0 I2 J0\nG1 X-3\nG0 Y-2\nG3 X1 Y1 R-2.5\n",
     ] {
         let path = folder.file("job.nc", &format!("%\n{job}M30\n"));
         let found = trajectory(&path, &["--sample-time-s", "0.05"]);
@@ -145,7 +146,7 @@ fn a_job_is_followed_as_a_plain_interpreter_reads_it() {
         let end = line.last().unwrap().0;
         assert!((last[0] - end[0]).hypot(last[1] - end[1]) < 1e-6, "{job}: {last:?} {end:?}");
 
-        // The time is not below that of the feed rates, and little above it: each of the moves speeds up and slows down.
+        // The time is not below that of the feed rates, and little above it: every move speeds up and slows down.
         let length = |pair: &[([f64; 2], f64)]| (pair[1].0[0] - pair[0].0[0]).hypot(pair[1].0[1] - pair[0].0[1]);
         let least: f64 = line.windows(2).map(|pair| length(pair) / (pair[1].1 / 60.0).min(200.0)).sum();
         let duration = number(&found["duration_s"]);

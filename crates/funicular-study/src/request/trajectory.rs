@@ -14,8 +14,9 @@ declared! {
         /// Robot file.
         robot: RobotText = RobotText::default() => (Data(shape::robot)).required();
         /// Path: columns t_s [s], x_m, y_m, z_m [m] and, where the platform turns, roll_deg, pitch_deg, yaw_deg; a
-        /// spline of the fifth degree passes the rows. Or a job: G-code (.nc, .gcode, .ngc, .tap), or rows with feed_m_s [m/s]
-        /// instead of times, each a move at this speed; 0 is a rapid move, as fast as the limits of the course.
+        /// spline of the fifth degree passes the rows. Or a job: G-code (.nc, .gcode, .ngc, .tap), or rows with
+        /// feed_m_s [m/s] instead of times, each a move at this speed; 0 is a rapid move, as fast as the limits of the
+        /// course.
         path: Option<NumberColumns> = None => (Columns).under("Path").excludes(&["lengths_m"])
             .read_by(Reader::Columns, "the path");
         /// Place of the zero of a job, world axes [m].
