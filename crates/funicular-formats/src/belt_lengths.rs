@@ -1,6 +1,6 @@
 //! Readings of belt lengths as the firmware of the Maslow 4 and programs around it write them: lines
-//! `CLBM:[{bl:2960.58, br:3150.08, tr:3067.72, tl:3049.85},…]` in a log, a list of such objects in JSON, or JSON with
-//! `order` and `lengths_mm`. Lengths are in millimetres (github.com/MaslowCNC/Maslow_4, DATA-PARSER.md at abfc930).
+//! `CLBM:[{bl:2960.58, br:3150.08, tr:3067.72, tl:3049.85},…]` in a log, such objects without the mark, a list of them
+//! in JSON, or JSON with `order` and `lengths_mm`. Lengths are in millimetres (github.com/MaslowCNC/Maslow_4, DATA-PARSER.md at abfc930).
 
 use crate::measurements::check_size;
 use crate::number_columns::NumberTable;
@@ -18,10 +18,11 @@ const MILLIMETRE: f64 = 1e-3;
 /// Lengths of one row by the names of their belts [mm].
 type Lengths = BTreeMap<String, f64>;
 
-/// True for a file with such readings: JSON, or a text with a line of lengths.
+/// True for a file with such readings: JSON, a text with a line of lengths, or one that begins with an object.
 pub fn has_lengths(path: &str, bytes: &[u8]) -> bool {
     let is_json = path.rsplit_once('.').is_some_and(|(_, ending)| ending.eq_ignore_ascii_case("json"));
-    is_json || bytes.windows(MARK.len()).any(|part| part == MARK.as_bytes())
+    let first = bytes.iter().find(|byte| !byte.is_ascii_whitespace());
+    is_json || matches!(first, Some(b'{' | b'[')) || bytes.windows(MARK.len()).any(|part| part == MARK.as_bytes())
 }
 
 /// Reads the lengths of all rows as columns `length_NAME_m`; a belt that a row does not have is a gap.
@@ -39,7 +40,12 @@ pub fn has_lengths(path: &str, bytes: &[u8]) -> bool {
 pub fn read(path: &str, bytes: &[u8]) -> Result<NumberTable<Option<f64>>> {
     check_size(path, bytes.len())?;
     let text = std::str::from_utf8(bytes).map_err(|_| anyhow!("{path}: the text is not valid UTF-8"))?;
-    let rows = if text.contains(MARK) { of_log(path, text)? } else { of_json(path, text)? };
+    let rows = match (text.contains(MARK), serde_json::from_str(text)) {
+        (true, _) => of_log(path, text, false)?,
+        (false, Ok(value)) => of_json(path, &value)?,
+        (false, Err(error)) if path.to_ascii_lowercase().ends_with(".json") => bail!("{path} is no JSON: {error}"),
+        (false, Err(_)) => of_log(path, text, true)?,
+    };
     if rows.is_empty() {
         bail!("{path} has no lengths: it needs rows such as {{bl:2960.58, br:3150.08, tr:3067.72, tl:3049.85}}");
     }
@@ -53,10 +59,10 @@ pub fn read(path: &str, bytes: &[u8]) -> Result<NumberTable<Option<f64>>> {
     Ok(table)
 }
 
-/// Objects in the lines with the mark, and in those below as long as they hold objects.
-fn of_log(path: &str, text: &str) -> Result<Vec<(usize, Lengths)>> {
+/// Objects in the lines with the mark, and in those below as long as they hold objects; from the first line on if the
+/// list `is_open` there.
+fn of_log(path: &str, text: &str, mut is_open: bool) -> Result<Vec<(usize, Lengths)>> {
     let mut rows = Vec::new();
-    let mut is_open = false;
     for (number, line) in (1..).zip(text.lines()) {
         let part = match line.split_once(MARK) {
             Some((_, part)) => part,
@@ -95,11 +101,10 @@ fn lengths(inside: &str) -> Result<Lengths, String> {
 }
 
 /// Rows of a list of objects, or of lists in the order of the names.
-fn of_json(path: &str, text: &str) -> Result<Vec<(usize, Lengths)>> {
-    let value: Value = serde_json::from_str(text).map_err(|error| anyhow!("{path} is no JSON: {error}"))?;
+fn of_json(path: &str, value: &Value) -> Result<Vec<(usize, Lengths)>> {
     let names: Option<Vec<&str>> =
         value.get("order").and_then(Value::as_array).map(|names| names.iter().filter_map(Value::as_str).collect());
-    let rows = value.get("lengths_mm").unwrap_or(&value).as_array().ok_or_else(|| {
+    let rows = value.get("lengths_mm").unwrap_or(value).as_array().ok_or_else(|| {
         anyhow!("{path} has no list of lengths: give a list of objects with the length of every belt [mm] by its name")
     })?;
     let row = |(k, row): (usize, &Value)| {
@@ -134,6 +139,9 @@ mod tests {
         let plain = read("log.txt", log.as_bytes()).unwrap();
         assert_eq!(plain.columns["length_tl_m"], [Some(3049.85 * 1e-3), None]);
         assert_eq!((plain.columns.len(), &plain.lines[..]), (3, &[2, 3][..]));
+        let bare = "{bl:2960.58,   br:3150.08,   tl:3049.85},\n{bl:3066.96, br:3042.59},\n";
+        assert!(has_lengths("a.txt", bare.as_bytes()) && !has_lengths("a.csv", b"length_bl_m\n1\n"));
+        assert_eq!(read("a.txt", bare.as_bytes()).unwrap().columns, plain.columns);
         for same in [objects, lists] {
             assert!(has_lengths("a.JSON", same.as_bytes()));
             assert_eq!(read("a.json", same.as_bytes()).unwrap().columns, plain.columns);

@@ -144,8 +144,8 @@ fn lively(simulation: &mut SteppedSimulation, initial: &[f64], k: usize) -> Resu
     let time = simulation.time();
     match k {
         5 => simulation.happen(&SimulationEvent::Release { time, mass: 0.5, point_p: None })?,
-        12 => simulation.happen(&SimulationEvent::Cut { cable: 2, at: CutAt::Time(time) })?,
-        15 => simulation.happen(&SimulationEvent::Cut { cable: 3, at: CutAt::Tension(400.0) })?,
+        12 => simulation.happen(&SimulationEvent::Cut { cable: 2, at: CutAt::Time(time), place: 0.0 })?,
+        15 => simulation.happen(&SimulationEvent::Cut { cable: 3, at: CutAt::Tension(400.0), place: 0.0 })?,
         18 => simulation.happen(&SimulationEvent::Pick { time, mass: 0.5, point_p: None, velocity_w: None })?,
         24 => {
             let mut tensions = vec![None; initial.len()];
@@ -247,9 +247,10 @@ fn refused_input_changes_nothing() {
         assert!(refused.contains(text), "{refused}");
     }
     let events = [
-        (SimulationEvent::Cut { cable: 9, at: CutAt::Time(time) }, "there is no cable 9"),
-        (SimulationEvent::Cut { cable: 1, at: CutAt::Time(0.0) }, "happens at the present time"),
-        (SimulationEvent::Cut { cable: 1, at: CutAt::Tension(1.0) }, "at the start"),
+        (SimulationEvent::Cut { cable: 9, at: CutAt::Time(time), place: 0.0 }, "there is no cable 9"),
+        (SimulationEvent::Cut { cable: 1, at: CutAt::Time(time), place: 1.0 }, "fails at the platform"),
+        (SimulationEvent::Cut { cable: 1, at: CutAt::Time(0.0), place: 0.0 }, "happens at the present time"),
+        (SimulationEvent::Cut { cable: 1, at: CutAt::Tension(1.0), place: 0.0 }, "at the start"),
         (SimulationEvent::Release { time, mass: 99.0, point_p: None }, "99"),
         (SimulationEvent::Tension { time, duration: 0.1, tensions: vec![Some(9.0); 6] }, "tension_control"),
         (SimulationEvent::Follow { time, times: vec![0.0, 1.0], lengths: vec![None; 6] }, "a table"),
