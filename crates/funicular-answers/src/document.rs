@@ -1,5 +1,6 @@
 //! Commands whose result is a file itself: robot files, schemas, pages, files of other programs.
 
+use crate::outputs::clock;
 use crate::outputs::{self, size_of_page};
 use anyhow::{Result, bail};
 use funicular_files::SweepFile;
@@ -159,7 +160,7 @@ pub fn make(request: &Request, call: &str, words: Words, watch: &mut dyn Watch) 
             text(made.text, made.warnings)
         }
         Request::Report(of) if of.summary => {
-            let made = Summary::of_request(of, of.robot.read()?, call, words, watch)?;
+            let made = Summary::of_request(of, &of.robot.read()?, (call, words), watch, &clock())?;
             page(made.html()?, made.warnings)
         }
         Request::Report(of) => {

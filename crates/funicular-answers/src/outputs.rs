@@ -2,9 +2,11 @@
 //! keywords and a request in JSON its `write_files`.
 
 mod opened;
+mod rows;
 mod wanted;
 
 pub use opened::{Opened, Written, told};
+use rows::{drawn, figure, file, lengths, page, robot_file, surface_of, universal_file};
 pub use wanted::{FILES, Wanted, schema, take_wanted, wanted_to_value};
 
 use crate::destination::{Bytes, Content, Destination};
@@ -12,17 +14,14 @@ use crate::matrices;
 use anyhow::{Result, anyhow, bail};
 use funicular_files::endings::{self, Kind};
 use funicular_files::{Guard, SweepFile};
-use funicular_formats::surface::{self, SurfaceFormat};
 use funicular_formats::uff_writing::{frf_file, modes_file};
 use funicular_pages::figures::{self, Figure, RequestFigure};
 use funicular_pages::pages;
 use funicular_pages::pages::plot::SweepFigureChoice;
 use funicular_pages::pages::summary::Summary;
-use funicular_study::analyses::workspace::Workspace;
 use funicular_study::at_rest;
 use funicular_study::columns::ResultTable;
 use funicular_study::request::{OfferedWinch, Request};
-use funicular_study::text::counted;
 use funicular_study::wording::{Words, worded};
 use funicular_study::{Results, Watch};
 use serde_json::{Map, Value};
@@ -183,78 +182,6 @@ fn offered<'a>(at: &Answered<'a>) -> Result<&'a [OfferedWinch]> {
     asked!(Winches, at, of => Ok(of.offers.as_deref().unwrap_or_default()))
 }
 
-type BytesOf = fn(&Answered<'_>, Option<Kind>) -> Result<Made>;
-
-/// File that `-o` does not name by its ending. `words` are its name and its content in messages.
-const fn file(
-    key: &'static str,
-    about: &'static str,
-    words: [&'static str; 2],
-    kinds: &'static [Kind],
-    make: Make,
-) -> Output {
-    let [name, in_words] = words;
-    Output {
-        key,
-        about,
-        name,
-        in_words,
-        kinds,
-        by_ending: false,
-        several: false,
-        folder: false,
-        needs: None,
-        check: always,
-        of_request: false,
-        make,
-    }
-}
-
-const fn page(about: &'static str, make: fn(&Answered<'_>) -> Result<String>) -> Output {
-    Output { by_ending: true, ..file("page", about, ["the page", "a page"], &[Kind::Html], Make::Page(make)) }
-}
-
-const fn figure(
-    about: &'static str,
-    make: fn(&Answered<'_>, &FigureOptions, &mut dyn Watch) -> Result<Drawn>,
-) -> Output {
-    let words = ["the figure", "a figure"];
-    Output { by_ending: true, ..file("figure", about, words, &[Kind::Svg, Kind::Pdf], Make::Figure(make)) }
-}
-
-/// Figure that is made of the request alone.
-const fn drawn(
-    about: &'static str,
-    make: fn(&Answered<'_>, &FigureOptions, &mut dyn Watch) -> Result<Drawn>,
-) -> Output {
-    Output { of_request: true, ..figure(about, make) }
-}
-
-const fn robot_file(key: &'static str, about: &'static str, make: BytesOf) -> Output {
-    let words = ["the robot file", "a robot file"];
-    Output { by_ending: true, ..file(key, about, words, &[Kind::Toml], Make::Bytes(make)) }
-}
-
-const fn universal_file(make: BytesOf) -> Output {
-    let (about, words) = ("Write the result as a Universal File", ["the Universal File", "a Universal File"]);
-    Output { by_ending: true, ..file("universal_file", about, words, &[Kind::Uff], Make::Bytes(make)) }
-}
-
-const fn lengths(about: &'static str, make: BytesOf) -> Output {
-    file("lengths", about, ["the lengths", "CSV"], &[Kind::Csv], Make::Bytes(make))
-}
-
-/// Surface of a workspace in the format of its file.
-fn surface_of(found: &Workspace, kind: Option<Kind>) -> Result<Made> {
-    let format = match kind {
-        Some(Kind::Stl) => SurfaceFormat::Stl,
-        Some(Kind::Ply) => SurfaceFormat::Ply,
-        _ => SurfaceFormat::Vtp,
-    };
-    let bytes = surface::of_workspace(found, format)?;
-    Ok(Made { size: Some(counted(found.triangles.len(), "triangle")), ..bytes.into() })
-}
-
 /// Table as CSV with a header.
 ///
 /// # Errors
@@ -264,6 +191,12 @@ pub fn as_csv(ResultTable { columns, mut rows }: ResultTable<'_>) -> Result<Vec<
     table.write_record(columns.iter().map(|column| &column.name))?;
     rows.try_for_each(|row| table.serialize(row))?;
     table.into_inner().map_err(|error| anyhow!("{}", error.error()))
+}
+
+/// Clock in seconds since now, for work that ends after a time.
+pub fn clock() -> impl Fn() -> f64 {
+    let begin = std::time::Instant::now();
+    move || begin.elapsed().as_secs_f64()
 }
 
 /// Files of each command besides its result, in the order in which they are opened and written.
@@ -338,7 +271,7 @@ static OUTPUTS: &[(&str, &[Output])] = &[
                 &[Kind::Pdf],
                 Make::Document(|at, watch| {
                     asked!(Report, at, of => {
-                        let made = Summary::of_request(of, of.robot.read()?, at.call, at.words, watch)?;
+                        let made = Summary::of_request(of, &of.robot.read()?, (at.call, at.words), watch, &clock())?;
                         Ok(Made { warnings: made.warnings.clone(), ..made.pdf().into() })
                     })
                 }),

@@ -1,6 +1,7 @@
 //! Readings of belt lengths as the firmware of the Maslow 4 and programs around it write them: lines
 //! `CLBM:[{bl:2960.58, br:3150.08, tr:3067.72, tl:3049.85},…]` in a log, such objects without the mark, a list of them
-//! in JSON, or JSON with `order` and `lengths_mm`. Lengths are in millimetres (github.com/MaslowCNC/Maslow_4, DATA-PARSER.md at abfc930).
+//! in JSON, or JSON with `order` and `lengths_mm`. Lengths are in millimetres (github.com/MaslowCNC/Maslow_4,
+//! DATA-PARSER.md at abfc930).
 
 use crate::measurements::check_size;
 use crate::number_columns::NumberTable;

@@ -193,7 +193,7 @@ impl<'a> CsvText<'a> {
 /// Cell in a unit of the program; what is no number stays as it is.
 fn converted(cell: Cow<'_, str>, factor: f64) -> Cow<'_, str> {
     match number(&cell) {
-        Ok(value) if factor != 1.0 => (value * factor).to_string().into(),
+        Ok(value) if (factor - 1.0).abs() > 0.0 => (value * factor).to_string().into(),
         _ => cell,
     }
 }

@@ -90,6 +90,7 @@ enum Motion {
 }
 
 /// State of the interpreter; lengths in metres.
+#[expect(clippy::struct_excessive_bools, reason = "modes of the language, each on or off")]
 struct Interpreter {
     line: usize,
     metres: f64,
@@ -235,7 +236,8 @@ impl Interpreter {
         } else if OFFSETS.iter().any(|offset| block.value(*offset).is_some()) || block.value('R').is_some() {
             return Err("I, J, K and R belong to an arc: write G2 or G3".to_owned());
         }
-        if is_arc || end != self.position {
+        let moves = end.iter().zip(&self.position).any(|(end, start)| (end - start).abs() > 0.0);
+        if is_arc || moves {
             self.rows.push(row);
             self.lines.push(self.line);
         }

@@ -201,7 +201,13 @@ pub(crate) fn report(py: Python<'_>, of: &PyEquilibrium, request: ReportRequest)
         let robot = of.of.get().source.clone();
         let request = ReportRequest { robot, state: of.state.clone(), tensions: of.tensions.clone(), ..request };
         let made = interruptible(py, move || {
-            let made = Summary::of_request(&request, request.robot.read()?, &call, Words::Python, &mut Silent)?;
+            let made = Summary::of_request(
+                &request,
+                &request.robot.read()?,
+                (&call, Words::Python),
+                &mut Silent,
+                &funicular_answers::outputs::clock(),
+            )?;
             Ok((made.html()?, made.warnings))
         })?;
         let (html, warnings) = made.map_err(|error: anyhow::Error| errors::study(&error))?;

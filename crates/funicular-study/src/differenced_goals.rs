@@ -17,6 +17,9 @@ pub(crate) enum GoalPart {
     Cable(usize),
 }
 
+/// Values of all parts of a goal at an equilibrium, whose tensions follow a rule.
+type ValuesOfParts = fn(&Robot, &Equilibrium, &TensionRule) -> Result<Vec<(GoalPart, f64)>>;
+
 /// Goal that a design follows by differences.
 #[derive(Debug)]
 pub struct DifferencedGoal {
@@ -30,7 +33,7 @@ pub struct DifferencedGoal {
     /// Meaning, for help texts.
     pub(crate) about: &'static str,
     /// Values of all parts.
-    pub(crate) values: fn(&Robot, &Equilibrium, &TensionRule) -> Result<Vec<(GoalPart, f64)>>,
+    pub(crate) values: ValuesOfParts,
 }
 
 // The key is the name, which no other goal has.

@@ -181,8 +181,8 @@ impl WinchSpeeds {
         })
     }
 
-    /// Largest sums of the powers of all winches in a set of twists: of those that drive, and of those that brake. The sum
-    /// of driving powers is convex, so that no twist inside a box needs more than its worst corner; that of braking
+    /// Largest sums of the powers of all winches in a set of twists: of those that drive, and of those that brake. The
+    /// sum of driving powers is convex, so that no twist inside a box needs more than its worst corner; that of braking
     /// powers is convex without damping of the winches. In an ellipsoid the largest sums are those that an ascent finds
     /// from every octant and from the fastest twist of every winch: equation (40z3a).
     pub fn powers(&self, twists: &TwistSet) -> SumOfPowers {
@@ -266,8 +266,8 @@ impl WinchAtRest {
         if self.inwards.value <= self.outwards.value { self.inwards } else { self.outwards }
     }
 
-    /// Largest speed of the cable at the drum in a set of twists [m/s]. The speed is linear in the twist, and the set is
-    /// symmetric, so that it has this speed in both directions.
+    /// Largest speed of the cable at the drum in a set of twists [m/s]. The speed is linear in the twist, and the set
+    /// is symmetric, so that it has this speed in both directions.
     pub fn speed_in(&self, twists: &TwistSet) -> f64 {
         twists.largest(&self.by_twist)
     }

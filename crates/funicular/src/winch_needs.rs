@@ -218,8 +218,8 @@ impl CableNeeds {
     }
 }
 
-/// Largest acceleration of a straight cable while the platform moves with a constant twist of a set [m/s²], and the twist:
-/// equation (40z4b).
+/// Largest acceleration of a straight cable while the platform moves with a constant twist of a set [m/s²], and the
+/// twist: equation (40z4b).
 fn largest_bend(state: &CableState, motion: &PlatformMotion, twists: &TwistSet) -> (f64, Vec6) {
     match twists.shape {
         LoadShape::Box => largest_bend_in_box(state, motion, twists),
@@ -267,9 +267,9 @@ fn bend_form(state: &CableState, motion: &PlatformMotion, half_axes: &Vec6) -> M
 /// Largest value of a quadratic form over two unit balls, of the first and of the last three coordinates, and a point
 /// there; zero if the form is never positive.
 ///
-/// For two such constraints the bound of Lagrange is exact: the largest value is the least of the largest eigenvalues of
-/// the form whose parts are scaled with 1/√p and 1/√(1 − p), over 0 < p < 1, equation (40z4c). This function of p has
-/// one minimum.
+/// For two such constraints the bound of Lagrange is exact: the largest value is the least of the largest eigenvalues
+/// of the form whose parts are scaled with 1/√p and 1/√(1 − p), over 0 < p < 1, equation (40z4c). This function of p
+/// has one minimum.
 fn largest_in_balls(form: &Mat6) -> (f64, Vec6) {
     let [linear, angular] = [0, 3].map(|from| form.fixed_rows::<3>(from).iter().any(|entry| *entry != 0.0));
     let scale = |part: f64| Vec6::from_fn(|axis, _| (if axis < 3 { part } else { 1.0 - part }).sqrt().recip());

@@ -29,7 +29,7 @@ fn broken_command_lines_are_refused() {
         ("check /dev/null", "describes no robot"),
         // Options.
         ("statics ROBOT --pose-m 0,0,1", "unexpected argument"),
-        ("statics ROBOT --format xml", "[possible values: text, json, csv]"),
+        ("statics ROBOT --format xml", "[possible values: text, json, csv, latex, markdown]"),
         ("statics ROBOT --static-model rigid", "[possible values: ideal, spring, catenary]"),
         (
             "modes ROBOT --below-hz 9 --cable-model finite-element",

@@ -256,8 +256,7 @@ fn inches_and_lines_of_a_firmware_are_the_readings_in_millimetres() {
         "[MSG:INFO: start]\nCLBM:[{}]\n",
         each(&|name, value| format!("{}:{value:.2}", belt(name)))
             .iter()
-            .map(|row| format!("{{{row}}},"))
-            .collect::<String>()
+            .fold(String::new(), |all, row| all + "{" + row + "},")
     );
 
     let plain = found(&[]);

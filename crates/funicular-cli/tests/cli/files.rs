@@ -39,8 +39,8 @@ fn an_ending_that_means_another_format_is_refused_by_every_command() {
         (
             "modes ROBOT --below-hz 1",
             "xlsx",
-            "and .xlsx means a spreadsheet; choose a name that ends in .json, .csv, .parquet, .svg, .pdf, .uff, .md or \
-             .txt",
+            "and .xlsx means a spreadsheet; choose a name that ends in .json, .csv, .parquet, .svg, .pdf, .uff, .tex, \
+             .md or .txt",
         ),
         ("modes ROBOT --below-hz 1 --format json", "parquet", "would hold JSON, and .parquet means a Parquet file"),
         ("stiffness ROBOT", "PDF", "would hold text, and .pdf means a figure in PDF"),

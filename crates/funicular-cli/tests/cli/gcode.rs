@@ -235,7 +235,7 @@ fn belts_go_slack_under_geometric_lengths_where_the_load_hangs_on_two_of_them() 
     let slack = commands[1]["slack"].as_array().unwrap();
     let names: Vec<&str> = slack.iter().map(|of| of["cable"].as_str().unwrap()).collect();
     assert_eq!((names, number(&slack[0]["t_s"])), (vec!["bl", "br"], 0.0));
-    assert_eq!(number(&commands[1]["lowest_tension_n"]), 0.0);
+    assert!(number(&commands[1]["lowest_tension_n"]).abs() < 1e-300);
     // The sled sinks by the stretch of a belt, T l/EA, over the sine of its angle, T being mg/2 over the same sine.
     let (dx, dy): (f64, f64) = (2.12, 1.94);
     let length = dx.hypot(dy);

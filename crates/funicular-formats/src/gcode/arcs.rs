@@ -15,7 +15,7 @@ const SAME_POINT: f64 = 1e-9;
 
 /// Difference of two lengths that is rounding for a radius [m].
 fn rounding(radius: f64) -> f64 {
-    (ROUNDING * radius).max(ROUNDING_M).min(MAX_ROUNDING_M)
+    (ROUNDING * radius).clamp(ROUNDING_M, MAX_ROUNDING_M)
 }
 
 impl Interpreter {
@@ -25,7 +25,7 @@ impl Interpreter {
         let [u, v] = [(self.axis + 1) % 3, (self.axis + 2) % 3];
         let is_left = motion == Motion::Counterclockwise;
         let offsets = OFFSETS.map(|letter| block.value(letter).map(|value| value * self.metres));
-        let turns = self.turns(block)?;
+        let turns = turns(block)?;
         if offsets[self.axis].is_some_and(|offset| offset != 0.0) {
             return Err(format!("{} points out of the plane of the arc", OFFSETS[self.axis]));
         }
@@ -67,15 +67,15 @@ impl Interpreter {
         let whole = part + TAU * (turns - 1.0);
         Ok((center, if is_left { whole } else { -whole }))
     }
+}
 
-    /// Number of turns of an arc, by P: 1 for an arc of at most a whole circle.
-    fn turns(&self, block: &Block) -> Result<f64, String> {
-        let turns = block.value('P').unwrap_or(1.0);
-        if turns < 1.0 || turns.fract() != 0.0 || turns > 1000.0 {
-            return Err(format!("P{turns} is no number of turns of an arc: give a whole number from 1 on"));
-        }
-        Ok(turns)
+/// Number of turns of an arc, by P: 1 for an arc of at most a whole circle.
+fn turns(block: &Block) -> Result<f64, String> {
+    let turns = block.value('P').unwrap_or(1.0);
+    if turns < 1.0 || turns.fract() != 0.0 || turns > 1000.0 {
+        return Err(format!("P{turns} is no number of turns of an arc: give a whole number from 1 on"));
     }
+    Ok(turns)
 }
 
 /// Centre of an arc from its start: a positive radius is the shorter arc, a negative one the longer.

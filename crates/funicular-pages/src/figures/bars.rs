@@ -25,8 +25,8 @@ pub(super) struct Bars {
     pub(super) values: Vec<Option<f64>>,
 }
 
-/// Marks across the bars, one for each name.
-pub(super) struct Marks {
+/// BarMarks across the bars, one for each name.
+pub(super) struct BarMarks {
     pub(super) text: String,
     pub(super) stroke: Stroke,
     pub(super) values: Vec<Option<f64>>,
@@ -37,7 +37,7 @@ pub(super) struct BarPanel {
     /// Quantity with its unit.
     pub(super) title: String,
     pub(super) bars: Vec<Bars>,
-    pub(super) marks: Vec<Marks>,
+    pub(super) marks: Vec<BarMarks>,
 }
 
 /// Chart with a place for every name, and panels of bars above each other.
@@ -64,7 +64,7 @@ fn legend(panels: &[BarPanel]) -> Vec<Entry> {
     for bars in panels.iter().flat_map(|panel| &panel.bars) {
         add(&bars.text, Sample::Area(bars.colour));
     }
-    let shown = |panel: &BarPanel, marks: &Marks| {
+    let shown = |panel: &BarPanel, marks: &BarMarks| {
         let top = panel.top();
         marks.values.iter().flatten().any(|mark| *mark <= top)
     };
@@ -174,14 +174,14 @@ fn largest(text: String, colour: Colour, cables: &[LoadedRow]) -> Bars {
     Bars { text, colour, values }
 }
 
-/// Marks of the minimum and the maximum tension.
-fn limits(cables: &[LoadedRow]) -> Vec<Marks> {
+/// BarMarks of the minimum and the maximum tension.
+fn limits(cables: &[LoadedRow]) -> Vec<BarMarks> {
     let minimum = cables.iter().map(|cable| Some(cable.limits.minimum_tension_n).filter(|minimum| *minimum > 0.0));
     let maximum = cables.iter().map(|cable| cable.limits.maximum_tension_n);
     let dashed = Stroke { dashes: vec![3.0, 1.5], ..Stroke::solid(BLACK, 2.0 * AXIS_WIDTH) };
     let solid = Stroke::solid(BLACK, 2.0 * AXIS_WIDTH);
     vec![
-        Marks { text: "maximum tension".to_owned(), stroke: solid, values: maximum.collect() },
-        Marks { text: "minimum tension".to_owned(), stroke: dashed, values: minimum.collect() },
+        BarMarks { text: "maximum tension".to_owned(), stroke: solid, values: maximum.collect() },
+        BarMarks { text: "minimum tension".to_owned(), stroke: dashed, values: minimum.collect() },
     ]
 }

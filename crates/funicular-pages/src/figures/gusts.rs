@@ -24,8 +24,8 @@ const VISIBLE: f64 = 1e-3;
 const SPECTRUM: f64 = 0.36;
 const SUMS: f64 = 0.26;
 
-/// One panel per unit with its outputs of the largest r.m.s. values, the parts of their variances up to a frequency, and
-/// the natural frequencies below.
+/// One panel per unit with its outputs of the largest r.m.s. values, the parts of their variances up to a frequency,
+/// and the natural frequencies below.
 pub(super) fn chart(found: &Gusty) -> Chart {
     let mut units: Vec<&str> = Vec::new();
     for row in &found.outputs {
@@ -53,7 +53,7 @@ pub(super) fn chart(found: &Gusty) -> Chart {
             first = summed.iter().find(|point| point.1 > VISIBLE).map_or(first, |point| first.min(point.0));
             if !row.slow_density.is_empty() {
                 has_slow = true;
-                layers.push(Layer::Line { points: over(&row.slow_density), stroke: slow_stroke(stroke.clone()) });
+                layers.push(Layer::Line { points: over(&row.slow_density), stroke: slow_stroke(&stroke) });
             }
             layers.push(Layer::Line { points: over(&row.density), stroke: stroke.clone() });
             sums.push(Layer::Line { points: summed, stroke: stroke.clone() });
@@ -66,7 +66,7 @@ pub(super) fn chart(found: &Gusty) -> Chart {
     }
     panels.push(Panel::new(ChartAxis::linear("part of variance", 0.0, 1.05), SUMS, sums));
     if has_slow {
-        let sample = Sample::Line(slow_stroke(Stroke::solid(BLACK, style::CURVE_WIDTH)));
+        let sample = Sample::Line(slow_stroke(&Stroke::solid(BLACK, style::CURVE_WIDTH)));
         legend.push(Entry { text: "slow gusts (dashed)".to_owned(), sample });
     }
 
@@ -86,8 +86,8 @@ pub(super) fn chart(found: &Gusty) -> Chart {
 }
 
 /// Line of the spectrum without the dynamics of the robot.
-fn slow_stroke(of: Stroke) -> Stroke {
-    Stroke { dashes: vec![3.0, 1.5], width: 0.6 * of.width, ..of }
+fn slow_stroke(of: &Stroke) -> Stroke {
+    Stroke { dashes: vec![3.0, 1.5], width: 0.6 * of.width, ..of.clone() }
 }
 
 /// Part of the variance up to each frequency, by straight lines between the densities.

@@ -4,7 +4,7 @@ use super::axis::ChartAxis;
 use super::chart::{Chart, Entry, Layer, Panel, Sample};
 use super::drawing::{BLACK, Stroke};
 use super::style::{self, AXIS_WIDTH, GREY};
-use funicular::robot::Robot;
+use funicular::robot::{Cable, Robot};
 use funicular_study::analyses::trajectory::{TrajectoryResult, TrajectoryRow};
 
 /// Room above and below the curves, as a part of their range.
@@ -38,7 +38,7 @@ impl Limits {
 pub(super) fn chart(robot: &Robot, found: &TrajectoryResult) -> Chart {
     let cables = found.cables.len();
     let winch_limits = || robot.cables.iter().filter_map(|cable| Some(&cable.anchor.winch.as_ref()?.limits));
-    let tensions = robot.cables.iter().map(|cable| cable.limits());
+    let tensions = robot.cables.iter().map(Cable::limits);
     let tensions = tensions.flat_map(|limits| limits.minimum.into_iter().chain(limits.maximum));
     let of_cables = |title: &str, limits: &Limits, value: &dyn Fn(&TrajectoryRow, usize) -> Option<f64>| {
         panel(found, title, Some(cables), limits, value)
@@ -81,7 +81,8 @@ fn limit_stroke() -> Stroke {
     Stroke { dashes: vec![4.0, 2.0], ..Stroke::solid(GREY, 2.0 * AXIS_WIDTH) }
 }
 
-/// Panel with a line for each of so many cables or with a single one, and true if it shows a limit; none without values.
+/// Panel with a line for each of so many cables or with a single one, and true if it shows a limit; none without
+/// values.
 fn panel(
     found: &TrajectoryResult,
     title: &str,

@@ -241,7 +241,8 @@ fn bars_have_the_heights_of_the_results_and_far_offers_do_not_flatten_them() {
     let bars = areas(&figure, 0);
     assert_eq!(bars.len(), 8);
     for (bar, row) in bars.iter().zip(&found.winches[1..]) {
-        assert_eq!(bar.iter().map(|corner| corner.1).fold(0.0, f64::max), row.tension_n);
+        let top = bar.iter().map(|corner| corner.1).fold(0.0, f64::max);
+        assert!((top - row.tension_n).abs() < 1e-12 * row.tension_n);
     }
     // Without required velocities no winch needs a speed, an acceleration or power: tension, torque at rest and rope.
     let FigureContent::Chart(chart) = &figure.0 else { panic!("a chart") };
@@ -269,7 +270,8 @@ fn swings_too_close_for_lines_are_an_area_below_their_crests() {
     let distances = found.history.iter().map(|row| 1e3 * row.x_m.hypot(row.y_m).hypot(row.z_m));
     let most = distances.fold(0.0, f64::max);
     assert_eq!(area.len(), 1, "{} rows", found.history.len());
-    assert_eq!(area[0].iter().map(|corner| corner.1).fold(0.0, f64::max), most, "the highest crest is kept");
+    let top = area[0].iter().map(|corner| corner.1).fold(0.0, f64::max);
+    assert!((top - most).abs() < 1e-12 * most, "the highest crest is kept");
     // Far fewer points than rows.
     assert!(area[0].len() <= 122 && found.history.len() > 1000, "{} {}", area[0].len(), found.history.len());
 }

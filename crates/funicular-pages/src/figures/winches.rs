@@ -1,6 +1,6 @@
 //! Figures of `winches` and `speeds`: bars over the cables, with the winches on offer and the limits of the winches.
 
-use super::bars::{self, BarPanel, Bars, Marks};
+use super::bars::{self, BarMarks, BarPanel, Bars};
 use super::chart::Chart;
 use super::drawing::{BLACK, Colour, Stroke};
 use super::style::{self, AXIS_WIDTH, BLUE, GREEN, GREY, ORANGE, PURPLE, SKY};
@@ -27,7 +27,7 @@ const QUANTITIES: [Quantity; 7] = [
     ("rope [m]", |row| Some(row.rope_m), |of| of.rope_m),
 ];
 
-/// What every winch needs, and what those on offer give. A quantity that no winch needs has no panel.
+/// Needs of every winch, and what those on offer give. A quantity that no winch needs has no panel.
 pub(super) fn needed(found: &Winches, offers: &[OfferedWinch]) -> Chart {
     // The first row is the winch that serves every cable.
     let cables = &found.winches[1..];
@@ -43,7 +43,7 @@ pub(super) fn needed(found: &Winches, offers: &[OfferedWinch]) -> Chart {
                 .enumerate()
                 .map(|(k, offer)| {
                     let values = vec![gives(offer); cables.len()];
-                    Marks { text: format!("offer {}", offer.name), stroke: style::curve(k + 1), values }
+                    BarMarks { text: format!("offer {}", offer.name), stroke: style::curve(k + 1), values }
                 })
                 .collect(),
         })
@@ -60,7 +60,7 @@ pub(super) fn speeds(found: &Speeds) -> Chart {
     let in_use = |of: fn(&WinchInUse) -> Option<f64>| each(&|row| row.required.as_ref().and_then(of));
     let bars = |text: &str, colour: Colour, values| Bars { text: text.to_owned(), colour, values };
     let line = |dashes: Vec<f64>| Stroke { dashes, ..Stroke::solid(BLACK, 2.0 * AXIS_WIDTH) };
-    let marks = |text: &str, dashes, values| Marks { text: text.to_owned(), stroke: line(dashes), values };
+    let marks = |text: &str, dashes, values| BarMarks { text: text.to_owned(), stroke: line(dashes), values };
     let asks = found.required.is_some();
 
     let mut panels = vec![BarPanel {

@@ -1,5 +1,5 @@
-//! Two pages A4 about a robot at its state, for the person who decides: what it carries and where, what it needs, what is
-//! dangerous, and what was assumed. Their drawings are written as PDF, or as SVG in a page of HTML.
+//! Two pages A4 about a robot at its state, for the person who decides: what it carries and where, what it needs, what
+//! is dangerous, and what was assumed. Their drawings are written as PDF, or as SVG in a page of HTML.
 
 mod parts;
 mod sheet;
@@ -13,6 +13,8 @@ use funicular_study::request::ReportRequest;
 use funicular_study::robot_file::RobotFile;
 use funicular_study::wording::{Words, worded};
 use parts::Parts;
+
+pub use parts::Clock;
 
 /// Two pages.
 pub struct Summary {
@@ -32,19 +34,19 @@ struct SummaryPage<'a> {
 
 impl Summary {
     /// Computes every part once and draws the pages; a part that takes too long or has no result says so. `call` makes
-    /// them again, and `words` are those for the names of options.
+    /// them again, `words` are those for the names of options, and `clock` tells when it is too long.
     ///
     /// # Errors
     /// A request that contradicts itself or the robot, or a robot without this equilibrium.
     pub fn of_request(
         request: &ReportRequest,
-        file: RobotFile,
-        call: &str,
-        words: Words,
+        file: &RobotFile,
+        (call, words): (&str, Words),
         watch: &mut dyn Watch,
+        clock: Clock<'_>,
     ) -> Result<Self> {
         request.check()?;
-        let parts = Parts::of(request, file.robot, watch)?;
+        let parts = Parts::of(request, &file.robot, watch, clock)?;
         Ok(Self {
             title: format!("{}: summary", parts.robot),
             drawings: sheet::pages(&parts, call, &|text: &str| worded(text, words)),

@@ -1,5 +1,5 @@
-//! Page about the winches that a robot needs: the winch that serves every cable, what asks for its numbers, that of each
-//! cable, and the winches on offer.
+//! Page about the winches that a robot needs: the winch that serves every cable, what asks for its numbers, that of
+//! each cable, and the winches on offer.
 
 use super::Shell;
 use super::table::{PageTable, fixed, significant};
@@ -61,8 +61,9 @@ pub fn page(found: &Winches, offered: &[OfferedWinch], command_line: String) -> 
 /// Pose, load and velocity that ask for each number.
 fn asked(rows: &[AskedRow]) -> PageTable {
     let caption = "Pose, required load in addition to the dead load, and velocity that ask for each number.";
-    let turns = rows.iter().any(|row| row.pose.roll_pitch_yaw_deg != [0.0; 3]);
-    let turning = rows.iter().filter_map(|row| row.angular_velocity_rad_s).any(|velocity| velocity != [0.0; 3]);
+    let is_any = |vector: [f64; 3]| vector.iter().any(|component| component.abs() > 0.0);
+    let turns = rows.iter().any(|row| is_any(row.pose.roll_pitch_yaw_deg));
+    let turning = rows.iter().filter_map(|row| row.angular_velocity_rad_s).any(is_any);
     let mut columns = vec!["<largest", "value", "<cable", "at|m"];
     columns.extend(turns.then_some("roll, pitch, yaw|°"));
     columns.extend(["force|N", "moment|N m", "velocity|m/s"]);

@@ -133,13 +133,7 @@ found!(Calibrated, "calibrate");
 /// A request that contradicts itself or the robot; a table with a fault; fewer readings than unknowns; readings that
 /// fit at no start; work that was stopped.
 pub fn run(request: &CalibrateRequest, watch: &mut dyn Watch) -> Result<Calibrated> {
-    request::check("length_std_m", request.length_std_m, crate::values::positive)?;
-    request::check("position_std_m", request.position_std_m, crate::values::positive)?;
-    request::check("rotation_std_deg", request.rotation_std_deg, crate::values::positive)?;
-    request::check_positive("tension_std_n", request.tension_std_n)?;
-    request::check("wanted_std_m", request.wanted_std_m, crate::values::positive)?;
-    check_tension_range(request)?;
-    request.tensions.check()?;
+    check_numbers(request)?;
     let file = request.robot.read()?;
     let parameters = Parameters::from_toml(&file.text)?;
     let robot = parameters.robot().clone();
@@ -203,6 +197,17 @@ pub fn run(request: &CalibrateRequest, watch: &mut dyn Watch) -> Result<Calibrat
 /// True if a proposal reduces the deviation of the platform.
 fn is_for_tool(request: &CalibrateRequest) -> bool {
     request.propose_for.iter().any(|name| name == TOOL)
+}
+
+/// Refuses numbers of a request that are out of their ranges.
+fn check_numbers(request: &CalibrateRequest) -> Result<()> {
+    request::check("length_std_m", request.length_std_m, crate::values::positive)?;
+    request::check("position_std_m", request.position_std_m, crate::values::positive)?;
+    request::check("rotation_std_deg", request.rotation_std_deg, crate::values::positive)?;
+    request::check_positive("tension_std_n", request.tension_std_n)?;
+    request::check("wanted_std_m", request.wanted_std_m, crate::values::positive)?;
+    check_tension_range(request)?;
+    request.tensions.check()
 }
 
 /// Refuses a reading that is no length, unless an unknown offset makes it one.

@@ -189,7 +189,7 @@ impl DesignRun<'_> {
     }
 
     /// Robot at rest at the first pose that is held.
-    fn first_at_rest(&self, robot: Robot) -> Result<AtRest> {
+    fn first_at_rest(&self, robot: &Robot) -> Result<AtRest> {
         let poses = self.at_poses("", &[]);
         let mut first = poses.at_rest(robot.clone(), 0);
         for pose in 1..poses.count() {
@@ -210,7 +210,7 @@ impl DesignRun<'_> {
         let parameters = Parameters::from_toml(&text).map_err(|error| anyhow!("{error}"))?;
         let variables = variables(&parameters, &request.change)?;
         let start: Vec<f64> = variables.iter().map(|variable| variable.start).collect();
-        let first = self.first_at_rest(parameters.robot().clone());
+        let first = self.first_at_rest(parameters.robot());
         let first = first.map_err(|error| self.with_cures(error, parameters.robot()))?;
         check_robot(&first.robot)?;
         check_goal(request, &first)?;
@@ -263,7 +263,7 @@ impl DesignRun<'_> {
         let Chosen { text, variables, settings, before, after, result, tried } = chosen;
         let poses = &RobotAtPoses::new(request, variables, text.clone(), self.listed.clone());
         let parameters = Parameters::from_toml(text)?;
-        let first = self.first_at_rest(parameters.robot().clone())?;
+        let first = self.first_at_rest(parameters.robot())?;
         let found = &result.found;
         let report = DesignReport { request, poses, variables, found, tried, before, after };
         let goal_of = |evaluated: &Evaluated| request.goal.sign() * settings.goal.value(&evaluated.evaluation);
@@ -317,7 +317,7 @@ impl DesignRun<'_> {
     /// Warnings about the models at the result, and about steps that were shortened.
     fn warnings(&self, chosen: &Chosen, poses: &RobotAtPoses<'_>) -> Result<Vec<String>> {
         let text = poses.text_with(&chosen.result.found.x)?;
-        let rest = self.first_at_rest(Parameters::from_toml(&text)?.robot().clone())?;
+        let rest = self.first_at_rest(Parameters::from_toml(&text)?.robot())?;
         let linearisation = linearisation_of_goal(self.request, rest.equilibrium.model);
         let demanded = chosen.after.poses.iter().filter_map(|pose| pose.frequency_hz);
         let highest = demanded.chain(frequency_of(self.request, &chosen.after)).fold(0.0, f64::max);

@@ -14,8 +14,8 @@ declared! {
         required_velocity_m_s: Option<[f64; 3]> = None => (Vector).under("Required velocities");
         /// Largest required angular velocity, both ways about each world axis [rad/s].
         required_angular_velocity_rad_s: Option<[f64; 3]> = None => (Vector).under("Required velocities");
-        /// Shape of the set of required velocities, and of that of angular velocities: an ellipsoid with equal half axes
-        /// is every direction up to one speed.
+        /// Shape of the set of required velocities, and of that of angular velocities: an ellipsoid with equal half
+        /// axes is every direction up to one speed.
         #[serde(with = "crate::names::optional")]
         required_velocity_shape: Option<LoadShape> = None => (name::<LoadShape>())
             .form("SHAPE").under("Required velocities").otherwise("from the robot file, or box");

@@ -1,5 +1,5 @@
-//! Goals without derivatives of their own against the commands that tell their values, choices that are not numbers, and
-//! remedies for poses that are not held.
+//! Goals without derivatives of their own against the commands that tell their values, choices that are not numbers,
+//! and remedies for poses that are not held.
 
 use super::*;
 use funicular_study::wording::Words;
@@ -116,7 +116,10 @@ fn ropes_and_connections_are_chosen_by_the_goal() {
     let change = json!([{"path": "cables.*.anchor_m.z", "plus_minus": 0.3}]);
     let ropes = json!([
         {"name": "thin", "axial_stiffness_n": 3e5, "mass_kg_per_m": 0.05, "maximum_tension_n": 400.0},
-        {"name": "strong", "axial_stiffness_n": 9e5, "mass_kg_per_m": 0.1, "diameter_m": 0.006, "maximum_tension_n": 6000.0},
+        {
+            "name": "strong", "axial_stiffness_n": 9e5, "mass_kg_per_m": 0.1, "diameter_m": 0.006,
+            "maximum_tension_n": 6000.0,
+        },
         {"name": "weak", "axial_stiffness_n": 9e5, "mass_kg_per_m": 0.1, "maximum_tension_n": 120.0},
     ]);
     let found = design_of(&json!({"goal": "load-factor", "change": change, "ropes": ropes})).unwrap();

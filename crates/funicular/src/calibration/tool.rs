@@ -2,8 +2,9 @@
 //! attachments and offsets means at the tool.
 
 use super::elastic::RowState;
-use super::{CalibratedRobot, Calibration, CandidatePose, MeasuredRow};
+use super::{CalibratedRobot, Calibration, MeasuredRow};
 use crate::math::{DMat, Mat3, Vec3};
+use crate::robot::Pose;
 
 /// Least singular value of the readings' derivatives by the pose, relative to the largest one, at which readings hold
 /// the pose: a tenth of what rounding leaves of 1e-16 in a normal matrix. A singular pose has 1e-12 and less.
@@ -54,16 +55,17 @@ impl ToolRows {
 impl Calibration {
     /// Motions of the platform at a pose per unit of each unknown, with the readings of all cables held: a controller
     /// commands the readings that the calibrated values give, and the robot goes where they lead with the true ones.
-    /// More straight rigid cables than degrees of freedom share what they contradict by least squares. `None` for a
-    /// pose that its readings do not hold, or without equilibrium.
+    /// `lengths` are the unstrained lengths of elastic cables with which the platform rests there [m], empty for
+    /// straight rigid ones. More of these than degrees of freedom share what they contradict by least squares. `None`
+    /// for a pose that its readings do not hold, or without equilibrium.
     ///
     /// # References
     /// docs/theory.md, equation (96n).
-    pub fn tool_rows(&self, at: &CalibratedRobot, pose: &CandidatePose) -> Option<ToolRows> {
+    pub fn tool_rows(&self, at: &CalibratedRobot, pose: &Pose, lengths: &[f64]) -> Option<ToolRows> {
         let cables = at.robot.cables.len();
         let readings = MeasuredRow::of_readings(&vec![0.0; cables]);
         let row = MeasuredRow { position: [Some(0.0); 3], angles: [Some(0.0); 3], ..readings };
-        let state = RowState { pose: pose.pose, lengths: pose.lengths.clone() };
+        let state = RowState { pose: *pose, lengths: lengths.to_vec() };
         let terms = self.terms_of(at, &row, &state)?;
 
         // The readings stay: their change with the state of the row makes up for that with the unknowns.

@@ -8,7 +8,7 @@ const NO_RADIUS: f64 = 1e-12;
 
 /// Arc about an axis, with a way along the axis.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Arc {
+pub(super) struct HelicalArc {
     /// From the axis to the start, and a quarter of a turn on.
     radius_w: Vec3,
     quarter_w: Vec3,
@@ -17,7 +17,7 @@ pub(super) struct Arc {
     angle: f64,
 }
 
-impl Arc {
+impl HelicalArc {
     /// Arc between two points by this angle about an axis; `None` without a radius. What the end is off the circle of
     /// the start goes along evenly, so that the arc ends where it has to.
     pub(super) fn new([from, to]: [&Vec3; 2], center_w: &Vec3, axis_w: &Vec3, angle: f64) -> Option<Self> {

@@ -1,6 +1,6 @@
 //! Moves one after the other, straight or along arcs, which may overlap in time.
 
-use super::arc::Arc;
+use super::arc::HelicalArc;
 use super::course::{Course, CourseForm, MotionLimits};
 use super::limits_kept::{UsedParts, largest};
 use super::profile::SAME_CORNER;
@@ -56,7 +56,7 @@ struct TimedMove {
     begins: f64,
     straight: StraightMove,
     /// Way of the origin if it is no straight line.
-    arc: Option<Arc>,
+    arc: Option<HelicalArc>,
     course: Course,
 }
 
@@ -148,10 +148,10 @@ impl Moves {
                 LegWay::Straight => None,
                 LegWay::Arc { center_w, axis_w, angle } => {
                     let ends = [&from.position_w, &leg.to.position_w];
-                    Some(Arc::new(ends, &center_w, &axis_w, angle).ok_or(PathError::NoRadius)?)
+                    Some(HelicalArc::new(ends, &center_w, &axis_w, angle).ok_or(PathError::NoRadius)?)
                 }
             };
-            let way = arc.as_ref().map_or(straight.translation_w.norm(), Arc::length);
+            let way = arc.as_ref().map_or(straight.translation_w.norm(), HelicalArc::length);
             let turn = straight.turn_w.norm();
             if way == 0.0 && turn == 0.0 {
                 return Err(PathError::NoMove { first: k + 1 });

@@ -100,8 +100,8 @@ impl RequiredLoads {
         no_vector && self.listed.is_empty() && self.payload.max_mass == 0.0 && self.wind_speed == 0.0
     }
 
-    /// Twists that the winches have to give: velocity of the platform origin [m/s], then angular velocity [rad/s], world
-    /// axes.
+    /// Twists that the winches have to give: velocity of the platform origin [m/s], then angular velocity [rad/s],
+    /// world axes.
     pub fn twists_w(&self) -> TwistSet {
         TwistSet { half_widths: stacked(&self.velocity_w, &self.angular_velocity_w), shape: self.velocity_shape }
     }

@@ -124,7 +124,9 @@ fn every_robot_of_the_library_rests_stably_within_its_limits() {
         for (cable, state) in robot.cables.iter().zip(&rest.cables) {
             let hanging = &state.hanging.as_ref().unwrap().catenary;
             let limits = cable.limits();
-            assert!(hanging.min_tension() >= limits.minimum.unwrap_or(0.0), "{name}, cable {}", cable.name);
+            // A rule holds a limit to the rounding of its search.
+            let minimum = limits.minimum.unwrap_or(0.0) * (1.0 - 1e-12);
+            assert!(hanging.min_tension() >= minimum, "{name}, cable {}", cable.name);
             assert!(hanging.max_tension() <= limits.maximum.unwrap_or(f64::INFINITY), "{name}, cable {}", cable.name);
         }
         // The lengths of the paper's robots are for ideal cables under more load: there the program has to warn.

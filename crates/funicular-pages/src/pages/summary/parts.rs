@@ -14,10 +14,9 @@ use funicular_study::request::{
     WinchesRequest, WorkspaceRequest,
 };
 use funicular_study::text::significant;
-use std::time::{Duration, Instant};
 
 /// Time for the section of the workspace: it is computed on one thread, and the reader waits for the pages.
-const MAX_TIME: Duration = Duration::from_secs(40);
+const MAX_SECONDS: f64 = 40.0;
 
 /// Coordinate of the height among those of a platform.
 const Z: usize = 2;
@@ -37,7 +36,7 @@ pub(super) struct Parts {
     pub(super) picture: Figure,
     pub(super) section: Result<Figure, String>,
     pub(super) section_about: String,
-    /// What it carries, with true if it is enough.
+    /// Loads that it carries, with true if it is enough.
     pub(super) verdict: (bool, Vec<String>),
     pub(super) winches: Result<Winches, String>,
     /// Titles and sentences.
@@ -47,15 +46,20 @@ pub(super) struct Parts {
     pub(super) warnings: Vec<String>,
 }
 
+/// Clock of the caller: seconds since any moment.
+pub type Clock<'a> = &'a dyn Fn() -> f64;
+
 /// Observer that stops the work at a time, and shows nothing.
 struct UntilTime<'a> {
     inner: &'a dyn Watch,
-    end: Instant,
+    clock: Clock<'a>,
+    /// Reading of the clock at the end [s].
+    end: f64,
 }
 
 impl Watch for UntilTime<'_> {
     fn is_cancelled(&self) -> bool {
-        Instant::now() > self.end || self.inner.is_cancelled()
+        (self.clock)() > self.end || self.inner.is_cancelled()
     }
 }
 
@@ -64,14 +68,14 @@ impl Parts {
     ///
     /// # Errors
     /// A robot without this equilibrium.
-    pub(super) fn of(request: &ReportRequest, robot: Robot, watch: &mut dyn Watch) -> Result<Self> {
+    pub(super) fn of(request: &ReportRequest, robot: &Robot, watch: &mut dyn Watch, clock: Clock<'_>) -> Result<Self> {
         let rest = at_rest::equilibrium(robot.clone(), &request.robot, &request.state, &request.tensions)?;
         let mut warnings = rest.warnings(None);
         let asks = &rest.robot.required;
-        let (section, section_about) = section(request, &robot, &rest, watch);
+        let (section, section_about) = section(request, robot, &rest, (watch, clock));
         let winches = winches(request, &rest, &mut warnings, watch);
         let answers = vec![
-            ("Clearance", clearance(request, &robot, watch)),
+            ("Clearance", clearance(request, robot, watch)),
             ("Stop", stop(request, &rest, &mut warnings)),
             ("Gusts", gusts(request, &rest, &mut warnings)),
             ("First resonance", resonance(&rest)),
@@ -96,7 +100,7 @@ impl Parts {
             picture: figures::of_rest(&rest),
             section,
             section_about,
-            verdict: verdict(request, &robot, &rest),
+            verdict: verdict(request, robot, &rest),
             winches,
             answers,
             dangers,
@@ -118,7 +122,7 @@ fn about(rest: &AtRest) -> String {
     )
 }
 
-/// What the robot carries at its pose.
+/// Loads that the robot carries at its pose.
 fn verdict(request: &ReportRequest, robot: &Robot, rest: &AtRest) -> (bool, Vec<String>) {
     let of = LoadsRequest {
         robot: request.robot.clone(),
@@ -165,7 +169,7 @@ fn section(
     request: &ReportRequest,
     robot: &Robot,
     rest: &AtRest,
-    watch: &mut dyn Watch,
+    (watch, clock): (&mut dyn Watch, Clock<'_>),
 ) -> (Result<Figure, String>, String) {
     let height = rest.equilibrium.pose.position_w.z;
     let about = format!("Positions at z = {} m", significant(height, 4));
@@ -183,11 +187,11 @@ fn section(
         },
         ..WorkspaceRequest::default()
     };
-    let mut until = UntilTime { inner: &*watch, end: Instant::now() + MAX_TIME };
+    let mut until = UntilTime { inner: &*watch, clock, end: clock() + MAX_SECONDS };
     let found = workspace::run(robot.clone(), &of, &mut until);
     let late = until.is_cancelled();
     let reason = |error: anyhow::Error| {
-        if late { format!("not within {} s: `workspace` finds it", MAX_TIME.as_secs()) } else { error.to_string() }
+        if late { format!("not within {MAX_SECONDS} s: `workspace` finds it") } else { error.to_string() }
     };
     match found {
         Ok(found) => {
@@ -297,7 +301,7 @@ fn gusts(request: &ReportRequest, rest: &AtRest, warnings: &mut Vec<String>) -> 
         Ok(found) => {
             warnings.extend(found.warnings.iter().cloned());
             let moved = found.outputs.iter().filter(|row| row.unit == "m").filter_map(|row| row.peak);
-            let lowest = found.outputs.iter().filter(|row| row.is_tension()).filter_map(|row| row.smallest());
+            let lowest = found.outputs.iter().filter(|row| row.is_tension()).filter_map(gust::GustRow::smallest);
             let mut said = vec![format!("in {} s", significant(found.duration_s, 4))];
             said.extend(moved.reduce(f64::max).map(|of| format!("up to {} mm", significant(1e3 * of, 3))));
             said.extend(lowest.reduce(f64::min).map(|of| format!("lowest tension {} N", significant(of, 3))));

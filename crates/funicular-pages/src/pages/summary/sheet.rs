@@ -47,7 +47,7 @@ fn fitting<'a>(make: &dyn Fn(f64) -> Sheet<'a>) -> Drawing {
     sheet.drawing
 }
 
-/// What it carries and where.
+/// Loads and the places where they are carried.
 fn first<'a>(parts: &Parts, size: f64, word: &'a dyn Fn(&str) -> String) -> Sheet<'a> {
     let mut sheet = Sheet::new(&parts.robot, size, word);
     sheet.title(&parts.robot);
@@ -68,7 +68,7 @@ fn first<'a>(parts: &Parts, size: f64, word: &'a dyn Fn(&str) -> String) -> Shee
     sheet
 }
 
-/// What it needs, what is dangerous, and what was assumed.
+/// Needs, dangers, and what was assumed.
 fn second<'a>(parts: &Parts, call: &str, size: f64, word: &'a dyn Fn(&str) -> String) -> Sheet<'a> {
     let mut sheet = Sheet::new(&parts.robot, size, word);
     sheet.heading("What it needs: winches");

@@ -1,5 +1,5 @@
-//! Accuracy of the tool: what the deviations of the calibrated values mean for the platform over a set of poses, and how
-//! many further readings halve the worst of them.
+//! Accuracy of the tool: what the deviations of the calibrated values mean for the platform over a set of poses, and
+//! how many further readings halve the worst of them.
 
 use super::report::CalibrationReport;
 use super::rows::{LeftOut, Reachable};
@@ -102,7 +102,9 @@ impl CalibrationReport<'_> {
         }
         let Reachable { candidates, left_out, .. } = self.reachable(&self.tool_at, watch)?;
         let robot = self.of.robot_at(&self.found.best.values);
-        let held = candidates.into_iter().filter_map(|pose| Some((self.of.tool_rows(&robot, &pose)?, pose)));
+        let held = candidates
+            .into_iter()
+            .filter_map(|pose| Some((self.of.tool_rows(&robot, &pose.pose, &pose.lengths)?, pose)));
         let (rows, poses): (Vec<_>, Vec<_>) = held.unzip();
         if rows.is_empty() {
             bail!(NoSolution(
@@ -160,13 +162,13 @@ impl ToolAccuracy {
             format!("({x}, {y}, {z}) m")
         };
         let mm = |value: f64| significant(1e3 * value, 3);
-        let at = |wanted: f64| self.poses.iter().find(|row| row.deviation_m == wanted);
         let mut sentences = Vec::new();
-        if let (Some(best), Some(worst)) = (at(self.best_m), at(self.worst_m)) {
+        let by = |a: &&ToolRow, b: &&ToolRow| a.deviation_m.total_cmp(&b.deviation_m);
+        if let (Some(best), Some(worst)) = (self.poses.iter().min_by(by), self.poses.iter().max_by(by)) {
             let [x, y, z] = worst.direction.map(|part| significant(part, 2));
             sentences.push(format!(
-                "The tool stands within ±{} mm at {} and ±{} mm at {}, there along ({x}, {y}, {z}); one deviation, 95 % \
-                 within ±{} and ±{} mm",
+                "The tool stands within ±{} mm at {} and ±{} mm at {}, there along ({x}, {y}, {z}); one deviation, \
+                 95 % within ±{} and ±{} mm",
                 mm(best.deviation_m),
                 place(best.position_m),
                 mm(worst.deviation_m),
@@ -187,8 +189,8 @@ impl ToolAccuracy {
                 )
             }
             None => format!(
-                "Readings at {MAX_HALVING} further poses of this list do not halve the worst: give more exact readings, \
-                 or hold what is known"
+                "Readings at {MAX_HALVING} further poses of this list do not halve the worst: give more exact \
+                 readings, or hold what is known"
             ),
         });
         sentences

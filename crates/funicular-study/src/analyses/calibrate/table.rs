@@ -90,7 +90,7 @@ pub(super) fn kept(rows: Vec<MeasuredRow>, left_out: &[f64]) -> Result<(Vec<usiz
 /// Refuses a column that no cable and no pose has.
 fn check_columns(columns: &GappedColumns, robot: &Robot) -> Result<(), String> {
     let cables = || robot.cables.iter().map(|cable| cable.name.as_str());
-    let of_cables = cables().flat_map(|cable| length_names(cable));
+    let of_cables = cables().flat_map(length_names);
     let poses = POSE.iter().map(|name| (*name).to_owned());
     let known: Vec<String> = poses.chain(of_cables).chain(cables().map(tension_name)).collect();
     columns.keys().find(|name| !known.contains(name)).map_or(Ok(()), |unknown| {

@@ -150,7 +150,7 @@ impl<'a> RobotAtPoses<'a> {
             }
             let change = parameters.change_of(variable.index, robot);
             let none = || anyhow!("{}: results have no derivatives by this value", variable.path);
-            change.map(Direction::Exact).ok_or_else(none)
+            change.map(|change| Direction::Exact(Box::new(change))).ok_or_else(none)
         };
         self.variables.iter().map(direction).collect()
     }

@@ -183,7 +183,9 @@ fn with_rope(text: &str, materials: &[String], rope: &OfferedRope) -> Result<Str
     for material in materials {
         let table = document.get_mut("materials").and_then(|of| of.get_mut(material)).and_then(Item::as_table_like_mut);
         if let Some(table) = table {
-            OF_SECTION.iter().for_each(|key| drop(table.remove(key)));
+            for key in OF_SECTION {
+                table.remove(key);
+            }
         }
         for (key, value) in rope.material() {
             let path =
@@ -198,8 +200,7 @@ fn with_rope(text: &str, materials: &[String], rope: &OfferedRope) -> Result<Str
 impl DesignRun<'_> {
     /// Number of pairs of cables that cross at the first pose.
     fn crossings(&self, text: &str) -> Result<usize> {
-        let robot = Parameters::from_toml(text)?.robot().clone();
-        let first = self.first_at_rest(robot)?;
+        let first = self.first_at_rest(Parameters::from_toml(text)?.robot())?;
         Ok(Surroundings::of(&first.robot).crossing_cables(&first.equilibrium).len())
     }
 }

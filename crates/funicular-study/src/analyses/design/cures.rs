@@ -1,5 +1,5 @@
-//! Remedies for a pose that is not held: single changes of limits, loads, anchors and attachments with which the platform
-//! rests there.
+//! Remedies for a pose that is not held: single changes of limits, loads, anchors and attachments with which the
+//! platform rests there.
 
 use crate::text::significant;
 use funicular::calibration::moving_axes;

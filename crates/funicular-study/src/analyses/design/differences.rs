@@ -1,13 +1,14 @@
-//! Derivatives by differences: robots on both sides of a value, and the share of poses that are held as a smooth number.
+//! Derivatives by differences: robots on both sides of a value, and the share of poses that are held as a smooth
+//! number.
 
 use crate::at_rest::AtRest;
 
-/// Half step of a difference over the distance of the bounds of its value. Results are exact to 1e-11: the difference is
-/// wrong by 1e-6 of its size from rounding, and by 1e-10 of the second derivative over that distance.
+/// Half step of a difference over the distance of the bounds of its value. Results are exact to 1e-11: the difference
+/// is wrong by 1e-6 of its size from rounding, and by 1e-10 of the second derivative over that distance.
 pub(super) const HALF_STEP: f64 = 1e-5;
 
-/// Change of the load factor about 1 over which a pose passes from not held to held. The poses of a grid lie so far apart
-/// that load factors of neighbours differ by about as much.
+/// Change of the load factor about 1 over which a pose passes from not held to held. The poses of a grid lie so far
+/// apart that load factors of neighbours differ by about as much.
 const SOFT: f64 = 0.1;
 
 /// Robot at rest on both sides of a value.

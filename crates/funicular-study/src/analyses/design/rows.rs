@@ -50,7 +50,7 @@ const PARTS: usize = 16;
 /// Change of a robot per unit of a value.
 pub(super) enum Direction {
     /// Rates of the robot's numbers, for derivatives.
-    Exact(RobotChange),
+    Exact(Box<RobotChange>),
     /// A limit of tensions, which has none: differences alone.
     Limit,
 }

@@ -80,7 +80,7 @@ impl Job {
         let first_row = rows.pose(0)?;
         let start = place.start.unwrap_or_else(|| pose_of(&first_row));
         let mut from = start;
-        check_pose(robot, &from).map_err(|error| rows.fault(0, error.to_string()))?;
+        check_pose(robot, &from).map_err(|error| Rows::fault(0, error.to_string()))?;
         let mut legs = Vec::new();
         for row in 1..count {
             let leg = rows.leg(row, &start)?;
@@ -149,14 +149,14 @@ struct Rows<'a> {
 }
 
 impl Rows<'_> {
-    fn fault(&self, row: usize, text: String) -> TableFault {
+    fn fault(row: usize, text: String) -> TableFault {
         TableFault { key: KEY, row: Some(row), text }
     }
 
     fn three(&self, row: usize, names: [&str; 3]) -> Result<[f64; 3], TableFault> {
         let value = |name: &str| self.columns.get(name).map_or(0.0, |values| values[row]);
         for name in names {
-            finite(value(name)).map_err(|reason| self.fault(row, format!("`{name}`: {reason}")))?;
+            finite(value(name)).map_err(|reason| Self::fault(row, format!("`{name}`: {reason}")))?;
         }
         Ok(names.map(value))
     }
@@ -176,9 +176,9 @@ impl Rows<'_> {
         if self.frame.is_own {
             to.rot_wp = start.rot_wp;
         }
-        check_pose(self.robot, &to).map_err(|error| self.fault(row, error.to_string()))?;
+        check_pose(self.robot, &to).map_err(|error| Self::fault(row, error.to_string()))?;
         let feed = self.columns[FEED][row];
-        not_negative(feed).map_err(|reason| self.fault(row, format!("`{FEED}`: {reason}")))?;
+        not_negative(feed).map_err(|reason| Self::fault(row, format!("`{FEED}`: {reason}")))?;
 
         let turns = self.three(row, TURN)?;
         let way = match (0..3).filter(|k| turns[*k] != 0.0).collect::<Vec<_>>()[..] {
@@ -187,12 +187,12 @@ impl Rows<'_> {
                 let [u, v] = [(axis + 1) % 3, (axis + 2) % 3].map(|k| self.frame.axes[k]);
                 let axis_w = u.cross(&v);
                 if axis_w.norm() == 0.0 {
-                    return Err(self.fault(row, "the arc leaves the plane in which the platform moves".to_owned()));
+                    return Err(Self::fault(row, "the arc leaves the plane in which the platform moves".to_owned()));
                 }
                 let center_w = self.frame.point(self.three(row, CENTER)?);
                 LegWay::Arc { center_w, axis_w, angle: turns[axis].to_radians() }
             }
-            _ => return Err(self.fault(row, "an arc turns about one axis: leave the other angles zero".to_owned())),
+            _ => return Err(Self::fault(row, "an arc turns about one axis: leave the other angles zero".to_owned())),
         };
         Ok(Leg { to, way, speed: if feed > 0.0 { feed } else { f64::INFINITY } })
     }

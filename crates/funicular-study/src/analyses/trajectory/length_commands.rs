@@ -66,10 +66,10 @@ pub(super) fn of(planned: &Planned, samples: &MotionSamples) -> Vec<LengthComman
     let rows: Vec<usize> = (0..=last.min(parts)).map(|k| samples.rows[chosen(k)]).collect();
 
     let computed = rows.iter().map(|k| (samples.times[*k], Some(samples.motions[*k].equilibrium.clone()), 0.0));
-    let computed = Found::of(planned, computed.collect());
+    let computed = FoundTensions::of(planned, computed.collect());
     let mut along = planned.along();
     let geometric = rows.iter().map(|k| held(planned, &mut along, samples.times[*k], &samples.motions[*k].point));
-    let mut geometric = Found::of(planned, geometric.collect());
+    let mut geometric = FoundTensions::of(planned, geometric.collect());
     geometric.narrow(planned, &mut along);
     vec![computed.told(planned, "computed"), geometric.told(planned, "geometric")]
 }
@@ -86,13 +86,13 @@ fn held(planned: &Planned, along: &mut AlongPath, time: f64, point: &PathPoint) 
 }
 
 /// Slack cables, tensions and displacements on a path.
-struct Found {
+struct FoundTensions {
     at: Vec<AtTime>,
     /// For each cable the time before it goes slack, if there is one, and the first at which it is slack.
     slack: Vec<Option<(Option<f64>, f64)>>,
 }
 
-impl Found {
+impl FoundTensions {
     fn of(planned: &Planned, at: Vec<AtTime>) -> Self {
         let first = |i: usize| {
             let slack = |of: &AtTime| of.1.as_ref().is_some_and(|found| is_slack(&found.cables[i]));

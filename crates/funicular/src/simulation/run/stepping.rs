@@ -108,8 +108,8 @@ pub enum StepError {
     Table,
     /// A failure at a place along a cable.
     #[error(
-        "a cable fails at the platform in a simulation in intervals, not {place} m from it: leave out the place, or give \
-         the failure to a simulation from start to end"
+        "a cable fails at the platform in a simulation in intervals, not {place} m from it: leave out the place, or \
+         give the failure to a simulation from start to end"
     )]
     Place {
         /// Unstrained length between the platform and the place [m].

@@ -53,7 +53,7 @@ fn motions_of_a_rigid_platform_are_those_of_readings_that_are_held() {
     let values = of.start();
     let at = of.robot_at(&values);
     for pose in rigid_poses(4, 0.2, &mut Draws(5)) {
-        let rows = of.tool_rows(&at, &pose.into()).unwrap();
+        let rows = of.tool_rows(&at, &pose, &[]).unwrap();
         let lengths: Vec<f64> = at.robot.cables.iter().map(|cable| cable.straight_length(&pose)).collect();
         let readings = readings_at(&at, &lengths);
         for k in 0..values.len() {
@@ -85,7 +85,7 @@ fn motions_on_sagging_cables_are_those_of_equilibria_at_readings_that_are_held()
     let lengths: Vec<f64> = at.robot.cables.iter().map(|cable| 0.9995 * cable.straight_length(&pose)).collect();
     let rest = statics::forward(&at.robot, &lengths, StaticModel::Catenary, Some(&pose)).unwrap();
     let readings = readings_at(&at, &lengths);
-    let rows = of.tool_rows(&at, &CandidatePose { pose: rest.pose, lengths }).unwrap();
+    let rows = of.tool_rows(&at, &rest.pose, &lengths).unwrap();
     for k in 0..values.len() {
         let step = 1e-5;
         let end = |sign: f64| {
@@ -123,7 +123,7 @@ fn deviations_of_the_tool_are_those_of_400_noisy_calibrations() {
     .unwrap();
     let (fit, _, precision) = fitted(&of);
     let at = of.robot_at(&fit.values);
-    let predicted = tool.map(|pose| of.tool_rows(&at, &pose.into()).unwrap().deviation(&precision.covariance));
+    let predicted = tool.map(|pose| of.tool_rows(&at, &pose, &[]).unwrap().deviation(&precision.covariance));
     let middle = predicted[0].position;
     assert!(predicted[1].position > 1.1 * middle, "a corner is less exact than the middle: {predicted:?}");
 

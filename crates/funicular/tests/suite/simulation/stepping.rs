@@ -77,7 +77,9 @@ fn intervals_without_new_inputs_are_a_free_run() {
     let events = [push(30.0), release.clone()];
     let mut free = Simulation::new(&robot, &rest, &events, 10.0, &settings()).unwrap();
     let mut stepped = SteppedSimulation::new(&robot, &rest, &[], &settings()).unwrap();
-    events.iter().for_each(|event| stepped.happen(event).unwrap());
+    for event in &events {
+        stepped.happen(event).unwrap();
+    }
     for k in 0..300 {
         let found = stepped.step([0.001, 0.000_37, 0.002_3][k % 3], &StepInputs::default()).unwrap();
         assert_eq!(found, free.at(stepped.time()).unwrap(), "{k}");

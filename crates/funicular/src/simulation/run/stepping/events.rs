@@ -13,7 +13,7 @@ impl SteppedSimulation {
     /// [`StepError`]; the simulation is then as it was.
     pub fn happen(&mut self, event: &SimulationEvent) -> Result<(), StepError> {
         let now = self.time;
-        if let Some(time) = event.time().filter(|time| *time != now) {
+        if let Some(time) = event.time().filter(|time| (time - now).abs() > 0.0) {
             return Err(StepError::NotNow { event: time, now });
         }
         event.check(&self.robot, f64::INFINITY).map_err(StepError::Event)?;

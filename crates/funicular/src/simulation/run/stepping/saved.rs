@@ -125,14 +125,18 @@ impl SteppedSimulation {
         resized(&mut system.body.pushes, push, each);
         for Push { from, until, rise, force_w, moment_w, point_p } in &mut system.body.pushes {
             [from, until, rise].into_iter().for_each(&mut *each);
-            [force_w, moment_w, point_p].into_iter().for_each(|of| vector(of, each));
+            for of in [force_w, moment_w, point_p] {
+                vector(of, each);
+            }
         }
         let mut is_held = usize::from(system.body.held.is_some());
         count(&mut is_held, each);
         let mut held = system.body.held.unwrap_or_default();
         let HeldWrench { from, force_w, moment_w, force_rate_w, moment_rate_w } = &mut held;
         each(from);
-        [force_w, moment_w, force_rate_w, moment_rate_w].into_iter().for_each(|of| vector(of, each));
+        for of in [force_w, moment_w, force_rate_w, moment_rate_w] {
+            vector(of, each);
+        }
         system.body.held = (is_held > 0).then_some(held);
     }
 }
