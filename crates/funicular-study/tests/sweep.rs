@@ -145,7 +145,7 @@ fn every_robot_of_the_library_has_rows_with_numbers_or_a_reason() {
             }
             funicular::robot::State::Unknown => continue,
         };
-        let reach = robot.cables[0].anchor.reference_w().norm();
+        let reach = (robot.cables[0].anchor.reference_w() - rest.position_w).norm();
         // A pose of the workspace, and a pose so far away that no cables hold it.
         let x = rest.position_w.x;
         let steps = Steps::List(vec![x, x + 0.01 * reach, x + 40.0 * reach]);

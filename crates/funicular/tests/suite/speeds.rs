@@ -282,7 +282,7 @@ fn twists_in_balls(count: usize) -> impl Iterator<Item = Vec6> {
 #[test]
 fn ellipsoids_are_judged_by_their_worst_twist() {
     let pose = Pose::new([1.0, 1.0, 1.5], [3.0, -2.0, 10.0]);
-    let robot = cogiro("gear_ratio = 3\ngear_efficiency = 0.9");
+    let robot = cogiro("gear_efficiency = 0.9");
     let rest = at(&robot, &pose, &TensionRule::Lowest);
     let speeds = WinchSpeeds::at(&robot, &rest, None).unwrap();
     for half_widths in [[1.5, 1.5, 1.5, 0.0, 0.0, 0.0], [1.0, 0.5, 0.0, 0.1, 0.2, 0.3], [0.0, 0.0, 0.0, 0.2, 0.2, 0.2]]

@@ -2,16 +2,16 @@
 //! how many further readings halve the worst of them.
 
 use super::report::CalibrationReport;
-use super::rows::{LeftOut, Reachable};
+use super::rows::{LeftOut, Reachable, ToolPoses};
 use crate::Watch;
 use crate::analyses::fields;
 use crate::error::NoSolution;
 use crate::rows::rows;
 use crate::text::{counted, significant};
 use anyhow::{Result, bail};
-use funicular::calibration::{CandidatePose, ProposalAim, ToolDeviation, ToolRows, proposals};
+use funicular::calibration::{CandidatePose, ToolDeviation, ToolRows, proposals};
 use funicular::math::chosen_rows::RowCriterion;
-use funicular::math::{DMat, rotation};
+use funicular::math::rotation;
 
 /// Largest number of further poses while half of the worst deviation is looked for.
 const MAX_HALVING: usize = 60;
@@ -68,25 +68,6 @@ rows! {
         pub positions_m: Vec<[f64; 3]>;
         /// Largest standard deviation of the position then.
         pub worst_m: f64;
-    }
-}
-
-/// Poses at which the accuracy is asked for, as the platform can have them, with its motions there.
-pub(super) struct ToolPoses {
-    poses: Vec<CandidatePose>,
-    rows: Vec<ToolRows>,
-    left_out: Option<LeftOut>,
-}
-
-impl ToolPoses {
-    /// Motions of the platform at all poses.
-    pub(super) fn aim(&self) -> ProposalAim<'_> {
-        ProposalAim::Tool(&self.rows)
-    }
-
-    /// Largest standard deviation of the position for a covariance of the unknowns.
-    pub(super) fn worst(&self, covariance: &DMat) -> f64 {
-        self.rows.iter().map(|rows| rows.deviation(covariance).position).fold(0.0, f64::max)
     }
 }
 

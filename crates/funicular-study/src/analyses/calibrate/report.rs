@@ -1,9 +1,9 @@
 //! Results of a calibration from its minima.
 
-use super::accuracy::ToolPoses;
 use super::choice::{all_chosen, proposed_for};
 use super::rows::{
-    CableResidual, CalibratedValue, DistanceRow, LeftOut, MinimumRow, ProposalRow, Reachable, ReadingRow, Walk, WeakRow,
+    CableResidual, CalibratedValue, DistanceRow, LeftOut, MinimumRow, ProposalRow, Reachable, ReadingRow, ToolPoses,
+    Walk, WeakRow,
 };
 
 use super::wrong::{self, FoundFit, Wrong};

@@ -5,7 +5,8 @@ use crate::analyses::profile::Profile;
 use crate::columns::{column, parts};
 use crate::rows::rows;
 use crate::text::{digits_for, significant};
-use funicular::calibration::CandidatePose;
+use funicular::calibration::{CandidatePose, ProposalAim, ToolRows};
+use funicular::math::DMat;
 
 rows! {
     /// Calibrated value.
@@ -240,4 +241,23 @@ pub(super) struct Reachable {
     pub(super) rules: Vec<Option<&'static str>>,
     /// Absent if nothing had to be checked.
     pub(super) left_out: Option<LeftOut>,
+}
+
+/// Poses at which the accuracy is asked for, as the platform can have them, with its motions there.
+pub(super) struct ToolPoses {
+    pub(super) poses: Vec<CandidatePose>,
+    pub(super) rows: Vec<ToolRows>,
+    pub(super) left_out: Option<LeftOut>,
+}
+
+impl ToolPoses {
+    /// Motions of the platform at all poses.
+    pub(super) fn aim(&self) -> ProposalAim<'_> {
+        ProposalAim::Tool(&self.rows)
+    }
+
+    /// Largest standard deviation of the position for a covariance of the unknowns.
+    pub(super) fn worst(&self, covariance: &DMat) -> f64 {
+        self.rows.iter().map(|rows| rows.deviation(covariance).position).fold(0.0, f64::max)
+    }
 }
