@@ -2,6 +2,9 @@
 //! documentation follow from them.
 
 use crate::reading_table::{ReadingColumn, ReadingTable};
+
+pub use crate::reading_table::COMPONENTS;
+
 use crate::table::{Column, ColumnKind, Values};
 use crate::text::{self, NONE};
 use crate::units;
@@ -14,9 +17,6 @@ const MAX_DIGITS: usize = 12;
 
 /// Digits of a number in a table for reading whose columns do not say how many.
 const READ_DIGITS: usize = 5;
-
-/// Mark between the components of a vector in a cell, until the table of a terminal knows how wide they are.
-pub const COMPONENTS: &str = "\u{1f}";
 
 /// Value of a column in a row.
 #[derive(Debug, Clone, PartialEq, Serialize)]

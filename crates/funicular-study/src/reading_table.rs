@@ -1,8 +1,10 @@
 //! Tables for reading as LaTeX (booktabs, siunitx) and as Markdown.
 
-use crate::columns::COMPONENTS;
 use crate::text::NONE;
 use std::fmt::Write as _;
+
+/// Mark between the components of a vector in a cell, until the table of a terminal knows how wide they are.
+pub const COMPONENTS: &str = "\u{1f}";
 
 /// Column of a table for reading.
 #[derive(Debug, Clone, PartialEq, Eq)]
