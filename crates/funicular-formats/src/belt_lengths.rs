@@ -4,7 +4,7 @@
 //! DATA-PARSER.md at abfc930).
 
 use crate::measurements::check_size;
-use crate::number_columns::NumberTable;
+use crate::number_table::NumberTable;
 use anyhow::{Result, anyhow, bail};
 use funicular_study::values::number;
 use serde_json::Value;

@@ -8,7 +8,7 @@ mod arcs;
 mod words;
 
 use crate::measurements::check_size;
-use crate::number_columns::NumberTable;
+use crate::number_table::NumberTable;
 use anyhow::{Result, anyhow, bail};
 use std::collections::BTreeMap;
 use words::{Block, block};

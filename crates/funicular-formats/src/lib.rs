@@ -16,6 +16,7 @@ pub mod import;
 pub mod measurements;
 pub mod new_robot;
 pub mod number_columns;
+pub mod number_table;
 mod ros_poses;
 pub mod surface;
 pub mod uff_writing;

@@ -2,22 +2,11 @@
 
 use crate::csv_lines::CsvText;
 use crate::measurements::check_size;
+use crate::number_table::NumberTable;
 use crate::{belt_lengths, gcode, ros_poses};
 use anyhow::{Result, anyhow};
 use funicular_study::values::{NumberError, number};
 use serde_json::{Map, Value};
-use std::collections::BTreeMap;
-
-/// Columns of a file, whose values are numbers, or numbers and gaps.
-#[derive(Debug, Clone, Default, PartialEq)]
-pub struct NumberTable<V = f64> {
-    /// Values of each column, by its name.
-    pub columns: BTreeMap<String, Vec<V>>,
-    /// Line of each row in the file, from 1.
-    pub lines: Vec<usize>,
-    /// Sentences about what was taken or passed over.
-    pub notes: Vec<String>,
-}
 
 /// Reads a table whose first line names the columns. Columns in units such as `_in` and `_ft` get those of the program
 /// and their names (`_m`). A file with an ending of G-code is a job, whose moves are the rows; poses

@@ -2,7 +2,7 @@
 //! columns, `pose.position.x` and others, and a quaternion `pose.orientation.w`.
 
 use crate::csv_lines::CsvText;
-use crate::number_columns::NumberTable;
+use crate::number_table::NumberTable;
 use anyhow::{Result, anyhow, bail};
 use funicular::math::Quaternion;
 

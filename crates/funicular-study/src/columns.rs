@@ -1,10 +1,9 @@
 //! Tables of results. The columns of each kind of rows stand once: CSV, tables for reading, pages, Python and the
 //! documentation follow from them.
 
-use crate::reading_table::{ReadingColumn, ReadingTable};
-
 pub use crate::reading_table::COMPONENTS;
 
+use crate::reading_table::{ReadingColumn, ReadingTable};
 use crate::table::{Column, ColumnKind, Values};
 use crate::text::{self, NONE};
 use crate::units;

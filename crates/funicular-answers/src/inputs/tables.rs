@@ -1,7 +1,8 @@
 //! Reading of a table of numbers that a request holds.
 
 use anyhow::{Context, Result, anyhow};
-use funicular_formats::number_columns::{self, NumberTable};
+use funicular_formats::number_columns;
+use funicular_formats::number_table::NumberTable;
 use funicular_study::TableFault;
 use funicular_study::request::{GappedColumns, NumberColumns};
 use serde_json::{Map, Value};
