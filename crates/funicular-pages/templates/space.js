@@ -55,15 +55,16 @@ const space = (function () {
       .reduce(function (best, p) { return to([p[0], p[1], z])[0] < to([best[0], best[1], z])[0] ? p : best; });
     const heights = ticks(low[2], high[2]), ends = [to([upright[0], upright[1], low[2]]), to([upright[0], upright[1], high[2]])];
     line(ends, "#8a8a8a");
+    context.textAlign = "right";
+    // A short axis, as that across a plane, has its name alone.
     if (Math.abs(ends[1][1] - ends[0][1]) > 50) {
-      context.textAlign = "right";
       heights.list.forEach(function (value, i) {
         const at = to([upright[0], upright[1], value]);
         line([at, [at[0] - 4, at[1]]], "#8a8a8a");
         if (i > 0) { write(value.toFixed(heights.digits).replace("-", "−"), at, "#565656", 10.5, -7, 0); }
       });
-      write("z [m]", ends[1], "#1b1b1b", 12, 10, -11);
     }
+    write("z [m]", ends[1], "#1b1b1b", 12, 10, -11);
   }
   // Records what is drawn on it as on a canvas as elements of SVG, so that a saved figure has lines and texts.
   function recorder(width, height) {

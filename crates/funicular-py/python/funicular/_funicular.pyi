@@ -24,7 +24,7 @@ from funicular._words import StaticModel, TensionRule, CableModel, Assembly, Win
 from funicular.results import CableResults, CalibrateResults, ClearanceResults, CompareResults, GradientResults, GustResults, LoadsResults, PayloadResults, PoseErrorResults, SettleResults, SimulateResults, SpeedsResults, TrajectoryResults, WinchesResults, WorkspaceResults
 from typing import Literal, overload
 
-__all__ = ["__version__", "Analyses", "Answered", "Catenary", "Equilibrium", "Pose", "Robot", "SweepPlan", "SweepTable", "SweepWork", "answer", "argument", "check_files", "complete_request", "complex_numbers", "declarations", "figure_sizes", "imported", "interval", "matlab_file", "measurements_of_file", "merge_parts", "number", "numbers", "outputs_of_commands", "peaks", "plot_page", "real_numbers", "robot_of_source", "shown", "source_file", "suggested", "text_of", "try_file", "unit_of_name", "write_file", "write_unit"]
+__all__ = ["__version__", "Analyses", "Answered", "Catenary", "Equilibrium", "Pose", "Robot", "Simulation", "SweepPlan", "SweepTable", "SweepWork", "answer", "argument", "check_files", "complete_request", "complex_numbers", "declarations", "figure_sizes", "imported", "interval", "matlab_file", "measurements_of_file", "merge_parts", "number", "numbers", "outputs_of_commands", "peaks", "plot_page", "real_numbers", "robot_of_source", "shown", "source_file", "suggested", "text_of", "try_file", "unit_of_name", "write_file", "write_unit"]
 
 __version__: Final[str]
 
@@ -378,7 +378,7 @@ class Analyses:
 
         The other parameters are those of `Equilibrium.stiffness`.
         """
-    def report(self, /, path: str | PathLike[str] | None = None, *, below_hz: SupportsFloat | SupportsIndex | None = None, input: str | None = None, output: str | None = None, input_point_m: ArrayLike | None = None, output_point_m: ArrayLike | None = None, platform_share: SupportsFloat | SupportsIndex | None = None, cable_model: CableModel | None = None, assembly: Assembly = "consistent", in_plane_only: bool = False, winches: Winches = "as-given") -> Page:
+    def report(self, /, path: str | PathLike[str] | None = None, *, summary: bool = False, below_hz: SupportsFloat | SupportsIndex | None = None, input: str | None = None, output: str | None = None, input_point_m: ArrayLike | None = None, output_point_m: ArrayLike | None = None, platform_share: SupportsFloat | SupportsIndex | None = None, cable_model: CableModel | None = None, assembly: Assembly = "consistent", in_plane_only: bool = False, winches: Winches = "as-given") -> Page:
         """
         Makes a page in HTML about the equilibrium and its vibration, which notebooks show.
 
@@ -386,6 +386,9 @@ class Analyses:
         ----------
         path
             File to which the page is also written.
+        summary
+            Two pages A4 for the person who decides, instead of the page with all analyses; -o FILE.pdf writes them as
+            PDF.
         below_hz
             Upper limit of the frequencies [Hz]; 20 if not given.
         input
@@ -605,6 +608,10 @@ class Answered:
         """
         Makes the page in HTML; `call` is the code that makes it again.
         """
+    def reading_table(self, /, latex: bool) -> str:
+        """
+        Returns the rounded table for LaTeX, or for Markdown.
+        """
     @property
     def request(self, /) -> str:
         """
@@ -756,7 +763,7 @@ class Equilibrium(Analyses):
         """
         Ratios of sag to chord; NaN for a cable without tension.
         """
-    def simulation(self, /, *, tension_control: list[str] | None = None, tolerance_m: SupportsFloat | SupportsIndex | None = None, elements: SupportsIndex | None = None, degree: SupportsIndex | None = None, damping_frequency_hz: SupportsFloat | SupportsIndex | None = None, stretch_damping_time_s: SupportsFloat | SupportsIndex | None = None, hold_platform: bool = False, gust_seed: SupportsIndex | None = None) -> Simulation:
+    def simulation(self, /, *, tension_control: SupportsGetItem[int, str] | None = None, tolerance_m: SupportsFloat | SupportsIndex | None = None, elements: SupportsIndex | None = None, degree: SupportsIndex | None = None, damping_frequency_hz: SupportsFloat | SupportsIndex | None = None, stretch_damping_time_s: SupportsFloat | SupportsIndex | None = None, hold_platform: bool = False, gust_seed: SupportsIndex | None = None) -> Simulation:
         """
         Begins a simulation that advances by intervals, at this equilibrium.
 
@@ -834,6 +841,14 @@ class Equilibrium(Analyses):
         another_stable_equilibrium
             Search for another stable equilibrium of the same lengths, too, as the program does. The search takes
             about a hundred times as long as the equilibrium; the key of this name is absent if there is none.
+        """
+    def to_latex(self, /) -> str:
+        """
+        Rounded table with one row per cable for LaTeX, with the rules of booktabs and the numbers of siunitx.
+        """
+    def to_markdown(self, /) -> str:
+        """
+        Rounded table with one row per cable for Markdown.
         """
     def to_pandas(self, /) -> Any:
         """
@@ -1046,7 +1061,7 @@ class Robot(Analyses):
         RobotFileError
             The file has no such path, or the value is wrong there.
         """
-    def calibrate(self, /, readings: str | PathLike[str] | Mapping[str, ArrayLike], unknowns: str | Sequence[str] | None = None, *, leave_out: ArrayLike | None = None, hold_anchors: str | Sequence[str] | None = None, frame: str | Sequence[str] | None = None, length_std_m: SupportsFloat | SupportsIndex | None = None, position_std_m: SupportsFloat | SupportsIndex | None = None, rotation_std_deg: SupportsFloat | SupportsIndex | None = None, tension_std_n: SupportsFloat | SupportsIndex | None = None, prior: Any = None, tension_range_n: ArrayLike | None = None, static_model: StaticModel = "ideal", starts: SupportsIndex | None = None, profile: str | Sequence[str] | None = None, propose: SupportsIndex | None = None, grid: Mapping[str, ArrayLike] | None = None, poses: ArrayLike | None = None, propose_for: str | Sequence[str] | None = None, propose_by: Literal['variances', 'determinant'] = "variances", wanted_std_m: SupportsFloat | SupportsIndex | None = None, tension_rule: TensionRule | None = None, target_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, figure: str | PathLike[str] | None = None, calibrated: str | PathLike[str] | None = None, page: str | PathLike[str] | None = None) -> CalibrateResults:
+    def calibrate(self, /, readings: str | PathLike[str] | Mapping[str, ArrayLike], unknowns: str | Sequence[str] | None = None, *, leave_out: ArrayLike | None = None, hold_anchors: str | Sequence[str] | None = None, frame: str | Sequence[str] | None = None, length_std_m: SupportsFloat | SupportsIndex | None = None, position_std_m: SupportsFloat | SupportsIndex | None = None, rotation_std_deg: SupportsFloat | SupportsIndex | None = None, tension_std_n: SupportsFloat | SupportsIndex | None = None, prior: Any = None, tension_range_n: ArrayLike | None = None, static_model: StaticModel = "ideal", starts: SupportsIndex | None = None, profile: str | Sequence[str] | None = None, propose: SupportsIndex | None = None, grid: Mapping[str, ArrayLike] | None = None, poses: ArrayLike | None = None, propose_for: str | Sequence[str] | None = None, propose_by: Literal['variances', 'determinant'] = "variances", accuracy_grid: Mapping[str, ArrayLike] | None = None, accuracy_poses: ArrayLike | None = None, wanted_std_m: SupportsFloat | SupportsIndex | None = None, tension_rule: TensionRule | None = None, target_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, figure: str | PathLike[str] | None = None, calibrated: str | PathLike[str] | None = None, page: str | PathLike[str] | None = None) -> CalibrateResults:
         """
         Calibrates anchors, attachments, offsets and more from readings of lengths at poses that are not known.
 
@@ -1099,11 +1114,17 @@ class Robot(Analyses):
         poses
             Candidates of a proposal (n, 3) or (n, 6): x, y, z [m], roll, pitch, yaw [degrees].
         propose_for
-            Numbers whose deviations the proposal reduces: kinds as in `unknowns`, or paths of values; if not given: all
-            unknowns.
+            Numbers whose deviations the proposal reduces: kinds as in `unknowns`, or paths of values, or tool for the
+            position of the platform at the poses of `accuracy_grid`; if not given: all unknowns.
         propose_by
             Criterion of the proposal: `variances` (least sum of the variances of the chosen values); `determinant`
             (least determinant of the covariance of all values, whatever their units).
+        accuracy_grid
+            Axis of the poses at which the deviation of the platform is told, as in `grid` (repeatable): a controller
+            commands the readings of the calibrated values there.
+        accuracy_poses
+            Poses at which the deviation of the platform is told, instead of a grid: position [m] and roll, pitch, yaw
+            [degrees].
         wanted_std_m
             Largest deviation that is wanted [m]: the least number of proposed poses that reaches it.
         tension_rule
@@ -1171,7 +1192,7 @@ class Robot(Analyses):
         StaticsError
             The robot has no such equilibrium.
         """
-    def design(self, /, change: Any, *, goal: Goal = "first-frequency", poses: ArrayLike | None = None, weights: ArrayLike | None = None, min_frequency_hz: SupportsFloat | SupportsIndex | None = None, min_stiffness_n_per_m: SupportsFloat | SupportsIndex | None = None, avoid_hz: ArrayLike | None = None, max_iterations: SupportsIndex | None = None, pose: Pose | ArrayLike | None = None, mass_kg: SupportsFloat | SupportsIndex | None = None, static_model: StaticModel = "catenary", force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, wind_m_s: ArrayLike | None = None, cable_load_n_per_m: ArrayLike | None = None, tension_rule: TensionRule | None = None, target_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, cable_model: CableModel | None = None, assembly: Assembly = "consistent", in_plane_only: bool = False, winches: Winches = "as-given", designed: str | PathLike[str] | None = None, page: str | PathLike[str] | None = None) -> Designed:
+    def design(self, /, change: Any, *, goal: Goal = "first-frequency", poses: ArrayLike | None = None, grid: Mapping[str, ArrayLike] | None = None, weights: ArrayLike | None = None, ropes: Any = None, reconnect: bool = False, min_frequency_hz: SupportsFloat | SupportsIndex | None = None, min_stiffness_n_per_m: SupportsFloat | SupportsIndex | None = None, avoid_hz: ArrayLike | None = None, max_iterations: SupportsIndex | None = None, pose: Pose | ArrayLike | None = None, mass_kg: SupportsFloat | SupportsIndex | None = None, static_model: StaticModel = "catenary", force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, wind_m_s: ArrayLike | None = None, cable_load_n_per_m: ArrayLike | None = None, tension_rule: TensionRule | None = None, target_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, cable_model: CableModel | None = None, assembly: Assembly = "consistent", in_plane_only: bool = False, winches: Winches = "as-given", designed: str | PathLike[str] | None = None, page: str | PathLike[str] | None = None) -> Designed:
         """
         Chooses values of the robot file with which the robot is best at several poses.
 
@@ -1188,12 +1209,27 @@ class Robot(Analyses):
             Goal of the design: `first-frequency` (highest first natural frequency, cables included); `platform`
             (highest first natural frequency of the platform on the static stiffness of its cables); `stiffness-min`
             (highest minimum stiffness, as `statics` prints it); `rope-length` (least length of all ropes); `rope-mass`
-            (least mass of all ropes); `load-factor` (largest multiple of the required loads that is held).
+            (least mass of all ropes); `load-factor` (largest multiple of the required loads that is held); `clearance`
+            (largest distance, beyond the required one, of what comes nearest: cables, platform, obstacles); `winch-
+            tension` (least tension at a drum under everything that is required); `winch-speed` (least speed of a cable
+            at its drum for the required velocities); `winch-torque` (least torque of a motor under everything that is
+            required); `winch-power` (least mechanical power of a motor that drives, under everything that is required);
+            `workspace` (most of the poses at which the required loads are held).
         poses
             Poses (n, 3) or (n, 6): x, y, z [m], roll, pitch, yaw [degrees]; the worst one counts. If not given: `pose`,
             or the pose of the robot file.
+        grid
+            Axis of a grid of poses: x, y, z [m], roll, pitch, yaw [degrees], with N values from A to B, or with listed
+            values (repeatable); an axis that is not given stays at the pose of the state.
         weights
             Weights of the poses, for their mean instead of the worst pose.
+        ropes
+            Ropes to choose from for all cables: a table with the columns name, axial_stiffness_n, mass_kg_per_m and,
+            where known, diameter_m, minimum_tension_n, maximum_tension_n, breaking_load_n. The values are chosen for
+            each of them.
+        reconnect
+            Exchange the attachments of cables, two at a time, while the goal with the present values gains from it and
+            no further cables cross.
         min_frequency_hz
             Demand: first natural frequency at every pose of at least HZ.
         min_stiffness_n_per_m
@@ -1414,7 +1450,7 @@ class Robot(Analyses):
         StaticsError
             The robot has no such pose, or no load factor was found.
         """
-    def map(self, /, grid: Mapping[str, ArrayLike] | None = None, quantities: str | Sequence[str] | None = None, *, poses: ArrayLike | None = None, up_to_hz: SupportsFloat | SupportsIndex | None = None, platform_share: SupportsFloat | SupportsIndex | None = None, payload_center_m: ArrayLike | None = None, required_force_n: ArrayLike | None = None, required_moment_n_m: ArrayLike | None = None, required_shape: Literal['box', 'ellipsoid'] | None = None, required_payload_min_kg: SupportsFloat | SupportsIndex | None = None, required_payload_max_kg: SupportsFloat | SupportsIndex | None = None, required_payload_center_m: ArrayLike | None = None, required_payload_center_reach_m: ArrayLike | None = None, required_acceleration_m_s2: ArrayLike | None = None, required_angular_acceleration_rad_s2: ArrayLike | None = None, required_wind_speed_m_s: SupportsFloat | SupportsIndex | None = None, required_velocity_m_s: ArrayLike | None = None, required_angular_velocity_rad_s: ArrayLike | None = None, lengths_m: ArrayLike | None = None, pose: Pose | ArrayLike | None = None, hold_lengths_of_pose: bool = False, mass_kg: SupportsFloat | SupportsIndex | None = None, static_model: StaticModel = "catenary", force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, wind_m_s: ArrayLike | None = None, cable_load_n_per_m: ArrayLike | None = None, tension_rule: TensionRule | None = None, target_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, cable_model: CableModel | None = None, assembly: Assembly = "consistent", in_plane_only: bool = False, winches: Winches = "as-given", file: str | PathLike[str] | None = None, resume: bool = False, discard: bool = False, part: str | None = None, threads: SupportsIndex | None = None, executor: Executor | Callable[[], Executor] | None = None, chunks_per_task: SupportsIndex | None = None, progress: Callable[[int, int], object] | None = None) -> Sweep:
+    def map(self, /, grid: Mapping[str, ArrayLike] | None = None, quantities: str | Sequence[str] | None = None, *, poses: ArrayLike | None = None, up_to_hz: SupportsFloat | SupportsIndex | None = None, platform_share: SupportsFloat | SupportsIndex | None = None, payload_center_m: ArrayLike | None = None, required_force_n: ArrayLike | None = None, required_moment_n_m: ArrayLike | None = None, required_shape: Literal['box', 'ellipsoid'] | None = None, required_payload_min_kg: SupportsFloat | SupportsIndex | None = None, required_payload_max_kg: SupportsFloat | SupportsIndex | None = None, required_payload_center_m: ArrayLike | None = None, required_payload_center_reach_m: ArrayLike | None = None, required_acceleration_m_s2: ArrayLike | None = None, required_angular_acceleration_rad_s2: ArrayLike | None = None, required_wind_speed_m_s: SupportsFloat | SupportsIndex | None = None, required_velocity_m_s: ArrayLike | None = None, required_angular_velocity_rad_s: ArrayLike | None = None, required_velocity_shape: Literal['box', 'ellipsoid'] | None = None, lengths_m: ArrayLike | None = None, pose: Pose | ArrayLike | None = None, hold_lengths_of_pose: bool = False, mass_kg: SupportsFloat | SupportsIndex | None = None, static_model: StaticModel = "catenary", force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, wind_m_s: ArrayLike | None = None, cable_load_n_per_m: ArrayLike | None = None, tension_rule: TensionRule | None = None, target_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, cable_model: CableModel | None = None, assembly: Assembly = "consistent", in_plane_only: bool = False, winches: Winches = "as-given", file: str | PathLike[str] | None = None, resume: bool = False, discard: bool = False, part: str | None = None, threads: SupportsIndex | None = None, executor: Executor | Callable[[], Executor] | None = None, chunks_per_task: SupportsIndex | None = None, progress: Callable[[int, int], object] | None = None) -> Sweep:
         """
         Computes quantities over poses, one row per pose.
 
@@ -1464,6 +1500,10 @@ class Robot(Analyses):
             Largest required velocity of the platform origin, both ways along each world axis [m/s].
         required_angular_velocity_rad_s
             Largest required angular velocity, both ways about each world axis [rad/s].
+        required_velocity_shape
+            Shape of the set of required velocities, and of that of angular velocities: an ellipsoid with equal half
+            axes is every direction up to one speed: `box` (every component varies by itself); `ellipsoid` (ellipsoid
+            with these half axes; a ball if they are equal); if not given: from the robot file, or box.
         file
             File of the rows: .parquet, .csv or .vti. It is written when all rows are there; until then FILE.partial
             holds them, also after a crash. The rows of a Parquet file are read into memory at their first use.
@@ -1646,7 +1686,7 @@ class Robot(Analyses):
         ----------
         docs/theory.md, equations (97a) to (97k).
         """
-    def speeds(self, /, pose: Pose | ArrayLike | None = None, static_model: StaticModel = "catenary", *, required_velocity_m_s: ArrayLike | None = None, required_angular_velocity_rad_s: ArrayLike | None = None, lengths_m: ArrayLike | None = None, hold_lengths_of_pose: bool = False, mass_kg: SupportsFloat | SupportsIndex | None = None, force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, wind_m_s: ArrayLike | None = None, cable_load_n_per_m: ArrayLike | None = None, tension_rule: TensionRule | None = None, target_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None) -> SpeedsResults:
+    def speeds(self, /, pose: Pose | ArrayLike | None = None, static_model: StaticModel = "catenary", *, required_velocity_m_s: ArrayLike | None = None, required_angular_velocity_rad_s: ArrayLike | None = None, required_velocity_shape: Literal['box', 'ellipsoid'] | None = None, lengths_m: ArrayLike | None = None, hold_lengths_of_pose: bool = False, mass_kg: SupportsFloat | SupportsIndex | None = None, force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, wind_m_s: ArrayLike | None = None, cable_load_n_per_m: ArrayLike | None = None, tension_rule: TensionRule | None = None, target_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None) -> SpeedsResults:
         """
         Computes what the winches do while the platform moves, and how fast their limits let it be.
 
@@ -1656,6 +1696,10 @@ class Robot(Analyses):
             Largest required velocity of the platform origin, both ways along each world axis [m/s].
         required_angular_velocity_rad_s
             Largest required angular velocity, both ways about each world axis [rad/s].
+        required_velocity_shape
+            Shape of the set of required velocities, and of that of angular velocities: an ellipsoid with equal half
+            axes is every direction up to one speed: `box` (every component varies by itself); `ellipsoid` (ellipsoid
+            with these half axes; a ball if they are equal); if not given: from the robot file, or box.
 
         The other parameters are those of `Robot.equilibrium`.
 
@@ -1670,7 +1714,7 @@ class Robot(Analyses):
         StaticsError
             The robot has no such equilibrium, or its lengths have no rates there.
         """
-    def sweep(self, /, vary: Mapping[str, ArrayLike], quantities: str | Sequence[str] | None = None, *, up_to_hz: SupportsFloat | SupportsIndex | None = None, platform_share: SupportsFloat | SupportsIndex | None = None, payload_center_m: ArrayLike | None = None, required_force_n: ArrayLike | None = None, required_moment_n_m: ArrayLike | None = None, required_shape: Literal['box', 'ellipsoid'] | None = None, required_payload_min_kg: SupportsFloat | SupportsIndex | None = None, required_payload_max_kg: SupportsFloat | SupportsIndex | None = None, required_payload_center_m: ArrayLike | None = None, required_payload_center_reach_m: ArrayLike | None = None, required_acceleration_m_s2: ArrayLike | None = None, required_angular_acceleration_rad_s2: ArrayLike | None = None, required_wind_speed_m_s: SupportsFloat | SupportsIndex | None = None, required_velocity_m_s: ArrayLike | None = None, required_angular_velocity_rad_s: ArrayLike | None = None, lengths_m: ArrayLike | None = None, pose: Pose | ArrayLike | None = None, hold_lengths_of_pose: bool = False, mass_kg: SupportsFloat | SupportsIndex | None = None, static_model: StaticModel = "catenary", force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, wind_m_s: ArrayLike | None = None, cable_load_n_per_m: ArrayLike | None = None, tension_rule: TensionRule | None = None, target_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, cable_model: CableModel | None = None, assembly: Assembly = "consistent", in_plane_only: bool = False, winches: Winches = "as-given", file: str | PathLike[str] | None = None, resume: bool = False, discard: bool = False, part: str | None = None, threads: SupportsIndex | None = None, executor: Executor | Callable[[], Executor] | None = None, chunks_per_task: SupportsIndex | None = None, progress: Callable[[int, int], object] | None = None) -> Sweep:
+    def sweep(self, /, vary: Mapping[str, ArrayLike], quantities: str | Sequence[str] | None = None, *, up_to_hz: SupportsFloat | SupportsIndex | None = None, platform_share: SupportsFloat | SupportsIndex | None = None, payload_center_m: ArrayLike | None = None, required_force_n: ArrayLike | None = None, required_moment_n_m: ArrayLike | None = None, required_shape: Literal['box', 'ellipsoid'] | None = None, required_payload_min_kg: SupportsFloat | SupportsIndex | None = None, required_payload_max_kg: SupportsFloat | SupportsIndex | None = None, required_payload_center_m: ArrayLike | None = None, required_payload_center_reach_m: ArrayLike | None = None, required_acceleration_m_s2: ArrayLike | None = None, required_angular_acceleration_rad_s2: ArrayLike | None = None, required_wind_speed_m_s: SupportsFloat | SupportsIndex | None = None, required_velocity_m_s: ArrayLike | None = None, required_angular_velocity_rad_s: ArrayLike | None = None, required_velocity_shape: Literal['box', 'ellipsoid'] | None = None, lengths_m: ArrayLike | None = None, pose: Pose | ArrayLike | None = None, hold_lengths_of_pose: bool = False, mass_kg: SupportsFloat | SupportsIndex | None = None, static_model: StaticModel = "catenary", force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, wind_m_s: ArrayLike | None = None, cable_load_n_per_m: ArrayLike | None = None, tension_rule: TensionRule | None = None, target_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, cable_model: CableModel | None = None, assembly: Assembly = "consistent", in_plane_only: bool = False, winches: Winches = "as-given", file: str | PathLike[str] | None = None, resume: bool = False, discard: bool = False, part: str | None = None, threads: SupportsIndex | None = None, executor: Executor | Callable[[], Executor] | None = None, chunks_per_task: SupportsIndex | None = None, progress: Callable[[int, int], object] | None = None) -> Sweep:
         """
         Computes quantities over values of the robot file, one row per combination, as the program's `sweep`.
 
@@ -1715,10 +1759,14 @@ class Robot(Analyses):
             Largest required velocity of the platform origin, both ways along each world axis [m/s].
         required_angular_velocity_rad_s
             Largest required angular velocity, both ways about each world axis [rad/s].
+        required_velocity_shape
+            Shape of the set of required velocities, and of that of angular velocities: an ellipsoid with equal half
+            axes is every direction up to one speed: `box` (every component varies by itself); `ellipsoid` (ellipsoid
+            with these half axes; a ball if they are equal); if not given: from the robot file, or box.
 
         The other parameters are those of `map`.
         """
-    def trajectory(self, /, path: str | PathLike[str] | Mapping[str, ArrayLike] | Callable[[float], ArrayLike] | None = None, move_to: Pose | ArrayLike | None = None, pose: Pose | ArrayLike | None = None, *, row_tolerance_m: SupportsFloat | SupportsIndex | None = None, via: ArrayLike | None = None, lift_m: SupportsFloat | SupportsIndex | None = None, blend: SupportsFloat | SupportsIndex | None = None, circle_center_m: ArrayLike | None = None, circle_axis: ArrayLike | None = None, turns: SupportsFloat | SupportsIndex | None = None, course: Literal['continuous-jerk', 'jerk-limited', 'quintic', 'septic'] = "continuous-jerk", speed_m_s: SupportsFloat | SupportsIndex | None = None, acceleration_m_s2: SupportsFloat | SupportsIndex | None = None, jerk_m_s3: SupportsFloat | SupportsIndex | None = None, angular_speed_rad_s: SupportsFloat | SupportsIndex | None = None, angular_acceleration_rad_s2: SupportsFloat | SupportsIndex | None = None, angular_jerk_rad_s3: SupportsFloat | SupportsIndex | None = None, duration_s: SupportsFloat | SupportsIndex | None = None, fastest: bool = False, rope_inertia: bool = False, sample_time_s: SupportsFloat | SupportsIndex | None = None, station_time_s: SupportsFloat | SupportsIndex | None = None, length_tolerance_m: SupportsFloat | SupportsIndex | None = None, lengths_m: ArrayLike | None = None, hold_lengths_of_pose: bool = False, mass_kg: SupportsFloat | SupportsIndex | None = None, static_model: StaticModel = "catenary", force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, wind_m_s: ArrayLike | None = None, cable_load_n_per_m: ArrayLike | None = None, tension_rule: TensionRule | None = None, target_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, lengths: str | PathLike[str] | None = None, page: str | PathLike[str] | None = None) -> TrajectoryResults:
+    def trajectory(self, /, path: str | PathLike[str] | Mapping[str, ArrayLike] | Callable[[float], ArrayLike] | None = None, move_to: Pose | ArrayLike | None = None, pose: Pose | ArrayLike | None = None, *, path_origin_m: ArrayLike | None = None, row_tolerance_m: SupportsFloat | SupportsIndex | None = None, via: ArrayLike | None = None, lift_m: SupportsFloat | SupportsIndex | None = None, blend: SupportsFloat | SupportsIndex | None = None, circle_center_m: ArrayLike | None = None, circle_axis: ArrayLike | None = None, turns: SupportsFloat | SupportsIndex | None = None, course: Literal['continuous-jerk', 'jerk-limited', 'quintic', 'septic'] = "continuous-jerk", speed_m_s: SupportsFloat | SupportsIndex | None = None, acceleration_m_s2: SupportsFloat | SupportsIndex | None = None, jerk_m_s3: SupportsFloat | SupportsIndex | None = None, angular_speed_rad_s: SupportsFloat | SupportsIndex | None = None, angular_acceleration_rad_s2: SupportsFloat | SupportsIndex | None = None, angular_jerk_rad_s3: SupportsFloat | SupportsIndex | None = None, duration_s: SupportsFloat | SupportsIndex | None = None, fastest: bool = False, rope_inertia: bool = False, sample_time_s: SupportsFloat | SupportsIndex | None = None, station_time_s: SupportsFloat | SupportsIndex | None = None, length_tolerance_m: SupportsFloat | SupportsIndex | None = None, lengths_m: ArrayLike | None = None, hold_lengths_of_pose: bool = False, mass_kg: SupportsFloat | SupportsIndex | None = None, static_model: StaticModel = "catenary", force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, wind_m_s: ArrayLike | None = None, cable_load_n_per_m: ArrayLike | None = None, tension_rule: TensionRule | None = None, target_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, lengths: str | PathLike[str] | None = None, figure: str | PathLike[str] | None = None, page: str | PathLike[str] | None = None) -> TrajectoryResults:
         """
         Computes the motion along a path: lengths with their rates, tensions with the inertia, winches, and what limits them.
 
@@ -1732,6 +1780,8 @@ class Robot(Analyses):
         move_to
             Pose x,y,z[,roll,pitch,yaw] [m, degrees] to which the platform moves from the pose of the state, from rest
             to rest.
+        path_origin_m
+            Place of the zero of a job, world axes [m]; if not given: the zero of the world.
         row_tolerance_m
             Smooth the rows of `path` by less than this distance [m]: half a unit of their last digit takes their
             rounding out. Angles change by less than what moves the attachments as far; if not given: the path passes
@@ -1786,6 +1836,8 @@ class Robot(Analyses):
         lengths
             Write the lengths for a controller: t_s, and unstrained_length_NAME_m of every cable [m], a trajectory for
             `settle` (.csv).
+        figure
+            Draw tensions, lengths, speeds and powers over time, with their limits (.svg, .pdf).
         page
             Write a page with the moving robot, and tensions, speeds and powers over time (.html).
 
@@ -1868,7 +1920,7 @@ class Robot(Analyses):
         FileError
             The file of the samples cannot be written, or belongs to other work.
         """
-    def winches(self, /, grid: Mapping[str, ArrayLike] | None = None, pose: Pose | ArrayLike | None = None, *, poses: ArrayLike | None = None, offers: Any = None, drum_width_m: SupportsFloat | SupportsIndex | None = None, required_force_n: ArrayLike | None = None, required_moment_n_m: ArrayLike | None = None, required_shape: Literal['box', 'ellipsoid'] | None = None, required_payload_min_kg: SupportsFloat | SupportsIndex | None = None, required_payload_max_kg: SupportsFloat | SupportsIndex | None = None, required_payload_center_m: ArrayLike | None = None, required_payload_center_reach_m: ArrayLike | None = None, required_acceleration_m_s2: ArrayLike | None = None, required_angular_acceleration_rad_s2: ArrayLike | None = None, required_wind_speed_m_s: SupportsFloat | SupportsIndex | None = None, required_velocity_m_s: ArrayLike | None = None, required_angular_velocity_rad_s: ArrayLike | None = None, lengths_m: ArrayLike | None = None, hold_lengths_of_pose: bool = False, mass_kg: SupportsFloat | SupportsIndex | None = None, static_model: StaticModel = "catenary", force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, wind_m_s: ArrayLike | None = None, cable_load_n_per_m: ArrayLike | None = None, tension_rule: TensionRule | None = None, target_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None) -> WinchesResults:
+    def winches(self, /, grid: Mapping[str, ArrayLike] | None = None, pose: Pose | ArrayLike | None = None, *, poses: ArrayLike | None = None, offers: Any = None, drum_width_m: SupportsFloat | SupportsIndex | None = None, required_force_n: ArrayLike | None = None, required_moment_n_m: ArrayLike | None = None, required_shape: Literal['box', 'ellipsoid'] | None = None, required_payload_min_kg: SupportsFloat | SupportsIndex | None = None, required_payload_max_kg: SupportsFloat | SupportsIndex | None = None, required_payload_center_m: ArrayLike | None = None, required_payload_center_reach_m: ArrayLike | None = None, required_acceleration_m_s2: ArrayLike | None = None, required_angular_acceleration_rad_s2: ArrayLike | None = None, required_wind_speed_m_s: SupportsFloat | SupportsIndex | None = None, required_velocity_m_s: ArrayLike | None = None, required_angular_velocity_rad_s: ArrayLike | None = None, required_velocity_shape: Literal['box', 'ellipsoid'] | None = None, lengths_m: ArrayLike | None = None, hold_lengths_of_pose: bool = False, mass_kg: SupportsFloat | SupportsIndex | None = None, static_model: StaticModel = "catenary", force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, wind_m_s: ArrayLike | None = None, cable_load_n_per_m: ArrayLike | None = None, tension_rule: TensionRule | None = None, target_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None) -> WinchesResults:
         """
         Computes the winches that a robot needs over its poses, for everything that is required there.
 
@@ -1911,6 +1963,10 @@ class Robot(Analyses):
             Largest required velocity of the platform origin, both ways along each world axis [m/s].
         required_angular_velocity_rad_s
             Largest required angular velocity, both ways about each world axis [rad/s].
+        required_velocity_shape
+            Shape of the set of required velocities, and of that of angular velocities: an ellipsoid with equal half
+            axes is every direction up to one speed: `box` (every component varies by itself); `ellipsoid` (ellipsoid
+            with these half axes; a ball if they are equal); if not given: from the robot file, or box.
 
         The other parameters are those of `Robot.equilibrium`.
 
@@ -1924,7 +1980,7 @@ class Robot(Analyses):
         StaticsError
             No pose holds every required load.
         """
-    def workspace(self, /, at_least: Mapping[str, SupportsFloat | SupportsIndex] | None = None, at_most: Mapping[str, SupportsFloat | SupportsIndex] | None = None, grid: Mapping[str, ArrayLike] | None = None, *, step_m: SupportsFloat | SupportsIndex | None = None, orientations: Literal['all', 'some'] = "all", vertex_tolerance_m: SupportsFloat | SupportsIndex | None = None, rays: SupportsIndex | None = None, center_m: ArrayLike | None = None, section: Mapping[str, ArrayLike] | None = None, up_to_hz: SupportsFloat | SupportsIndex | None = None, platform_share: SupportsFloat | SupportsIndex | None = None, payload_center_m: ArrayLike | None = None, required_force_n: ArrayLike | None = None, required_moment_n_m: ArrayLike | None = None, required_shape: Literal['box', 'ellipsoid'] | None = None, required_payload_min_kg: SupportsFloat | SupportsIndex | None = None, required_payload_max_kg: SupportsFloat | SupportsIndex | None = None, required_payload_center_m: ArrayLike | None = None, required_payload_center_reach_m: ArrayLike | None = None, required_acceleration_m_s2: ArrayLike | None = None, required_angular_acceleration_rad_s2: ArrayLike | None = None, required_wind_speed_m_s: SupportsFloat | SupportsIndex | None = None, required_velocity_m_s: ArrayLike | None = None, required_angular_velocity_rad_s: ArrayLike | None = None, pose: Pose | ArrayLike | None = None, mass_kg: SupportsFloat | SupportsIndex | None = None, static_model: StaticModel = "catenary", force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, wind_m_s: ArrayLike | None = None, cable_load_n_per_m: ArrayLike | None = None, tension_rule: TensionRule | None = None, target_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, cable_model: CableModel | None = None, assembly: Assembly = "consistent", in_plane_only: bool = False, winches: Winches = "as-given", compare: Robot | None = None, threads: SupportsIndex | None = None, progress: Callable[[int, int], object] | None = None, figure: str | PathLike[str] | None = None, surface: str | PathLike[str] | Sequence[str | PathLike[str]] | None = None, page: str | PathLike[str] | None = None) -> WorkspaceResults:
+    def workspace(self, /, at_least: Mapping[str, SupportsFloat | SupportsIndex] | None = None, at_most: Mapping[str, SupportsFloat | SupportsIndex] | None = None, grid: Mapping[str, ArrayLike] | None = None, *, step_m: SupportsFloat | SupportsIndex | None = None, orientations: Literal['all', 'some'] = "all", vertex_tolerance_m: SupportsFloat | SupportsIndex | None = None, rays: SupportsIndex | None = None, center_m: ArrayLike | None = None, section: Mapping[str, ArrayLike] | None = None, up_to_hz: SupportsFloat | SupportsIndex | None = None, platform_share: SupportsFloat | SupportsIndex | None = None, payload_center_m: ArrayLike | None = None, required_force_n: ArrayLike | None = None, required_moment_n_m: ArrayLike | None = None, required_shape: Literal['box', 'ellipsoid'] | None = None, required_payload_min_kg: SupportsFloat | SupportsIndex | None = None, required_payload_max_kg: SupportsFloat | SupportsIndex | None = None, required_payload_center_m: ArrayLike | None = None, required_payload_center_reach_m: ArrayLike | None = None, required_acceleration_m_s2: ArrayLike | None = None, required_angular_acceleration_rad_s2: ArrayLike | None = None, required_wind_speed_m_s: SupportsFloat | SupportsIndex | None = None, required_velocity_m_s: ArrayLike | None = None, required_angular_velocity_rad_s: ArrayLike | None = None, required_velocity_shape: Literal['box', 'ellipsoid'] | None = None, pose: Pose | ArrayLike | None = None, mass_kg: SupportsFloat | SupportsIndex | None = None, static_model: StaticModel = "catenary", force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, wind_m_s: ArrayLike | None = None, cable_load_n_per_m: ArrayLike | None = None, tension_rule: TensionRule | None = None, target_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, cable_model: CableModel | None = None, assembly: Assembly = "consistent", in_plane_only: bool = False, winches: Winches = "as-given", compare: Robot | None = None, threads: SupportsIndex | None = None, progress: Callable[[int, int], object] | None = None, figure: str | PathLike[str] | None = None, surface: str | PathLike[str] | Sequence[str | PathLike[str]] | None = None, page: str | PathLike[str] | None = None) -> WorkspaceResults:
         """
         Finds all positions at which quantities keep their limits: surface, volume, parts and holes.
 
@@ -1987,6 +2043,10 @@ class Robot(Analyses):
             Largest required velocity of the platform origin, both ways along each world axis [m/s].
         required_angular_velocity_rad_s
             Largest required angular velocity, both ways about each world axis [rad/s].
+        required_velocity_shape
+            Shape of the set of required velocities, and of that of angular velocities: an ellipsoid with equal half
+            axes is every direction up to one speed: `box` (every component varies by itself); `ellipsoid` (ellipsoid
+            with these half axes; a ball if they are equal); if not given: from the robot file, or box.
         compare
             Robot whose set is compared with this one on the same grid.
         threads
@@ -2200,7 +2260,7 @@ class Simulation:
         """
         Numbers of the integrator's own steps so far: `accepted`, `rejected`, `factored`, `evaluations`.
         """
-    def stop(self, /, duration_s: SupportsFloat | SupportsIndex, cables: list[str] | None = None) -> None:
+    def stop(self, /, duration_s: SupportsFloat | SupportsIndex, cables: SupportsGetItem[int, str] | None = None) -> None:
         """
         Brings winches to rest, with a continuous acceleration.
 

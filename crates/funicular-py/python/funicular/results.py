@@ -39,6 +39,69 @@ class Local(Row):
     """Complex numbers over frequency."""
 
 
+class HalvingRow(Row):
+    """Further readings that halve the largest standard deviation."""
+
+    poses: int
+    """Number of further poses with readings of all cables."""
+    positions_m: NDArray[np.float64]
+    """Their positions, in the order in which they help most [m]."""
+    worst_m: float
+    """Largest standard deviation of the position then [m]."""
+
+
+class LeftOut(Row):
+    """Candidates that were left out."""
+
+    by_clearance: int
+    """Candidates with cables, platform or obstacles too near to each other."""
+    by_tensions: int
+    """Candidates without equilibrium or without tensions within the limits."""
+    candidates: int
+    """Candidates that were given."""
+
+
+class ToolRow(Row):
+    """Standard deviations of the platform at a pose."""
+
+    covariance_m2: NDArray[np.float64]
+    """Covariance of the position [m²]."""
+    deviation_m: float
+    """Standard deviation of the position along the direction in which it is largest [m]."""
+    deviations_deg: NDArray[np.float64] | None
+    """Standard deviations of roll, pitch and yaw; absent for cables that end in one point [deg]."""
+    direction: NDArray[np.float64]
+    """Direction of the largest deviation."""
+    position_m: NDArray[np.float64]
+    """Position of the platform origin [m]."""
+    roll_pitch_yaw_deg: NDArray[np.float64]
+    """Roll, pitch, yaw of the platform [deg]."""
+    within_95_m: float
+    """Half width of the interval that holds the position along this direction with 95 % [m]."""
+
+
+class ToolAccuracy(Row):
+    """Accuracy of the tool: standard deviations of the platform when the readings of the calibrated values are
+    commanded."""
+
+    best_m: float
+    """Least standard deviation of the position [m]."""
+    halving: HalvingRow | None
+    """Further readings that halve the largest standard deviation; absent if no number of poses up to 60 does."""
+    left_out: LeftOut | None
+    """Poses that the robot cannot have."""
+    poses: list[ToolRow]
+    """Poses."""
+    worst_m: float
+    """Largest standard deviation of the position [m]."""
+
+    _PARTS: ClassVar[dict[str, type[Row]]] = {
+        "halving": HalvingRow,
+        "left_out": LeftOut,
+        "poses": ToolRow,
+    }
+
+
 class AnchorRow(Row):
     """Anchor after a calibration."""
 
@@ -65,17 +128,6 @@ class DistanceRow(Row):
     """Cable of one anchor."""
     second: str
     """Cable of the other anchor."""
-
-
-class LeftOut(Row):
-    """Candidates that were left out."""
-
-    by_clearance: int
-    """Candidates with cables, platform or obstacles too near to each other."""
-    by_tensions: int
-    """Candidates without equilibrium or without tensions within the limits."""
-    candidates: int
-    """Candidates that were given."""
 
 
 class MinimumRow(Row):
@@ -114,6 +166,8 @@ class ProposalRow(Row):
     """Roll, pitch, yaw of the platform [deg]."""
     tension_rule: str | None
     """Rule of the tensions at the pose, if they are a matter of choice."""
+    tool_m: float | None
+    """Largest deviation of the position of the platform then, over the poses of its accuracy [m]."""
     total_m: float | None
     """Root of the sum of the variances of the chosen values then [m].
 
@@ -729,6 +783,26 @@ class DemandRow(Row):
     """Unit."""
 
 
+class ExchangeRow(Row):
+    """Exchange of the attachments of two cables."""
+
+    after: float
+    """Value of the goal after the exchange, with the values of the file."""
+    cables: list[str]
+    """Names of the cables."""
+
+
+class ChangeGain(Row):
+    """Part of the gain of an entry of the changes."""
+
+    change: str
+    """Path of the values, as it was given."""
+    gain: float | None
+    """Gain of the goal that is lost if these values alone go back to those of the file.
+
+    Absent if a pose is not held then."""
+
+
 class DesignPose(Row):
     """Results at one pose."""
 
@@ -754,6 +828,23 @@ class DesignPose(Row):
     """Stiffness after [N/m]."""
     stiffness_before_n_per_m: float | None
     """Stiffness before [N/m]."""
+
+
+class RopeTried(Row):
+    """Rope that was tried."""
+
+    after: float | None
+    """Value of the goal with the chosen values; absent for a rope that was not searched or that meets no demands."""
+    before: float | None
+    """Value of the goal with the values of the file.
+
+    Absent where a pose is not held."""
+    chosen: bool
+    """True for the chosen rope."""
+    name: str
+    """Name of the rope."""
+    reason: str | None
+    """Reason for which there is no value."""
 
 
 class ChosenValue(Row):
@@ -1631,6 +1722,8 @@ class RequiredSpeeds(Row):
     """Largest multiple of the required velocities."""
     velocity_m_s: NDArray[np.float64]
     """Velocity [m/s]."""
+    velocity_shape: str
+    """`box`, or `ellipsoid` with these half axes, for velocities and angular velocities each."""
 
     _PARTS: ClassVar[dict[str, type[Row]]] = {
         "speed_factor": LargestSpeed,
@@ -1852,6 +1945,40 @@ class Extreme(Row):
     which they change too fast for a number that does not depend on the rows."""
     what: str
     """Name of the number."""
+
+
+class SlackCable(Row):
+    """Cable that goes slack."""
+
+    cable: str
+    """Cable."""
+    t_s: float
+    """First time [s]."""
+
+
+class LengthCommand(Row):
+    """Tensions under a controller that commands lengths alone."""
+
+    displacement_m: float
+    """Largest distance of the platform from its path [m]."""
+    lengths: str
+    """`computed` with stretch and sag, or `geometric`: the straight distances at the pose."""
+    lost_t_s: float | None
+    """First time from which on the lengths hold the platform nowhere near; absent if they always do [s]."""
+    lowest_cable: str
+    """Lowest cable."""
+    lowest_t_s: float
+    """Lowest t [s]."""
+    lowest_tension_n: float
+    """Lowest tension [N]."""
+    slack: list[SlackCable]
+    """Cables that go slack, in the order of time."""
+    told: str
+    """Sentence with these numbers."""
+
+    _PARTS: ClassVar[dict[str, type[Row]]] = {
+        "slack": SlackCable,
+    }
 
 
 class LimitChange(Row):
@@ -2466,6 +2593,8 @@ class CableResults(Results):
 class CalibrateResults(Results):
     """Results of `calibrate`."""
 
+    accuracy: ToolAccuracy | None
+    """Accuracy of the tool; absent if none was asked for, or if the readings do not tell it."""
     anchors: list[AnchorRow]
     """Anchors with their covariance."""
     arrivals: int
@@ -2522,6 +2651,7 @@ class CalibrateResults(Results):
     """Largest deviation of a combination of values in the frame [m]."""
 
     _PARTS: ClassVar[dict[str, type[Row]]] = {
+        "accuracy": ToolAccuracy,
         "anchors": AnchorRow,
         "distances": DistanceRow,
         "left_out": LeftOut,
@@ -2682,6 +2812,10 @@ class DesignResults(Results):
     """Reason for the end of the search, as a sentence."""
     evaluations: int
     """Number of evaluated robots, those of all choices of sides included."""
+    exchanges: list[ExchangeRow] | None
+    """Exchanges of attachments."""
+    gains: list[ChangeGain]
+    """Part of the gain of each entry of the changes."""
     goal: str
     """Name of the goal."""
     goal_means: str
@@ -2704,6 +2838,8 @@ class DesignResults(Results):
     """Name of the robot; absent if there are several."""
     robot_file: str
     """Robot file with the values."""
+    ropes: list[RopeTried] | None
+    """Ropes that were tried."""
     static_model: str
     """Static model."""
     tension_rule: str | None
@@ -2718,7 +2854,10 @@ class DesignResults(Results):
     _PARTS: ClassVar[dict[str, type[Row]]] = {
         "band_sides": SidesTried,
         "demands": DemandRow,
+        "exchanges": ExchangeRow,
+        "gains": ChangeGain,
         "poses": DesignPose,
+        "ropes": RopeTried,
         "values": ChosenValue,
     }
 
@@ -3324,6 +3463,9 @@ class TrajectoryResults(Results):
     inertia_factor: float | None
     """Smallest factor with which the inertia is the largest one that any tensions within their limits hold; absent where
     the cables leave no choice of tensions."""
+    length_commands: list[LengthCommand] | None
+    """Tensions under a controller that commands lengths alone, with computed and with geometric lengths; absent for a
+    robot with as many cables as degrees of freedom."""
     lengths_held: bool | None
     """True if the unstrained lengths of a pose are held; absent otherwise."""
     limit_changes: list[LimitChange]
@@ -3364,6 +3506,7 @@ class TrajectoryResults(Results):
 
     _PARTS: ClassVar[dict[str, type[Row]]] = {
         "extremes": Extreme,
+        "length_commands": LengthCommand,
         "limit_changes": LimitChange,
         "most_used": MostUsed,
         "nearest": Nearest,
