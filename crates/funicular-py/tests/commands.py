@@ -18,7 +18,7 @@ OUTPUT |= {"--figure-width-mm", "--font-size-pt", "--figure-mode", "--fitted", "
 SWITCHES = {
     *("--log", "--adaptive", "--all", "--in-plane-only", "--print-request", "--resume", "--discard"),
     *("--platform", "--hold-lengths-of-pose", "--friction-interval", "--rigid-cables", "--rope-inertia", "--fastest", "--once", "--hold-platform"),
-    *("--find-way", "--in-gusts", "--quiet", "--summary"),
+    *("--find-way", "--in-gusts", "--quiet", "--summary", "--reconnect"),
 }
 # Options that may be given several times.
 LISTS = {"reduce": {"--input", "--output"}, "gust": {"--output"}, "identify": {"--profile"}}
@@ -60,7 +60,7 @@ def numbers(text: str) -> list[Any]:
 
 
 def steps(text: str) -> Any:
-    """Values along an axis for the keywords `grid`, `vary` and `section`."""
+    """Values along an axis for the keywords `grid`, `vary`, `section` and `accuracy_grid`."""
     if ":" in text:
         first, last, count = text.split(":")
         return (number(first), number(last), int(count))
@@ -103,7 +103,7 @@ def call(line: str) -> tuple[str, list[str], dict[str, Any], dict[str, Any]]:
         elif word in ("--at-least", "--at-most"):
             quantity, _, text = next(rest).partition("=")
             keywords.setdefault(key, {})[quantity] = float(text)
-        elif word in ("--grid", "--vary", "--section"):
+        elif word in ("--grid", "--vary", "--section", "--accuracy-grid"):
             axis, _, text = next(rest).partition("=")
             keywords.setdefault(key, {})[axis] = steps(text)
         elif word == "--within":
@@ -117,9 +117,9 @@ def call(line: str) -> tuple[str, list[str], dict[str, Any], dict[str, Any]]:
             keywords[key] = tomllib.loads(Path(next(rest)).read_text())
         elif word == "--quantity":
             keywords["quantities"] = next(rest).split(",")
-        elif word == "--offers":
+        elif word in ("--offers", "--ropes"):
             keywords[key] = read_offers(next(rest))
-        elif word in ("--poses", "--via"):
+        elif word in ("--poses", "--via", "--accuracy-poses"):
             keywords[key] = read_poses(next(rest))
         elif command == "design" and word == "--change":
             keywords.setdefault(key, []).append(chosen(next(rest)))
@@ -142,7 +142,7 @@ def call(line: str) -> tuple[str, list[str], dict[str, Any], dict[str, Any]]:
 
 
 def read_offers(name: str) -> list[dict[str, Any]]:
-    """Winches on offer, as keywords; empty cells are left out."""
+    """Winches or ropes on offer, as keywords; empty cells are left out."""
     with Path(name).open(newline="") as file:
         rows = list(csv.DictReader(file))
     return [{key: text if key == "name" else float(text) for key, text in row.items() if text} for row in rows]

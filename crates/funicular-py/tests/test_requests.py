@@ -41,7 +41,7 @@ CIRCLE = (
     "--speed-m-s 1 --acceleration-m-s2 1 --jerk-m-s3 10 --angular-speed-rad-s 1 --angular-acceleration-rad-s2 1 "
     "--angular-jerk-rad-s3 10 --sample-time-s 0.5"
 )
-VELOCITIES = "--required-velocity-m-s 1,1,0.5 --required-angular-velocity-rad-s 0.2,0.2,0.2 --set winches.drum.max_speed_m_s=3"
+VELOCITIES = "--required-velocity-shape ellipsoid --required-velocity-m-s 1,1,0.5 --required-angular-velocity-rad-s 0.2,0.2,0.2 --set winches.drum.max_speed_m_s=3"
 LENGTHS_OVER_TIME = """t_s,unstrained_length_1_m,unstrained_length_2_m,unstrained_length_3_m,unstrained_length_4_m,unstrained_length_5_m,unstrained_length_6_m
 0,6.86,6.568,6.753,6.666,6.801,6.604
 0.5,6.862,6.566,6.755,6.664,6.801,6.604
@@ -85,6 +85,7 @@ MORE = [
     "funicular calibrate robots/ipanema2.toml --readings docs/tutorials/ipanema-lengths.csv --static-model spring --tension-range-n 200:2000",
     f"funicular calibrate {MACHINE} --propose 1 --grid x=1:3:3 --propose-by determinant --min-tension-n 5 --max-tension-n 50 --tension-rule closest --target-tension-n 20",
     f"funicular calibrate {MACHINE} --length-std-m 0.0005 --propose 1 --poses waypoints.csv --propose-for anchors --wanted-std-m 0.05",
+    f"funicular calibrate {MACHINE} --accuracy-poses waypoints.csv --propose 1 --grid x=1:3:3 --propose-for tool",
     f"funicular compare {ROBOT} --below-hz 2",
     f"funicular compare robots/cogiro.toml --below-hz 6 {TENSIONS} --platform --platform-share 0.6 --tolerance 0.05",
     f"funicular gradient {ROBOT} --of frequencies,damping,tensions --below-hz 2 --per percent {LENGTHS}",
@@ -108,6 +109,7 @@ MORE = [
     f"funicular map robots/cogiro-winches.toml --grid x=0:1:2 --grid z=1.5 --quantity speed-factor,speed-max:rz {VELOCITIES}",
     f"funicular sweep robots/cogiro-winches.toml --vary platform.mass_kg=90,95 --quantity motor-power {VELOCITIES}",
     f"funicular trajectory robots/cogiro.toml {TENSIONS} {STATE} --move-to 1.5,1,1.5,0,0,10 --via trajectory.csv --blend 0.5 {COURSE}",
+    "funicular trajectory robots/cogiro.toml --path job.csv --path-origin-m 0,0,1.5 --speed-m-s 0.5 --acceleration-m-s2 1 --jerk-m-s3 10 --sample-time-s 0.5",
     "funicular trajectory robots/cogiro.toml --path path.csv --row-tolerance-m 0.00005 --duration-s 3 --rope-inertia",
     f"funicular trajectory robots/cogiro-winches.toml --pose 1,0,1.5 --circle-center-m 0,0,1.5 --circle-axis 0,0.1,1 --turns 0.5 {CIRCLE}",
     f"funicular trajectory robots/cogiro.toml --pose 1,2,1.5 --hold-lengths-of-pose --mass-kg 250 --move-to 1.5,1,1.5 --lift-m 0.2 {CIRCLE} --max-tension-n 1500 --fastest",
@@ -139,6 +141,7 @@ MORE = [
     "--in-plane-only --winches clamped",
     "funicular design robots/cogiro.toml --poses trajectory.csv --weights 2,1 --change platform.mass_kg=80:120 "
     "--min-frequency-hz 0.5 --min-stiffness-n-per-m 100 --avoid-hz 2.5:3.2 --max-iterations 3 --goal rope-length",
+    "funicular design robots/cogiro.toml --grid x=0:1:2 --grid z=1.5 --change platform.mass_kg=80:120 --ropes ropes.csv --reconnect --goal rope-mass",
     f"funicular design robots/cogiro.toml --change cables.*.anchor_m=±0.1 {TENSIONS} {STATE} {MODEL}",
     f"funicular uncertainty {ROBOT} --deviations platform.mass_kg=1%,materials=2% --of tensions,frequencies,damping --below-hz 1.3 "
     "--method linear --pose 0,0,0.5 --hold-lengths-of-pose",
@@ -162,6 +165,7 @@ MORE = [
     f"funicular export {ROBOT} --to moordyn --segments 5 --mass-kg 12.5 --scenario docs/simulation/release.toml --duration-s 2",
     f"funicular export {ROBOT} --to mujoco --cable-pieces 3 --pose 0,0,0.5",
     f"funicular export {ROBOT} --to c --pose 0,0,0.5 --within x=-0.2:0.2 --within y=0.1 --tolerance-m 1e-5 --prefix t",
+    f"funicular report {ROBOT} --summary",
     f"funicular report {ROBOT} --input-point-m 0.1,0,0 --output-point-m 0,0,0.1 {STATE} {MODEL}",
     f"funicular export robots/cogiro.toml --to vtk {TENSIONS} {STATE}",
     f"funicular sweep robots/cogiro.toml --vary platform.mass_kg=200,300 {TENSIONS} {STATE} {MODEL} --up-to-hz 50",
@@ -252,6 +256,8 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     (tmp_path / "lengths.csv").write_text(LENGTHS_OVER_TIME)
     (tmp_path / "waypoints.csv").write_text("x_m,y_m,z_m,roll_deg,pitch_deg,yaw_deg\n3.7,3.5,0,0,0,0\n1,1,0,0,0,0\n")
     (tmp_path / "near.csv").write_text("x_m,y_m,z_m,roll_deg,pitch_deg,yaw_deg\n0,0.05,0.5,0,1,0\n")
+    (tmp_path / "job.csv").write_text("x_m,y_m,z_m,feed_m_s\n0.2,0,0,0.1\n0.2,0.2,0,0.1\n")
+    (tmp_path / "ropes.csv").write_text("name,axial_stiffness_n,mass_kg_per_m,diameter_m\nthin,300000,0.05,\nthick,900000,0.1,0.006\n")
     (tmp_path / "path.csv").write_text("t_s,x_m,y_m,z_m,yaw_deg\n0,0,0,1.5,0\n1,0.5,0.2,1.5,5\n2,1,0,1.6,10\n")
     (tmp_path / "winches.csv").write_text("name,tension_n,speed_m_s,power_w,rope_m\nsmall,800,1.2,900,\n7,3000,3,5000,60\n")
     (tmp_path / "gusts.csv").write_text("frequency_hz,along_m2_s,lateral_m2_s,up_m2_s\n0.01,40,20,10\n0.1,8,6,4\n1,0.2,0.2,0.1\n")

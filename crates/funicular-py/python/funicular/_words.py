@@ -10,7 +10,7 @@ Winches = Literal["as-given", "clamped", "torque", "stuck"]
 Hold = Literal["lengths", "pose", "rule"]
 Per = Literal["unit", "percent", "tolerance"]
 Method = Literal["automatic", "linear", "sampled"]
-Goal = Literal["first-frequency", "platform", "stiffness-min", "rope-length", "rope-mass", "load-factor"]
+Goal = Literal["first-frequency", "platform", "stiffness-min", "rope-length", "rope-mass", "load-factor", "clearance", "winch-tension", "winch-speed", "winch-torque", "winch-power", "workspace"]
 ExportFormat = Literal["opensees", "moordyn", "mujoco", "sdf", "urdf", "vtk", "c", "json"]
 Result = Literal[
     "pose",
