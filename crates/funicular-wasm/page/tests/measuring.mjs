@@ -205,7 +205,7 @@ test("a wrong table, field or choice is told at its place", async () => {
 
   for (const [table, message] of [
     ["length_bl_mm,length_br_mm\n1,x\n", /line 2, column `length_br_mm`.*x/s],
-    ["length_bl_mm,length_xx_mm\n1,2\n", /there is a column `length_xx_mm`.*did you mean/s],
+    ["length_bl_mm,length_xx_mm\n1,2\n", /there is a column `length_xx_m`.*did you mean/s],
     ["length_bl_mm,length_br_mm,length_tr_mm,length_tl_mm\n3000,3000,3000,3000\n", /at least|rows/],
   ]) {
     writeFileSync(join(folder, "wrong.csv"), table);
