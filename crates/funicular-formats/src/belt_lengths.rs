@@ -33,9 +33,9 @@ pub fn has_lengths(path: &str, bytes: &[u8]) -> bool {
 ///
 /// # Example
 /// ```
-/// let log = b"CLBM:[{bl:2960.58,   br:3150.08},{bl:3066.96,   br:3042.59}]\n";
+/// let log = b"CLBM:[{bl:2000, br:3150.08},{bl:2500, br:3042.59}]\n";
 /// let found = funicular_formats::belt_lengths::read("log.txt", log)?;
-/// assert_eq!(found.columns["length_bl_m"], [Some(2.96058), Some(3.06696)]);
+/// assert_eq!(found.columns["length_bl_m"], [Some(2.0), Some(2.5)]);
 /// # Ok::<(), anyhow::Error>(())
 /// ```
 pub fn read(path: &str, bytes: &[u8]) -> Result<NumberTable<Option<f64>>> {
