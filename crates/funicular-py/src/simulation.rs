@@ -231,7 +231,7 @@ impl PySimulation {
     /// mass_kg
     ///     Mass of the payload, a part of the platform's mass [kg].
     /// point_m
-    ///     Its place in the platform frame [m]; the centre of mass if not given.
+    ///     Point of the payload in the platform frame [m]; the centre of mass if not given.
     #[pyo3(signature = (mass_kg, point_m=None))]
     fn release(&self, py: Python<'_>, mass_kg: Number, point_m: Option<Numbers>) -> PyResult<()> {
         let mass = mass_kg.positive("mass_kg")?;
@@ -246,9 +246,9 @@ impl PySimulation {
     /// mass_kg
     ///     Mass of the payload [kg].
     /// point_m
-    ///     Its place in the platform frame [m]; the centre of mass if not given.
+    ///     Point of the payload in the platform frame [m]; the centre of mass if not given.
     /// velocity_m_s
-    ///     Its velocity before, world axes [m/s]; that of the platform if not given.
+    ///     Velocity of the payload before, world axes [m/s]; that of the platform if not given.
     #[pyo3(signature = (mass_kg, point_m=None, *, velocity_m_s=None))]
     fn pick(
         &self,

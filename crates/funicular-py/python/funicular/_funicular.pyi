@@ -2176,9 +2176,9 @@ class Simulation:
         mass_kg
             Mass of the payload [kg].
         point_m
-            Its place in the platform frame [m]; the centre of mass if not given.
+            Point of the payload in the platform frame [m]; the centre of mass if not given.
         velocity_m_s
-            Its velocity before, world axes [m/s]; that of the platform if not given.
+            Velocity of the payload before, world axes [m/s]; that of the platform if not given.
         """
     @property
     def pose(self, /) -> Pose:
@@ -2211,7 +2211,7 @@ class Simulation:
         mass_kg
             Mass of the payload, a part of the platform's mass [kg].
         point_m
-            Its place in the platform frame [m]; the centre of mass if not given.
+            Point of the payload in the platform frame [m]; the centre of mass if not given.
         """
     def restore(self, /, state: bytes) -> None:
         """

@@ -7,7 +7,7 @@ use funicular::robot::{LoadShape, RequiredLoads, RequiredPayload};
 
 rows! {
     /// Loads that the robot has to bear in addition to the dead load, and velocities that its winches have to give.
-    /// What is not required is absent.
+    /// A load that is not required is absent.
     pub struct CheckedRequired {
         /// `box` or `ellipsoid`: the shape of the set of forces, moments and so on.
         pub shape: &'static str;

@@ -17,7 +17,8 @@ const MAX_SEARCHES: usize = 8;
 /// Relative gain of an exchange of attachments that is more than rounding.
 const MIN_GAIN: f64 = 1e-6;
 
-/// Largest number of rounds of exchanges; each robot of the library ends after four or fewer.
+/// Largest number of rounds of exchanges, far more than a robot has pairs that gain; the goal gains in every round, so
+/// that they end by themselves.
 const MAX_ROUNDS: usize = 50;
 
 /// Keys of a material that belong to the section of its rope.

@@ -13,7 +13,7 @@ const TOLD: usize = 6;
 /// Accuracy of the size of a change, relative to it; told are three digits.
 const ACCURACY: f64 = 1e-3;
 
-/// Largest factor of a maximum tension, and the reciprocal of the least one of a minimum and of the mass.
+/// Largest factor of a maximum tension, and the reciprocal of the least one of the mass; a minimum goes down to zero.
 const MAX_FACTOR: f64 = 10.0;
 
 /// Largest move of an anchor, over the mean distance from anchors to platform.

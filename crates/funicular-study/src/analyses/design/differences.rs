@@ -7,8 +7,8 @@ use crate::at_rest::AtRest;
 /// is wrong by 1e-6 of its size from rounding, and by 1e-10 of the second derivative over that distance.
 pub(super) const HALF_STEP: f64 = 1e-5;
 
-/// Change of the load factor about 1 over which a pose passes from not held to held. The poses of a grid lie so far
-/// apart that load factors of neighbours differ by about as much.
+/// Change of the load factor about 1 over which a pose passes from not held to held. A smaller one lets fewer poses
+/// pull at the values, a larger one counts poses that are clearly held or lost; the text counts them sharply.
 const SOFT: f64 = 0.1;
 
 /// Robot at rest on both sides of a value.

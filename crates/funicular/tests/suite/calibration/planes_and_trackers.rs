@@ -116,7 +116,7 @@ fn a_tracker_fixes_the_frames_of_the_world_and_of_the_platform() {
         }
     }
 
-    // Exact data: a derivative by an angle that is 1 % off would not arrive at them.
+    // Exact data: every search ends at them. The derivatives of angles are compared with motions in `tool`.
     let of_noise = ReadingDeviations { reading: 1e-3, position: 1e-3, angle: 1e-3, tension: 1.0, tension_prior: None };
     let exact = ReadingDeviations { reading: 0.0, position: 0.0, angle: 0.0, ..of_noise };
     let rows = tracked(&truth, &poses, &exact, &mut draws);
