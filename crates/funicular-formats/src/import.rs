@@ -168,8 +168,8 @@ impl<'a> Sources<'a> {
 fn of_tree(file: &SourceFile) -> Result<Draft> {
     let unknown = || {
         anyhow!(
-            "{}: it is neither XML (CASPR, WireX, MuJoCo, SDF, URDF) nor a MoorDyn input file, which has sections such as \
-             `--- LINE TYPES ---`, nor JSON of GRAB, which has `actuator` and `platform`, nor YAML of cdpr for Gazebo, \
+            "{}: it is neither XML (CASPR, WireX, MuJoCo, SDF, URDF) nor a MoorDyn input file, which has sections \
+             such as `--- LINE TYPES ---`, nor JSON of GRAB, which has `actuator` and `platform`, nor YAML of cdpr for Gazebo, \
              which has `points` and `platform`",
             file.path
         )

@@ -1,8 +1,8 @@
 //! Import of the YAML of `cdpr`, a simulator of cable robots in Gazebo.
 //!
 //! # References
-//! The keys have the meaning that the program gives them (github.com/oKermorgant/cdpr): F. Boutin et al., École Centrale
-//! de Nantes; SDFormat specification, <http://sdformat.org/spec>, for the angles and for Gazebo's gravity.
+//! The keys have the meaning that the program gives them (github.com/oKermorgant/cdpr): F. Boutin et al., École
+//! Centrale de Nantes; SDFormat specification, <http://sdformat.org/spec>, for the angles and for Gazebo's gravity.
 
 use super::draft::{Draft, DraftCable, DraftMotion, DraftPlatform, DraftRope, DraftState};
 use super::tree::{Place, Tree};

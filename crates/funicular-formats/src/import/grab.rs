@@ -68,19 +68,15 @@ pub(crate) fn read(file: &SourceFile, tree: &Tree) -> Result<Draft> {
     let mut assumed = Vec::new();
 
     refuse_motion(&root)?;
-    let gravity_w = match platform.optional("gravity_axis")? {
-        Some(axis) => {
-            let up = axis.vector()?;
-            if up == Vec3::zeros() {
-                bail!(axis.error("`platform.gravity_axis` has no length"));
-            }
-            -up.normalize() * GRAVITY
-        }
-        None => {
-            assumed.push("that gravity is along -z: the file does not give its axis".to_owned());
-            -Vec3::z() * GRAVITY
-        }
+    let axis = platform.optional("gravity_axis")?;
+    let up = axis.as_ref().map(Place::vector).transpose()?.unwrap_or_else(Vec3::z);
+    let Some(up) = up.try_normalize(0.0) else {
+        bail!(platform.error("`platform.gravity_axis` has no length"));
     };
+    if axis.is_none() {
+        assumed.push("that gravity is along -z: the file does not give its axis".to_owned());
+    }
+    let gravity_w = -up * GRAVITY;
     notes.push(format!("Gravity {GRAVITY} m/s², as in the laboratory's programs"));
 
     for (key, what) in [("ext_force_loc", "force"), (layout.moment, "moment")] {

@@ -247,7 +247,7 @@ mod tests {
             ("a: &x [1]\nb: *x\n", "a.yaml:2: the file is not well-formed YAML: it has aliases"),
             ("a: 1\na: 2\n", "a.yaml:2: the file is not well-formed YAML: the key `a` is there twice"),
             ("a: 1\n---\nb: 1\n", "second document"),
-            (&"[".repeat(2000), "too deep"),
+            (&"[".repeat(2000), "recursion limit"),
         ] {
             let told = parse(&file(text)).unwrap_err().to_string();
             assert!(told.contains(expected), "{text:.20}: {told}");

@@ -1,5 +1,5 @@
-//! Import of URDF: a robot of links whose cables are pairs of links, `anchor_NAME` on the frame and `attachment_NAME` on
-//! the platform. URDF has no cables and no loops, so that it cannot say more about them.
+//! Import of URDF: a robot of links whose cables are pairs of links, `anchor_NAME` on the frame and `attachment_NAME`
+//! on the platform. URDF has no cables and no loops, so that it cannot say more about them.
 //!
 //! # References
 //! URDF, <https://wiki.ros.org/urdf/XML>.
@@ -59,7 +59,8 @@ pub(crate) fn read<'n>(xml: &'n Xml<'n>) -> Result<Draft> {
     if cables.is_empty() {
         bail!(xml.error(
             root,
-            "the robot has no cables: no pairs of links `anchor_NAME` on the frame and `attachment_NAME` on the platform"
+            "the robot has no cables: no pairs of links `anchor_NAME` on the frame and `attachment_NAME` on the \
+             platform"
         ));
     }
 

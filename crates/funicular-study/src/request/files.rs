@@ -82,9 +82,9 @@ declared! {
     ///
     /// CASPR: the bodies file and the cables file, in any order. WireX: a .wcrfx file. MoorDyn: an input file of
     /// version 2 with one body, or one free point, on lines. MuJoCo: a model with spatial tendons. SDF: a model with
-    /// springs of Drake, chains of joints or named frames. URDF: links in pairs. JSON of GRAB, YAML of cdpr. No value is invented: if a file lacks one, a message names
-    /// the option that gives it. Data that a robot file cannot hold is listed, also at the head of the file.
-    /// docs/import.md explains how each number is read.
+    /// springs of Drake, chains of joints or named frames. URDF: links in pairs. JSON of GRAB, YAML of cdpr. No value
+    /// is invented: if a file lacks one, a message names the option that gives it. Data that a robot file cannot hold
+    /// is listed, also at the head of the file. docs/import.md explains how each number is read.
     pub struct ImportRequest {
         /// Files of one robot; their format is recognised from their content.
         files: Vec<SourceFile> = Vec::new() => (Data(shape::files)).required()

@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::{robot, succeed};
+use std::fmt::Write;
 
 /// Examples with the options that their formats need, and the gravity of their programs.
 fn examples() -> [(&'static str, Vec<&'static str>, f64); 5] {
@@ -64,7 +65,8 @@ fn there_and_back(name: &str, to: &str, more: &[&str]) -> String {
 
 #[test]
 fn an_exported_robot_of_springs_is_imported_with_the_same_statics() {
-    // Fixed points; winches with pulleys, drum sides and stiffness; pulleys on fewer cables than freedoms; a point mass.
+    // Fixed points; winches with pulleys, drum sides and stiffness; pulleys on fewer cables than freedoms; a point
+    // mass.
     for (name, formats) in [
         ("yuan2014-4mm.toml", &["mujoco", "sdf"][..]),
         ("cogiro-winches.toml", &["mujoco"]),
@@ -117,7 +119,8 @@ fn chain_of_joints(extra: &str) -> String {
     for (i, (anchor, end)) in
         [("2 0 3", "0.1 0 0.2"), ("-1 2 3", "0 0.1 0.2"), ("-1 -2 3", "0 -0.1 0.2")].iter().enumerate()
     {
-        text += &format!(
+        let _ = write!(
+            text,
             "<link name='cable{i}'><pose>0 0 2 0 0 0</pose></link><link name='X{i}'><pose>{anchor} 0 0 0</pose></link>\
              <link name='E{i}'><pose>{end} 0 0 0</pose></link>\
              <joint name='turn{i}' type='revolute'><parent>frame</parent><child>X{i}</child></joint>\

@@ -166,8 +166,8 @@ impl MovingBody<'_> {
             _ => bail!(xml.error(
                 self.node,
                 format!(
-                    "the joints of the body `{}` are {}; a platform has a free joint, three slides, or two slides and a \
-                     hinge",
+                    "the joints of the body `{}` are {}; a platform has a free joint, three slides, or two slides \
+                     and a hinge",
                     clean(self.node.attribute("name").unwrap_or_default()),
                     clean(&kinds.join(", "))
                 )

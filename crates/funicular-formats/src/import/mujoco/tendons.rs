@@ -115,8 +115,8 @@ fn own_spring<'n>(xml: &'n Xml<'n>, options: &MujocoOptions<'n>, node: Node<'n, 
         Some(rest_length) => Ok(Some(TendonSpring { stiffness, rest_length, axial_stiffness: None })),
         None => bail!(xml.error(
             node,
-            "the tendon has a stiffness and no `springlength`: without tension where it stands, it carries nothing; give \
-             its `springlength`"
+            "the tendon has a stiffness and no `springlength`: without tension where it stands, it carries nothing; \
+             give its `springlength`"
         )),
     }
 }
@@ -158,8 +158,8 @@ fn course<'n>(xml: &Xml, bodies: &MujocoBodies<'n>, node: Node<'n, 'n>) -> Resul
         bail!(xml.error(
             node,
             format!(
-                "the tendon ends on the body `{}`, which hangs on another one, as ropes of several pieces do; export the \
-                 robot without ⟪cable_pieces⟫",
+                "the tendon ends on the body `{}`, which hangs on another one, as ropes of several pieces do; export \
+                 the robot without ⟪cable_pieces⟫",
                 clean(body.node.attribute("name").unwrap_or_default())
             )
         ));
@@ -224,8 +224,8 @@ fn wheel(xml: &Xml, bodies: &MujocoBodies, part: Node, before_w: &Vec3) -> Resul
         bail!(xml.error(
             geom.node,
             format!(
-                "the wheel of radius {radius} m is {offset} m from its swivel axis, or the tendon does not come along this \
-                 axis; the cable must come to the wheel along the axis about which it swivels"
+                "the wheel of radius {radius} m is {offset} m from its swivel axis, or the tendon does not come along \
+                 this axis; the cable must come to the wheel along the axis about which it swivels"
             )
         ));
     }

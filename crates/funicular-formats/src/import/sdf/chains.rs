@@ -29,8 +29,8 @@ pub(super) fn cables(model: &SdfModel) -> Result<Vec<DraftCable>> {
             bail!(model.xml.error(
                 model.node,
                 format!(
-                    "the chain of the prismatic joint `{}` has {} ends on the frame and {} on the platform; a cable has \
-                     one of each",
+                    "the chain of the prismatic joint `{}` has {} ends on the frame and {} on the platform; a cable \
+                     has one of each",
                     clean(&slide.name),
                     anchors.len(),
                     attachments.len()
