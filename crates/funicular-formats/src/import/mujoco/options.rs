@@ -149,7 +149,7 @@ mod tests {
     fn every_way_to_write_an_orientation_is_the_same_quarter_turn() {
         let angles =
             ["quat=\"0.5 0.5 0.5 0.5\"", "axisangle=\"1 1 1 120\"", "xyaxes=\"0 1 0 0 0 2\"", "euler=\"90 90 0\""];
-        for (attribute, scale) in angles.iter().zip([1.0; 4]) {
+        for attribute in angles {
             let text = format!("<mujoco><worldbody><body {attribute}/></worldbody></mujoco>");
             let file = SourceFile::decode("a.xml".to_owned(), text.as_bytes()).unwrap();
             let xml = Xml::parse(&file).unwrap();
@@ -157,8 +157,7 @@ mod tests {
             let turn = MujocoOptions::read(&xml).unwrap().orientation(&xml, body).unwrap();
             // x goes to y, y to z.
             for (from, to) in [(Vec3::x(), Vec3::y()), (Vec3::y(), Vec3::z())] {
-                let expected = if attribute.starts_with("euler") { turn * from } else { to };
-                assert!((turn * from - expected).norm() < 1e-12 * scale, "{attribute}: {}", turn * from);
+                assert!((turn * from - to).norm() < 1e-12, "{attribute}: {}", turn * from);
             }
         }
         let minus = from_axes(&-Vec3::x(), &Vec3::y());
