@@ -57,7 +57,7 @@ pub use statics::{
 };
 pub use steps::{Steps, digits};
 pub use trajectory::{MotionOptions, TrajectoryRequest};
-pub use uncertainty::UncertaintyRequest;
+pub use uncertainty::{CovarianceEntry, UncertaintyRequest};
 
 pub(crate) use vibration::GUST_DURATION;
 pub use vibration::{

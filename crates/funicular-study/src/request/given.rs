@@ -150,6 +150,7 @@ fn of_data(name: &str, value: &Value) -> KeyCheck {
         "experiments" => experiments(value),
         "offers" => objects(value, &offer_keys()),
         "ropes" => objects(value, &rope_keys()),
+        "covariance" => objects(value, &covariance_keys()),
         "responses" => objects(value, &response_keys()),
         "frequencies" => objects(value, &frequency_keys()),
         "from_csv" => object(value, "a mapping with `path` and `text`", |given| keys_of_object(&file(), &[], given)),
@@ -303,6 +304,12 @@ fn scenario(value: &Value) -> KeyCheck {
 fn offer_keys() -> Vec<Key> {
     let gives = OfferedWinch::NUMBERS.map(|name| entry(name, Kind::Number(Range::Positive), false));
     std::iter::once(entry("name", Kind::Text, true)).chain(gives).collect()
+}
+
+/// Keys of an entry of a covariance.
+fn covariance_keys() -> Vec<Key> {
+    let path = |name| entry(name, Kind::Text, true);
+    vec![path("first"), path("second"), entry("covariance", Kind::Number(Range::Finite), true)]
 }
 
 /// Keys of a rope to choose.

@@ -1,5 +1,6 @@
 //! Results of `uncertainty` as data.
 
+use super::position::PositionDeviation;
 use crate::analyses::fields;
 use crate::analyses::shared::Models;
 use crate::columns::{Columns, ResultTable, Style, Tabled, any, column, only_read, parts};
@@ -99,6 +100,8 @@ rows! {
         pub reason: Option<String>;
         /// Number of sampled robots without results, with the first reason.
         pub failed: Option<FailedSamples>;
+        /// Deviation of the platform's position; absent if the pose is not among the results or does not deviate.
+        pub position: Option<PositionDeviation>;
         pub results: Vec<UncertainResult>;
     }
 }

@@ -1,0 +1,82 @@
+//! Deviation of the platform's position in the direction in which it is largest.
+
+use super::output::PoseUncertainty;
+use crate::rows::rows;
+use crate::text::significant;
+use funicular::math::Mat3;
+
+rows! {
+    /// Deviation of the position of the platform origin.
+    #[derive(Debug, Clone, Copy)]
+    pub struct PositionDeviation {
+        /// Standard deviation along the direction in which it is largest.
+        pub deviation_m: f64;
+        /// Direction of the largest deviation, world axes.
+        pub direction: [f64; 3];
+        /// Covariance of the position, world axes.
+        pub covariance_m2: [[f64; 3]; 3];
+    }
+}
+
+impl PositionDeviation {
+    /// Deviation of a linear position from the changes of its coordinates by independent numbers: a row of changes for
+    /// each of these axes. `None` if nothing deviates.
+    pub(super) fn of_contributions(axes: &[usize], changes: &[Vec<f64>]) -> Option<Self> {
+        let mut covariance = Mat3::zeros();
+        for (i, first) in axes.iter().zip(changes) {
+            for (j, second) in axes.iter().zip(changes) {
+                covariance[(*i, *j)] = first.iter().zip(second).map(|(a, b)| a * b).sum();
+            }
+        }
+        Self::of(covariance)
+    }
+
+    /// Deviation of the positions of sampled robots; those without a position are left out.
+    pub(super) fn of_samples(axes: &[usize], values: &[Vec<f64>]) -> Option<Self> {
+        let robots = values.first().map_or(0, Vec::len);
+        let found: Vec<usize> = (0..robots).filter(|k| values.iter().all(|of| of[*k].is_finite())).collect();
+        let count = found.len() as f64;
+        if found.len() < 2 {
+            return None;
+        }
+        let centred = |of: &Vec<f64>| {
+            let mean = found.iter().map(|k| of[*k]).sum::<f64>() / count;
+            found.iter().map(|k| (of[*k] - mean) / (count - 1.0).sqrt()).collect()
+        };
+        let changes: Vec<Vec<f64>> = values.iter().map(centred).collect();
+        Self::of_contributions(axes, &changes)
+    }
+
+    fn of(covariance: Mat3) -> Option<Self> {
+        let eigen = covariance.symmetric_eigen();
+        let worst = eigen.eigenvalues.imax();
+        let variance = eigen.eigenvalues[worst];
+        let direction = eigen.eigenvectors.column(worst).into_owned();
+        // Of the two senses the one whose largest component is positive.
+        let sense = direction[direction.iamax()].signum();
+        (variance > 0.0).then(|| Self {
+            deviation_m: variance.sqrt(),
+            direction: [0, 1, 2].map(|k| sense * direction[k] + 0.0),
+            covariance_m2: [0, 1, 2].map(|i| [0, 1, 2].map(|j| covariance[(i, j)] + 0.0)),
+        })
+    }
+
+    /// Deviation with its direction, as part of a sentence.
+    pub fn told(&self) -> String {
+        let [x, y, z] = self.direction.map(|component| significant(component, 2));
+        format!("{} mm along ({x}, {y}, {z})", significant(1e3 * self.deviation_m, 3))
+    }
+}
+
+/// Sentence on the least and the largest deviation of the position over several poses.
+pub(super) fn note(poses: &[PoseUncertainty]) -> Option<String> {
+    let mut known: Vec<(&PoseUncertainty, PositionDeviation)> =
+        poses.iter().filter_map(|pose| Some((pose, pose.position?))).collect();
+    known.sort_by(|a, b| a.1.deviation_m.total_cmp(&b.1.deviation_m));
+    let ([best, .., worst], true) = (&known[..], poses.len() > 1) else { return None };
+    let at = |(pose, of): &(&PoseUncertainty, PositionDeviation)| {
+        let [x, y, z] = pose.position_m.unwrap_or_default().map(|value| significant(value, 4));
+        format!("{} at ({x}, {y}, {z}) m", of.told())
+    };
+    Some(format!("Position: from {} to {}, standard deviations in the worst direction", at(best), at(worst)))
+}
