@@ -4,15 +4,23 @@
 //! cannot hold. docs/import.md explains every element that is read.
 
 pub(crate) mod caspr;
+pub(crate) mod cdpr_gazebo;
 pub(crate) mod draft;
+mod frames;
+pub(crate) mod grab;
 pub(crate) mod moordyn;
+pub(crate) mod mujoco;
+mod pairs;
+pub(crate) mod sdf;
 pub(crate) mod text;
+mod tree;
+pub(crate) mod urdf;
 pub(crate) mod wirex;
 pub(crate) mod xml;
 
 pub use funicular_study::request::{MAX_BYTES, SourceFile};
 
-use anyhow::{Result, bail};
+use anyhow::{Result, anyhow, bail};
 use caspr::trajectories::{self, TrajectoryTable};
 use draft::Draft;
 use funicular_study::request;
@@ -77,6 +85,8 @@ struct Sources<'a> {
     wirex: Vec<Xml<'a>>,
     moordyn: Vec<&'a SourceFile>,
     trajectories: Vec<Xml<'a>>,
+    /// Robots of programs that describe one in a single file.
+    whole: Vec<Draft>,
     /// Files of CASPR that do not describe the robot itself.
     aside: Vec<String>,
 }
@@ -84,14 +94,11 @@ struct Sources<'a> {
 impl<'a> Sources<'a> {
     fn add_file(&mut self, file: &'a SourceFile) -> Result<()> {
         if !file.text.trim_start().starts_with('<') {
-            if !moordyn::is_input(&file.text) {
-                bail!(
-                    "{}: it is neither XML (CASPR, WireX) nor a MoorDyn input file, which has sections such as \
-                     `--- LINE TYPES ---`",
-                    file.path
-                );
+            if moordyn::is_input(&file.text) {
+                self.moordyn.push(file);
+            } else {
+                self.whole.push(of_tree(file)?);
             }
-            self.moordyn.push(file);
             return Ok(());
         }
 
@@ -104,9 +111,12 @@ impl<'a> Sources<'a> {
             "operational_spaces" => {
                 self.aside.push(format!("{} (`{}`)", file.name(), xml.root_name()));
             }
+            "mujoco" => self.whole.push(mujoco::read(&xml)?.tidied()),
+            "sdf" => self.whole.push(sdf::read(&xml)?.tidied()),
+            "robot" => self.whole.push(urdf::read(&xml)?.tidied()),
             other => bail!(
                 "{}: the outermost element is <{other}>; CASPR files have <bodies_system> or <cables>, WireX files \
-                 <models>",
+                 <models>, MuJoCo <mujoco>, Gazebo <sdf>, URDF <robot>",
                 xml.place(xml.root())
             ),
         }
@@ -115,9 +125,12 @@ impl<'a> Sources<'a> {
     }
 
     fn read(self, options: &ReadOptions) -> Result<Draft> {
-        let Self { bodies, cables, wirex, moordyn, trajectories, aside } = self;
+        let Self { bodies, cables, wirex, moordyn, trajectories, mut whole, aside } = self;
         let is_caspr = [&bodies, &cables, &trajectories].iter().any(|of| !of.is_empty()) || !aside.is_empty();
-        if [is_caspr, !wirex.is_empty(), !moordyn.is_empty()].into_iter().filter(|given| *given).count() > 1 {
+        let of_one_file = !whole.is_empty();
+        if [is_caspr, !wirex.is_empty(), !moordyn.is_empty(), of_one_file].into_iter().filter(|given| *given).count()
+            > 1
+        {
             bail!("the files belong to more than one program; give the files of one robot");
         }
         if !is_caspr && options.cable_set.is_some() {
@@ -137,11 +150,44 @@ impl<'a> Sources<'a> {
             return wirex::read(only_file(&wirex, "WireX file (<models>)")?);
         }
 
+        if let Some(draft) = whole.pop() {
+            if !whole.is_empty() {
+                bail!("{} files describe a whole robot each; give the file of one robot", whole.len() + 1);
+            }
+            return Ok(draft);
+        }
+
         match moordyn[..] {
             [file] => moordyn::read(file),
             _ => bail!("{} MoorDyn input files are given; give the file of one robot", moordyn.len()),
         }
     }
+}
+
+/// Robot of a file of JSON or YAML.
+fn of_tree(file: &SourceFile) -> Result<Draft> {
+    let unknown = || {
+        anyhow!(
+            "{}: it is neither XML (CASPR, WireX, MuJoCo, SDF, URDF) nor a MoorDyn input file, which has sections \
+             such as `--- LINE TYPES ---`, nor JSON of GRAB, which has `actuator` and `platform`, nor YAML of cdpr for Gazebo, \
+             which has `points` and `platform`",
+            file.path
+        )
+    };
+    // Text of another kind is told what is read, not where it is no YAML.
+    let looks_like_it = file.text.contains("platform") && (file.text.contains("points") || file.text.contains('{'));
+    let tree = match tree::parse(file) {
+        Err(error) if looks_like_it => return Err(error),
+        tree => tree.map_err(|_| unknown())?,
+    };
+    let draft = if cdpr_gazebo::is_robot(&tree) {
+        cdpr_gazebo::read(file, &tree)?
+    } else if grab::is_robot(&tree) {
+        grab::read(file, &tree)?
+    } else {
+        return Err(unknown());
+    };
+    Ok(draft.tidied())
 }
 
 /// Remark on trajectories that a robot file does not hold.
@@ -185,9 +231,19 @@ mod tests {
     use std::sync::LazyLock;
 
     /// Example robot in every format: names and texts of its files.
-    static EXAMPLES: LazyLock<[Vec<(&str, &str)>; 3]> = LazyLock::new(|| {
+    static EXAMPLES: LazyLock<[Vec<(&str, &str)>; 8]> = LazyLock::new(|| {
         let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/import");
-        [&["tripod_bodies.xml", "tripod_cables.xml"][..], &["tripod.wcrfx"], &["tripod.txt"]].map(|names| {
+        [
+            &["tripod_bodies.xml", "tripod_cables.xml"][..],
+            &["tripod.wcrfx"],
+            &["tripod.txt"],
+            &["tripod_mjcf.xml"],
+            &["tripod.sdf"],
+            &["tripod.urdf"],
+            &["tripod.yaml"],
+            &["tripod_grab.json"],
+        ]
+        .map(|names| {
             let text = |name| &*std::fs::read_to_string(folder.join(name)).expect("the repository has the file").leak();
             names.iter().map(|name| (*name, text(name))).collect()
         })
@@ -227,9 +283,10 @@ mod tests {
             for (which, (name, text)) in files.iter().enumerate() {
                 let read =
                     (0..text.len()).filter(|end| text.is_char_boundary(*end) && with(files, which, &text[..*end]));
-                // Truncated XML is not XML; the end of a MoorDyn file holds little.
-                let is_xml = text.starts_with('<');
-                assert!(read.count() < if is_xml { 3 } else { text.len() / 3 }, "{name}");
+                // Truncated XML and JSON are neither; the end of a MoorDyn file holds little, and YAML without its last
+                // cables is a robot.
+                let is_closed = text.starts_with(['<', '{']);
+                assert!(read.count() < if is_closed { 3 } else { text.len() / 2 }, "{name}");
             }
         }
     }

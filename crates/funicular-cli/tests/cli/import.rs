@@ -1,6 +1,7 @@
 //! Tests of `import`: one robot from every format, required options, losses and assumptions.
 
 mod refused;
+mod simulators;
 
 use super::{run, stderr, stdout};
 use serde_json::Value;

@@ -10,6 +10,12 @@ use funicular_study::at_rest;
 use funicular_study::request::{self, ImportPlatform, ImportRopes};
 use std::collections::BTreeSet;
 
+/// Deviation of the cosine from 1 of an axis that rounding turns away from a coordinate axis.
+const MAX_TILT: f64 = 1e-9;
+/// Relative difference of two products of the same numbers: some units in the last place, far below the tolerance of
+/// any rope.
+const MAX_ROUNDING: f64 = 1e-14;
+
 /// Facts of a source about a robot.
 pub(crate) struct Draft {
     pub(crate) name: String,
@@ -58,6 +64,13 @@ pub(crate) enum DraftMotion {
 }
 
 impl DraftMotion {
+    /// Planar motion in the coordinate plane with this normal, of any length; `None` for other planes.
+    pub(crate) fn with_normal(normal_w: &Vec3) -> Option<Self> {
+        let normal = normal_w.try_normalize(0.0)?;
+        let axis = (0..3).find(|axis| normal[*axis].abs() > 1.0 - MAX_TILT)?;
+        Some(Self::Planar { plane: ["yz", "xz", "xy"][axis] })
+    }
+
     /// World axis normal to the plane of a planar platform: 0, 1 or 2 for x, y or z.
     fn normal_axis(self) -> Option<usize> {
         match self {
@@ -131,6 +144,31 @@ pub(crate) enum DraftState {
 }
 
 impl Draft {
+    /// Draft of a robot from a program that has rigid bodies and springs only. Axial stiffnesses that differ by the
+    /// rounding of a product are one; a body whose cables all end at its origin, which is
+    /// its centre of mass, feels no moment and is a point mass.
+    pub(crate) fn tidied(mut self) -> Self {
+        let mut known: Vec<f64> = Vec::new();
+        for stiffness in self.cables.iter_mut().filter_map(|cable| cable.rope.axial_stiffness.as_mut()) {
+            match known.iter().find(|first| (**first - *stiffness).abs() <= MAX_ROUNDING * first.abs()) {
+                Some(first) => *stiffness = *first,
+                None => known.push(*stiffness),
+            }
+        }
+
+        let platform = &mut self.platform;
+        let is_centered = platform.center_of_mass_p.unwrap_or_default() == Vec3::zeros();
+        let is_point = is_centered && self.cables.iter().all(|cable| cable.attachment_p == Vec3::zeros());
+        if platform.motion == DraftMotion::Rigid && is_point {
+            platform.motion = DraftMotion::PointMass;
+            if let DraftState::Pose(pose) = &mut self.state {
+                pose.rot_wp = Rotation::identity();
+            }
+            self.notes.push("All cables end at the centre of mass: the platform is a point mass".to_owned());
+        }
+        self
+    }
+
     /// Adds the values of the options. An option overrides the source.
     ///
     /// # Errors

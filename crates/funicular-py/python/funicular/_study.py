@@ -288,7 +288,7 @@ def import_robot(
     center_of_mass_m: ArrayLike | None = None,
     pose: Pose | ArrayLike | None = None,
 ) -> Imported:
-    """Makes a robot file from files of CASPR, WireX or MoorDyn, as the program's `import`.
+    """Makes a robot file from files of other programs, as the program's `import`.
 
     Parameters
     ----------

@@ -78,12 +78,13 @@ declared! {
 }
 
 declared! {
-    /// Convert files of CASPR, WireX or MoorDyn to a robot file.
+    /// Convert files of other programs to a robot file: CASPR, WireX, MoorDyn, MuJoCo, SDF, URDF, cdpr, GRAB.
     ///
     /// CASPR: the bodies file and the cables file, in any order. WireX: a .wcrfx file. MoorDyn: an input file of
-    /// version 2 with one body, or one free point, on lines. No value is invented: if a file lacks one, a message names
-    /// the option that gives it. Data that a robot file cannot hold is listed, also at the head of the file.
-    /// docs/import.md explains how each number is read.
+    /// version 2 with one body, or one free point, on lines. MuJoCo: a model with spatial tendons. SDF: a model with
+    /// springs of Drake, chains of joints or named frames. URDF: links in pairs. JSON of GRAB, YAML of cdpr. No value
+    /// is invented: if a file lacks one, a message names the option that gives it. Data that a robot file cannot hold
+    /// is listed, also at the head of the file. docs/import.md explains how each number is read.
     pub struct ImportRequest {
         /// Files of one robot; their format is recognised from their content.
         files: Vec<SourceFile> = Vec::new() => (Data(shape::files)).required()
@@ -107,6 +108,7 @@ declared! {
          lift.csv",
         "funicular import robot.wcrfx --pose 0,0,1 -o robot.toml",
         "funicular import mooring.txt -o robot.toml",
+        "funicular import model.xml --mass-kg-per-m 0.05 -o robot.toml",
     }
 }
 
