@@ -429,6 +429,20 @@ static OUTPUTS: &[(&str, &[Output])] = &[
                 "Write the robot file with the calibrated anchors and attachments",
                 |at, _| of!(Calibrate, at, found => Ok(found.robot_file.clone().into_bytes().into())),
             ),
+            file(
+                "covariance",
+                "Write the covariance of the calibrated anchors, attachments, pulleys and offsets (as unstrained \
+                 lengths), for `uncertainty`; a scale and factors are left out",
+                ["the covariance", "CSV"],
+                &[Kind::Csv],
+                Make::Bytes(|at, _| {
+                    of!(Calibrate, at, found => match found.covariance[..] {
+                        [] => bail!("the readings do not tell a covariance: they leave numbers, or their own \
+                                     deviation, undetermined"),
+                        _ => Ok(as_csv(found.covariance_table())?.into()),
+                    })
+                }),
+            ),
             page(
                 "Write a page with the anchors and their ellipses, the residuals, rows that can be clicked away and \
                  the proposed poses",

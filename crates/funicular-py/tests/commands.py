@@ -117,8 +117,8 @@ def call(line: str) -> tuple[str, list[str], dict[str, Any], dict[str, Any]]:
             keywords[key] = tomllib.loads(Path(next(rest)).read_text())
         elif word == "--quantity":
             keywords["quantities"] = next(rest).split(",")
-        elif word in ("--offers", "--ropes"):
-            keywords[key] = read_offers(next(rest))
+        elif word in ("--offers", "--ropes") or (command, word) == ("uncertainty", "--covariance"):
+            keywords[key] = read_records(next(rest))
         elif word in ("--poses", "--via", "--accuracy-poses"):
             keywords[key] = read_poses(next(rest))
         elif command == "design" and word == "--change":
@@ -141,11 +141,11 @@ def call(line: str) -> tuple[str, list[str], dict[str, Any], dict[str, Any]]:
     return command, files, keywords, changes
 
 
-def read_offers(name: str) -> list[dict[str, Any]]:
-    """Winches or ropes on offer, as keywords; empty cells are left out."""
+def read_records(name: str) -> list[dict[str, Any]]:
+    """Rows of a table with texts and numbers, as keywords; empty cells are left out."""
     with Path(name).open(newline="") as file:
         rows = list(csv.DictReader(file))
-    return [{key: text if key == "name" else float(text) for key, text in row.items() if text} for row in rows]
+    return [{key: text if key in ("name", "first", "second") else float(text) for key, text in row.items() if text} for row in rows]
 
 
 def chosen(text: str) -> dict[str, Any]:

@@ -149,6 +149,7 @@ MORE = [
     f"funicular uncertainty {ROBOT} --deviations platform.mass_kg=1% --of response --at-hz 0.8,1.2 --input fz --output az "
     "--input-point-m 0.1,0,0 --output-point-m 0,0.1,0",
     f"funicular uncertainty {ROBOT} --deviations platform.mass_kg=1% --method sampled --samples 20 --seed 3 {LENGTHS} {MODEL}",
+    "funicular uncertainty robots/cogiro.toml --covariance covariance.csv --grid x=0:1:2 --grid z=1.5 --of pose",
     f"funicular cable {ROBOT} --name 3 {RANGE}",
     f"funicular cable {ROBOT} --name 3 {RANGE} --log --pose 0,0,0.5 {STATE} --cable-model shallow-dynamic "
     "--in-plane-only --winches stuck",
@@ -260,6 +261,10 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     (tmp_path / "ropes.csv").write_text("name,axial_stiffness_n,mass_kg_per_m,diameter_m\nthin,300000,0.05,\nthick,900000,0.1,0.006\n")
     (tmp_path / "path.csv").write_text("t_s,x_m,y_m,z_m,yaw_deg\n0,0,0,1.5,0\n1,0.5,0.2,1.5,5\n2,1,0,1.6,10\n")
     (tmp_path / "winches.csv").write_text("name,tension_n,speed_m_s,power_w,rope_m\nsmall,800,1.2,900,\n7,3000,3,5000,60\n")
+    (tmp_path / "covariance.csv").write_text(
+        "first,second,covariance\ncables.1.anchor_m.x,cables.1.anchor_m.x,4e-6\ncables.1.anchor_m.x,cables.2.anchor_m.x,2e-6\n"
+        "cables.2.anchor_m.x,cables.2.anchor_m.x,4e-6\n"
+    )
     (tmp_path / "gusts.csv").write_text("frequency_hz,along_m2_s,lateral_m2_s,up_m2_s\n0.01,40,20,10\n0.1,8,6,4\n1,0.2,0.2,0.1\n")
     (tmp_path / "windy.toml").write_text(windy())
     (tmp_path / "response.csv").write_text("frequency_hz,a1_re,a1_im\n1,-5.16e-4,0\n2,-2.55e-3,0\n2.5,-7e-3,2e-4\n")

@@ -42,7 +42,7 @@ pub use loads::{LoadsRequest, Requirements};
 pub use pages::{LiveRequest, PaperRequest, ReportRequest, ValidateRequest};
 pub use parts::{
     Axis, Change, FrequencyRange, GappedColumns, ImportPlatform, ImportRopes, Load, MAX_HZ, Model, NumberColumns,
-    OneOrSeveral, Pose, ResponsePoints, ResponseRange, RobotText, State, Tensions, Terms,
+    OneOrSeveral, Places, Pose, ResponsePoints, ResponseRange, RobotText, State, Tensions, Terms,
 };
 pub use shape::schema;
 pub use simulate::{

@@ -547,6 +547,9 @@ def uncertainty(
         for any key. Each entry is a group with a share of its own.
     tolerances
         Tolerances of numbers that are anywhere within ± their tolerance, in the same form.
+    covariance
+        Numbers that deviate together: a list of mappings with `first`, `second` (paths) and `covariance`, as the key
+        `covariance` of the results of `calibrate`.
     poses
         Several poses, (n, 3) or (n, 6): x, y, z [m], roll, pitch, yaw [degrees].
     at_hz

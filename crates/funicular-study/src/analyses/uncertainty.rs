@@ -29,9 +29,9 @@ pub use output::{
 pub use position::PositionDeviation;
 pub(crate) use statistics::Statistics;
 
-use super::{candidate_poses, found};
 use super::result_groups::{refuse_unused, result_groups};
 use super::shared::Models;
+use super::{candidate_poses, found};
 use crate::at_rest::{self, AtRest};
 use crate::error::{Cancelled, NoSolution};
 use crate::measure::{Measure, MeasureGroup};

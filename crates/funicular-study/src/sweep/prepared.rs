@@ -82,7 +82,8 @@ impl PreparedSweep {
             }
         };
         if let Some(axes) = points.axes() {
-            request.places.grid = AXES.iter().zip(axes).map(|(name, steps)| Axis::new((*name).to_owned(), steps)).collect();
+            request.places.grid =
+                AXES.iter().zip(axes).map(|(name, steps)| Axis::new((*name).to_owned(), steps)).collect();
         }
 
         let (quantities, options) = quantities_and_options(&robot, &mut request.point)?;
@@ -207,8 +208,8 @@ impl PreparedSweep {
             keys.insert("holder_file".to_owned(), json!(text));
         }
 
-        if let Request::Map(MapRequest { poses, .. }) = &self.request {
-            if let Some(poses) = poses {
+        if let Request::Map(MapRequest { places, .. }) = &self.request {
+            if let Some(poses) = &places.poses {
                 keys.remove("grid");
                 let description = json!({ "count": poses.len(), "sha256": digest::of_poses(poses) });
                 keys.insert("poses".to_owned(), description);

@@ -121,9 +121,7 @@ impl DeviationGroup {
     /// Key of the request that gives the deviation, and its amount; `None` for a joint one.
     fn amount(&self) -> Option<(&'static str, &Tolerance)> {
         match &self.of {
-            GroupOf::Each { amount, is_normal } => {
-                Some((if *is_normal { "deviations" } else { "tolerances" }, amount))
-            }
+            GroupOf::Each { amount, is_normal } => Some((if *is_normal { "deviations" } else { "tolerances" }, amount)),
             GroupOf::Joint => None,
         }
     }
@@ -186,9 +184,11 @@ impl Inputs {
         let mut list: Vec<DeviatingNumber> =
             chosen.into_iter().map(|(parameter, group)| DeviatingNumber::new(parameter, group, &stated)).collect();
         if !joint.members.is_empty() {
-            list.extend(joint.combinations.iter().enumerate().map(|(k, weights)| {
-                DeviatingNumber::combination(k, (&joint.members, weights), groups.len(), &stated)
-            }));
+            list.extend(
+                joint.combinations.iter().enumerate().map(|(k, weights)| {
+                    DeviatingNumber::combination(k, (&joint.members, weights), groups.len(), &stated)
+                }),
+            );
             groups.push(DeviationGroup { name: "covariance".to_owned(), of: GroupOf::Joint });
         }
         Ok(Self { list, groups, stated })

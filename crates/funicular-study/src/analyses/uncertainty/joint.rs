@@ -32,11 +32,7 @@ impl JointDeviations {
     /// # Errors
     /// A number that the robot does not have, two values for one pair, a negative variance, or a matrix that no random
     /// numbers have.
-    pub(super) fn new(
-        entries: &[CovarianceEntry],
-        original: &Parameters,
-        candidates: &[Parameter],
-    ) -> Result<Self> {
+    pub(super) fn new(entries: &[CovarianceEntry], original: &Parameters, candidates: &[Parameter]) -> Result<Self> {
         let mut members: Vec<Parameter> = Vec::new();
         let mut given: Vec<(usize, usize, f64)> = Vec::with_capacity(entries.len());
         for (row, entry) in entries.iter().enumerate() {
