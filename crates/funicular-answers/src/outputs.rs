@@ -430,7 +430,7 @@ static OUTPUTS: &[(&str, &[Output])] = &[
                 |at, _| of!(Calibrate, at, found => Ok(found.robot_file.clone().into_bytes().into())),
             ),
             file(
-                "covariance",
+                "calibrated_covariance",
                 "Write the covariance of the calibrated anchors, attachments, pulleys and offsets (as unstrained \
                  lengths), for `uncertainty`; a scale and factors are left out",
                 ["the covariance", "CSV"],

@@ -13,7 +13,7 @@ import funicular
 
 # Options for the place and the form of a result, which do not change the computation.
 OUTPUT = {"--format", "-o", "--output-file", "--print-request", "--help", "--matrices", "--resume", "--discard", "--part", "--threads"}
-OUTPUT |= {"--figure-width-mm", "--font-size-pt", "--figure-mode", "--fitted", "--designed", "--calibrated", "--page", "--pdf", "--samples-file", "--lengths", "--surface", "--animation", "--figure", "--universal-file", "--quiet"}
+OUTPUT |= {"--figure-width-mm", "--font-size-pt", "--figure-mode", "--fitted", "--designed", "--calibrated", "--calibrated-covariance", "--page", "--pdf", "--samples-file", "--lengths", "--surface", "--animation", "--figure", "--universal-file", "--quiet"}
 # Options without a value.
 SWITCHES = {
     *("--log", "--adaptive", "--all", "--in-plane-only", "--print-request", "--resume", "--discard"),

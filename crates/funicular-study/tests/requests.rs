@@ -262,7 +262,7 @@ fn requests() -> Vec<Value> {
                     "of": ["pose", "frequencies", "response"], "deviations": ["platform.mass_kg=1%"],
                     "tolerances": ["cables.*.anchor_m=0.001"], "hold": "pose", "method": "sampled", "samples": 50,
                     "seed": 3, "below_hz": 5.0, "poses": [[0.0, 0.0, 0.5, 0.0, 0.0, 0.0]],
-                    "grid": { "z": [1.0, 2.0] },
+                    "grid": [{ "axis": "z", "values": [1.0, 2.0] }],
                     "covariance": [{ "first": "platform.mass_kg", "second": "platform.mass_kg", "covariance": 0.5 }],
                 }),
             ],

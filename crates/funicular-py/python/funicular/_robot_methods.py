@@ -467,7 +467,8 @@ def calibrate(of: Any, given: Given) -> CalibrateResults:
     Returns
     -------
     The keys of the program's JSON: `fit` and `determined` as sentences, `is_determined`, `values` with deviations and
-    intervals, `anchors` with their covariance, `distances`, `rows`, `weak_combinations`, `walk`, `minima`, `proposals`, and `robot_file`.
+    intervals, `anchors` with their covariance, `distances`, `rows`, `weak_combinations`, `walk`, `minima`, `proposals`, `robot_file`
+    and `covariance`, which `Robot.uncertainty` takes.
 
     Raises
     ------

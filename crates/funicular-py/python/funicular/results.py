@@ -117,6 +117,17 @@ class AnchorRow(Row):
     """One deviation along the weakest combination [m]."""
 
 
+class CovarianceRow(Row):
+    """Entry of the covariance of calibrated numbers."""
+
+    covariance: float
+    """covariance, in the product of their units."""
+    first: str
+    """path of the first number in the robot file."""
+    second: str
+    """path of the second number; that of the first for its variance."""
+
+
 class DistanceRow(Row):
     """Distance between two anchors, which no frame changes."""
 
@@ -2197,6 +2208,17 @@ class FailedSamples(Row):
     """Reason."""
 
 
+class PositionDeviation(Row):
+    """Deviation of the position of the platform origin."""
+
+    covariance_m2: NDArray[np.float64]
+    """Covariance of the position, world axes [m²]."""
+    deviation_m: float
+    """Standard deviation along the direction in which it is largest [m]."""
+    direction: NDArray[np.float64]
+    """Direction of the largest deviation, world axes."""
+
+
 class ShareOfInput(Row):
     """Share of a number in the variance of a result."""
 
@@ -2262,6 +2284,8 @@ class PoseUncertainty(Row):
 
     failed: FailedSamples | None
     """Number of sampled robots without results, with the first reason."""
+    position: PositionDeviation | None
+    """Deviation of the platform's position; absent if the pose is not among the results or does not deviate."""
     position_m: NDArray[np.float64] | None
     """Pose of the undisturbed robot; absent if it has no equilibrium [m]."""
     reason: str | None
@@ -2273,6 +2297,7 @@ class PoseUncertainty(Row):
 
     _PARTS: ClassVar[dict[str, type[Row]]] = {
         "failed": FailedSamples,
+        "position": PositionDeviation,
         "results": UncertainResult,
     }
 
@@ -2601,6 +2626,8 @@ class CalibrateResults(Results):
     """Number of starts that arrived at the best minimum."""
     chi2: float
     """Sum of the squares of the residuals, divided by the deviations of the data."""
+    covariance: list[CovarianceRow] | None
+    """Covariance of the numbers of the robot file, for `uncertainty`; none if the readings do not tell it."""
     data: int
     """Number of readings and measured coordinates."""
     degrees_of_freedom: int
@@ -2653,6 +2680,7 @@ class CalibrateResults(Results):
     _PARTS: ClassVar[dict[str, type[Row]]] = {
         "accuracy": ToolAccuracy,
         "anchors": AnchorRow,
+        "covariance": CovarianceRow,
         "distances": DistanceRow,
         "left_out": LeftOut,
         "minima": MinimumRow,

@@ -392,9 +392,9 @@ impl Winches {
                 Some(if shown.0 == "brake-power" { format!("{number} while it brakes") } else { number })
             })
             .collect();
-        // At one pose no rope is wound.
+        // At one pose only the stretch under different loads is wound.
         let rope = self.winches[0].rope_m;
-        let wound = if rope > 0.0 { format!("; {} m of rope", significant(rope, 3)) } else { String::new() };
+        let wound = if self.poses > 1 { format!("; {} m of rope", significant(rope, 3)) } else { String::new() };
         format!("Each winch: {}{wound}", numbers.join(", "))
     }
 }

@@ -3,7 +3,7 @@
 use super::output::PoseUncertainty;
 use crate::rows::rows;
 use crate::text::significant;
-use funicular::math::Mat3;
+use funicular::math::{Mat3, symmetric};
 
 rows! {
     /// Deviation of the position of the platform origin.
@@ -48,15 +48,10 @@ impl PositionDeviation {
     }
 
     fn of(covariance: Mat3) -> Option<Self> {
-        let eigen = covariance.symmetric_eigen();
-        let worst = eigen.eigenvalues.imax();
-        let variance = eigen.eigenvalues[worst];
-        let direction = eigen.eigenvectors.column(worst).into_owned();
-        // Of the two senses the one whose largest component is positive.
-        let sense = direction[direction.iamax()].signum();
+        let (variance, direction) = symmetric::largest_principal(&covariance);
         (variance > 0.0).then(|| Self {
             deviation_m: variance.sqrt(),
-            direction: [0, 1, 2].map(|k| sense * direction[k] + 0.0),
+            direction: direction.map(|component| component + 0.0).into(),
             covariance_m2: [0, 1, 2].map(|i| [0, 1, 2].map(|j| covariance[(i, j)] + 0.0)),
         })
     }
