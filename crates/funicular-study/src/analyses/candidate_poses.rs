@@ -1,5 +1,5 @@
-//! Poses of a request: a grid, or a list; for candidates of a proposal of `calibrate` or `identify`, and for commands that
-//! work at several poses.
+//! Poses of a request: a grid, or a list; for candidates of a proposal of `calibrate` or `identify`, and for commands
+//! that work at several poses.
 
 use crate::at_rest::check_pose;
 use crate::names::suggestion;
