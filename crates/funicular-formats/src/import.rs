@@ -169,8 +169,8 @@ fn of_tree(file: &SourceFile) -> Result<Draft> {
     let unknown = || {
         anyhow!(
             "{}: it is neither XML (CASPR, WireX, MuJoCo, SDF, URDF) nor a MoorDyn input file, which has sections \
-             such as `--- LINE TYPES ---`, nor JSON of GRAB, which has `actuator` and `platform`, nor YAML of cdpr for Gazebo, \
-             which has `points` and `platform`",
+             such as `--- LINE TYPES ---`, nor JSON of GRAB, which has `actuator` and `platform`, nor YAML of cdpr for \
+             Gazebo, which has `points` and `platform`",
             file.path
         )
     };

@@ -436,7 +436,9 @@ fn a_covariance_without_pairs_is_one_of_independent_deviations() {
 
 #[test]
 fn covariances_that_no_numbers_have_are_refused_with_their_row() {
-    let row = |first: &str, second: &str, covariance: f64| json!({ "first": first, "second": second, "covariance": covariance });
+    let row = |first: &str, second: &str, covariance: f64| -> Value {
+        json!({ "first": first, "second": second, "covariance": covariance })
+    };
     let (x, y) = ("cables.1.anchor_m.x", "cables.1.anchor_m.y");
     for (rows, part) in [
         (json!([row(x, x, 1.0), row(y, y, 1.0), row(x, y, 1.1)]), "no random numbers have these covariances"),

@@ -16,7 +16,7 @@ use funicular_study::text::clean;
 const GRAVITY: f64 = 9.80665;
 
 /// Names of the keys in the two layouts of the file: of 2019 and later, and before.
-struct Layout {
+struct GrabLayout {
     /// List of the cables.
     cables: &'static str,
     /// Tables within a cable that hold the numbers of the frame and of the platform's side, if there are such tables.
@@ -28,8 +28,8 @@ struct Layout {
     moment: &'static str,
 }
 
-const LAYOUTS: [Layout; 2] = [
-    Layout {
+const LAYOUTS: [GrabLayout; 2] = [
+    GrabLayout {
         cables: "actuator",
         parts: Some(["pulley", "winch"]),
         anchor: "pos_OD_glob",
@@ -38,7 +38,7 @@ const LAYOUTS: [Layout; 2] = [
         center: "pos_PG_loc",
         moment: "ext_torque_loc",
     },
-    Layout {
+    GrabLayout {
         cables: "cable",
         parts: None,
         anchor: "pos_D_glob",
@@ -121,7 +121,7 @@ fn refuse_motion(root: &Place) -> Result<()> {
 }
 
 /// Cables whose actuator is active.
-fn cables(root: &Place, layout: &Layout, lost: &mut Vec<String>) -> Result<Vec<DraftCable>> {
+fn cables(root: &Place, layout: &GrabLayout, lost: &mut Vec<String>) -> Result<Vec<DraftCable>> {
     let list = root.required(layout.cables)?;
     let mut cables = Vec::new();
     let mut inactive = Vec::new();
@@ -165,7 +165,7 @@ fn cables(root: &Place, layout: &Layout, lost: &mut Vec<String>) -> Result<Vec<D
 }
 
 /// Swivelling pulley of a cable; `None` for a radius of zero. The cable enters along the swivel axis `vers_k`.
-fn pulley(frame: &Place, layout: &Layout) -> Result<Option<DraftPulley>> {
+fn pulley(frame: &Place, layout: &GrabLayout) -> Result<Option<DraftPulley>> {
     let Some(radius) = frame.optional_number(layout.radius)?.filter(|radius| *radius != 0.0) else { return Ok(None) };
     if radius < 0.0 {
         bail!(frame.error(format!("`{}` is {radius} m, it must be positive", layout.radius)));

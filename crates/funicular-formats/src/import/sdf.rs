@@ -37,28 +37,13 @@ pub(crate) fn read(xml: &Xml) -> Result<Draft> {
     lost.extend(others.map(|other| format!("the model `{}`", clean(other.attribute("name").unwrap_or_default()))));
 
     let model = SdfModel::read(xml, node)?;
-    let (mut cables, mut notes) = (springs(&model, &mut lost)?, Vec::new());
-    let are_springs = !cables.is_empty();
-    if cables.is_empty() {
-        cables = chains::cables(&model)?;
-        if !cables.is_empty() {
-            lost.push("links and joints that stand for cables, with their masses and limits".to_owned());
-        }
-    }
-    if cables.is_empty() {
-        cables = pairs::cables(&points(&model)?).map_err(|message| xml.error(node, message))?;
-    }
-    if cables.is_empty() {
-        bail!(xml.error(
-            node,
-            "the model has no cables: neither <drake:linear_spring_damper> between the frame and the link `platform`, \
-             nor chains of joints with a prismatic joint, nor frames `anchor_NAME` and `attachment_NAME`"
-        ));
-    }
-
+    let springs = springs(&model, &mut lost)?;
+    let are_springs = !springs.is_empty();
+    let cables = if are_springs { springs } else { cables_without_springs(&model, &mut lost)? };
     lost_parts(node, &mut lost);
     let place = xml.place(model.platform.node);
     let mass = model.mass_of_platform()?;
+    let mut notes = Vec::new();
     let state = if are_springs {
         notes.push("State: the free lengths of the springs, as unstrained lengths".to_owned());
         DraftState::Lengths
@@ -88,6 +73,25 @@ pub(crate) fn read(xml: &Xml) -> Result<Draft> {
         assumed: Vec::new(),
         lost,
     })
+}
+
+/// Cables from chains of joints, or from frames with their names.
+fn cables_without_springs(model: &SdfModel, lost: &mut Vec<String>) -> Result<Vec<DraftCable>> {
+    let chains = chains::cables(model)?;
+    if !chains.is_empty() {
+        lost.push("links and joints that stand for cables, with their masses and limits".to_owned());
+        return Ok(chains);
+    }
+    let (xml, node) = (model.xml, model.node);
+    let pairs = pairs::cables(&points(model)?).map_err(|message| xml.error(node, message))?;
+    if pairs.is_empty() {
+        bail!(xml.error(
+            node,
+            "the model has no cables: neither <drake:linear_spring_damper> between the frame and the link `platform`, \
+             nor chains of joints with a prismatic joint, nor frames `anchor_NAME` and `attachment_NAME`"
+        ));
+    }
+    Ok(pairs)
 }
 
 /// Lists what the model has beside links, joints and cables.

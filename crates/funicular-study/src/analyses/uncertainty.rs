@@ -538,7 +538,7 @@ fn notes(request: &UncertaintyRequest, poses: &[PoseUncertainty]) -> Vec<String>
                 .to_owned(),
         );
     }
-    notes.extend(position::note(poses));
+    notes.extend(output::position_note(poses));
     let failed: usize = poses.iter().filter_map(|pose| pose.failed.as_ref()).map(|failed| failed.count).sum();
     if failed > 0 {
         notes.push(format!("{} had no equilibrium or no valid values: not counted", counted(failed, "sampled robot")));

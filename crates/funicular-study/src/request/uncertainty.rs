@@ -86,8 +86,8 @@ declared! {
          \\\n    --of pose,tensions,frequencies --below-hz 2",
         "funicular uncertainty robots/cogiro.toml --pose 1,2,1.5 --tolerances cables.*.unstrained_length_m=0.0002 -o \
          cogiro.html",
-        "funicular uncertainty robots/cogiro.toml --covariance calibrated-covariance.csv --grid x=-5:5:3 \\\n    --grid \
-         y=-3:3:3 --grid z=1.5 --of pose",
+        "funicular uncertainty robots/cogiro.toml --covariance covariance.csv --grid x=-5:5:3 --grid y=-3:3:3 \
+         \\\n    --grid z=1.5 --of pose",
         "funicular uncertainty robots/cogiro.toml --poses trajectory.csv --deviations platform.center_of_mass_m=0.005 \
          \\\n    --of stiffness-min --hold pose -o stiffness.csv",
         "funicular uncertainty robots/yuan2014-4mm.toml --deviations materials.*.youngs_modulus_pa=5%,platform=1% \

@@ -17,7 +17,7 @@ const DENSITY: f64 = 1000.0;
 /// Bodies within bodies.
 const MAX_DEPTH: usize = 100;
 
-/// What a site or a geometry is fixed to.
+/// Body to which a site or a geometry is fixed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Carrier {
     World,

@@ -8,7 +8,7 @@ use funicular::math::{Quaternion, Rotation, Vec3};
 use funicular_study::text::clean;
 use roxmltree::Node;
 
-/// What `<compiler>` and `<default>` say.
+/// Settings of `<compiler>` and `<default>`.
 pub(super) struct MujocoOptions<'n> {
     /// Radians per unit of an angle.
     angle: f64,

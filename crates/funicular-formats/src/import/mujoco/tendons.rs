@@ -150,21 +150,7 @@ fn course<'n>(xml: &Xml, bodies: &MujocoBodies<'n>, node: Node<'n, 'n>) -> Resul
     let Some((last, before)) = parts.split_last() else { bail!(xml.error(node, "the tendon is empty")) };
     let wraps = before.iter().any(|part| tag(*part) == "geom");
     let end = if tag(*last) == "site" { site(*last)? } else { bail!(xml.error(*last, "a tendon must end at a site")) };
-    let Carrier::Moving(platform) = end.carrier else {
-        bail!(xml.error(node, "the tendon has both ends on the frame: its falls over the platform are not read"))
-    };
-    let body = &bodies.moving[platform];
-    if body.parent.is_some() {
-        bail!(xml.error(
-            node,
-            format!(
-                "the tendon ends on the body `{}`, which hangs on another one, as ropes of several pieces do; export \
-                 the robot without ⟪cable_pieces⟫",
-                clean(body.node.attribute("name").unwrap_or_default())
-            )
-        ));
-    }
-
+    let platform = platform_of(xml, bodies, node, &end)?;
     let sites =
         before.iter().filter(|part| tag(**part) == "site").map(|part| site(*part)).collect::<Result<Vec<_>>>()?;
     let fixed: Vec<Vec3> =
@@ -190,6 +176,25 @@ fn course<'n>(xml: &Xml, bodies: &MujocoBodies<'n>, node: Node<'n, 'n>) -> Resul
     }
     let before = (entry_w - anchor_w).norm();
     Ok(Course { anchor_w: entry_w, attachment_p: end.point, platform, pulley: Some(pulley), before, node })
+}
+
+/// Number of the moving body on which a tendon ends.
+fn platform_of(xml: &Xml, bodies: &MujocoBodies, node: Node, end: &MujocoSite) -> Result<usize> {
+    let Carrier::Moving(platform) = end.carrier else {
+        bail!(xml.error(node, "the tendon has both ends on the frame: its falls over the platform are not read"))
+    };
+    let body = &bodies.moving[platform];
+    if body.parent.is_some() {
+        bail!(xml.error(
+            node,
+            format!(
+                "the tendon ends on the body `{}`, which hangs on another one, as ropes of several pieces do; export \
+                 the robot without ⟪cable_pieces⟫",
+                clean(body.node.attribute("name").unwrap_or_default())
+            )
+        ));
+    }
+    Ok(platform)
 }
 
 /// Entry point and data of a wheel that swivels about the axis along which the cable comes to it.

@@ -108,8 +108,8 @@ fn combinations(covariance: &DMat, members: &[Parameter]) -> Result<Vec<Vec<f64>
     let least = eigen.eigenvalues.iter().copied().fold(f64::INFINITY, f64::min);
     if least < LEAST_EIGENVALUE {
         bail!(
-            "⟪covariance⟫: no random numbers have these covariances, because the least eigenvalue of their correlations \
-             is {}: write all entries with all digits",
+            "⟪covariance⟫: no random numbers have these covariances, because the least eigenvalue of their \
+             correlations is {}: write all entries with all digits",
             significant(least, 3)
         );
     }

@@ -279,3 +279,16 @@ impl Tabled for Uncertainties {
         ResultTable::new(ResultAtPose::columns(&self.groups, true), ResultAtPose::all(self, 0, usize::MAX))
     }
 }
+
+/// Sentence on the least and the largest deviation of the position over several poses.
+pub(super) fn position_note(poses: &[PoseUncertainty]) -> Option<String> {
+    let mut known: Vec<(&PoseUncertainty, PositionDeviation)> =
+        poses.iter().filter_map(|pose| Some((pose, pose.position?))).collect();
+    known.sort_by(|a, b| a.1.deviation_m.total_cmp(&b.1.deviation_m));
+    let ([best, .., worst], true) = (&known[..], poses.len() > 1) else { return None };
+    let at = |(pose, of): &(&PoseUncertainty, PositionDeviation)| {
+        let [x, y, z] = pose.position_m.unwrap_or_default().map(|value| significant(value, 4));
+        format!("{} at ({x}, {y}, {z}) m", of.told())
+    };
+    Some(format!("Position: from {} to {}, standard deviations in the worst direction", at(best), at(worst)))
+}

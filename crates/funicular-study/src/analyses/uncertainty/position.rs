@@ -1,6 +1,5 @@
 //! Deviation of the platform's position in the direction in which it is largest.
 
-use super::output::PoseUncertainty;
 use crate::rows::rows;
 use crate::text::significant;
 use funicular::math::{Mat3, symmetric};
@@ -61,17 +60,4 @@ impl PositionDeviation {
         let [x, y, z] = self.direction.map(|component| significant(component, 2));
         format!("{} mm along ({x}, {y}, {z})", significant(1e3 * self.deviation_m, 3))
     }
-}
-
-/// Sentence on the least and the largest deviation of the position over several poses.
-pub(super) fn note(poses: &[PoseUncertainty]) -> Option<String> {
-    let mut known: Vec<(&PoseUncertainty, PositionDeviation)> =
-        poses.iter().filter_map(|pose| Some((pose, pose.position?))).collect();
-    known.sort_by(|a, b| a.1.deviation_m.total_cmp(&b.1.deviation_m));
-    let ([best, .., worst], true) = (&known[..], poses.len() > 1) else { return None };
-    let at = |(pose, of): &(&PoseUncertainty, PositionDeviation)| {
-        let [x, y, z] = pose.position_m.unwrap_or_default().map(|value| significant(value, 4));
-        format!("{} at ({x}, {y}, {z}) m", of.told())
-    };
-    Some(format!("Position: from {} to {}, standard deviations in the worst direction", at(best), at(worst)))
 }
