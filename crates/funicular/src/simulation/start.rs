@@ -377,6 +377,7 @@ pub(super) fn at_rest(
     };
     let offsets: Vec<usize> = ropes.iter().zip(&far_ends).map(&mut offset).collect();
 
+    let anchors = vec![None; ropes.len()];
     let mut system = System {
         body,
         ends,
@@ -386,6 +387,7 @@ pub(super) fn at_rest(
         far_ends,
         supports,
         windings,
+        anchors,
         offsets,
         size,
         air,
