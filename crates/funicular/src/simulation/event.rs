@@ -1,7 +1,6 @@
 //! Events of a simulation: releases, pick-ups, changes of length and tension, stops, pushes and cuts.
 
 use super::body::Push;
-use super::moving_anchor::check_can_move;
 use super::winding::Winding;
 use crate::math::Vec3;
 use crate::robot::{Cable, Control, Robot};
@@ -438,6 +437,15 @@ pub(super) fn check_place(cable: &str, place: f64, length: f64) -> Result<(), Ev
         return Ok(());
     }
     Err(EventFault::Place { cable: cable.to_owned(), place, length, least, most })
+}
+
+/// Refuses to move an anchor on a flexible support.
+pub(super) fn check_can_move(robot: &Robot, cable: usize) -> Result<(), EventFault> {
+    let of = &robot.cables[cable];
+    if of.anchor.support.is_some() {
+        return Err(EventFault::AnchorOnSupport { cable: of.name.clone() });
+    }
+    Ok(())
 }
 
 fn check_anchors(robot: &Robot, times: &[f64], places_w: &[Option<Vec<Vec3>>]) -> Result<(), EventFault> {

@@ -105,12 +105,3 @@ fn follow(
     }
     Ok(())
 }
-
-/// Reason why an anchor cannot move, if there is one.
-pub(super) fn check_can_move(robot: &Robot, cable: usize) -> Result<(), EventFault> {
-    let of = &robot.cables[cable];
-    if of.anchor.support.is_some() {
-        return Err(EventFault::AnchorOnSupport { cable: of.name.clone() });
-    }
-    Ok(())
-}

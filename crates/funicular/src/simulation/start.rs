@@ -377,17 +377,16 @@ pub(super) fn at_rest(
     };
     let offsets: Vec<usize> = ropes.iter().zip(&far_ends).map(&mut offset).collect();
 
-    let anchors = vec![None; ropes.len()];
     let mut system = System {
         body,
         ends,
         halves,
         packs: RopePack::of(&ropes),
+        anchors: vec![None; ropes.len()],
         ropes,
         far_ends,
         supports,
         windings,
-        anchors,
         offsets,
         size,
         air,

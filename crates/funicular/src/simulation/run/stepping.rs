@@ -77,8 +77,8 @@ pub enum StepError {
     },
     /// An anchor that jumps.
     #[error(
-        "the anchor of cable \"{cable}\" would move by {change} m within {interval} s, which is a jump: give its velocity \
-         as well, a smaller change, or a longer interval"
+        "the anchor of cable \"{cable}\" would move by {change} m within {interval} s, which is a jump: give its \
+         velocity as well, a smaller change, or a longer interval"
     )]
     AnchorJump {
         /// Name of the cable.

@@ -4,7 +4,8 @@ use super::{StepError, SteppedSimulation};
 use crate::math::Vec3;
 use crate::robot::Load;
 use crate::simulation::body::HeldWrench;
-use crate::simulation::moving_anchor::{AnchorCourse, check_can_move};
+use crate::simulation::event::check_can_move;
+use crate::simulation::moving_anchor::AnchorCourse;
 use crate::simulation::rope::WoundLength;
 use crate::simulation::winding::{Winding, between};
 
