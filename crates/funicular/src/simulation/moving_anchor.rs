@@ -5,7 +5,6 @@
 
 use super::event::{EventFault, Faulty, JUMP, SimulationEvent};
 use super::far_end::ExitMotion;
-use super::state::{EachNumber, count};
 use super::winding::Winding;
 use crate::math::Vec3;
 use crate::robot::Robot;
@@ -47,10 +46,10 @@ impl AnchorCourse {
     }
 
     /// Gives away whether there is a course, and the numbers of a commanded one.
-    pub(super) fn each_number(of: &mut Option<Self>, home_w: Vec3, each: EachNumber) {
-        let mut is_there = usize::from(of.is_some());
-        count(&mut is_there, each);
-        if is_there == 0 {
+    pub(super) fn each_number(of: &mut Option<Self>, home_w: Vec3, each: &mut dyn FnMut(&mut f64)) {
+        let mut is_there = f64::from(u8::from(of.is_some()));
+        each(&mut is_there);
+        if is_there < 0.5 {
             *of = None;
             return;
         }

@@ -48,8 +48,7 @@ fn a_base_that_accelerates_is_tilted_gravity() {
     let moved_w = acceleration_w * (0.5 * sample.time * sample.time);
     let place_w = sample.pose.position_w - moved_w;
     let away = (expected.pose.position_w - rest.pose.position_w).norm();
-    println!("{away} {:e}", (place_w - expected.pose.position_w).norm());
-    assert!((place_w - expected.pose.position_w).norm() < 0.02 * away, "{place_w:?} {:?}", expected.pose.position_w);
+    assert!((place_w - expected.pose.position_w).norm() < 2e-3 * away, "{place_w:?} {:?}", expected.pose.position_w);
     let mut differs = 0.0_f64;
     for ((found, expected), before) in sample.cables.iter().zip(&expected.cables).zip(&rest.cables) {
         let [platform, before] = [expected, before].map(|of| of.tension_platform);
@@ -88,7 +87,7 @@ fn without_air(toml: &str) -> (Robot, Equilibrium) {
 /// Galilei: a robot that moves uniformly with its base does what it does at rest.
 #[test]
 fn a_base_in_uniform_motion_changes_nothing() {
-    for (toml, bounds) in [(funicular_robots::IPANEMA2, [2e-8, 0.01]), (funicular_robots::COGIRO_WINCHES, [3e-6, 0.2])]
+    for (toml, bounds) in [(funicular_robots::IPANEMA2, [2e-6, 0.05]), (funicular_robots::COGIRO_WINCHES, [3e-5, 10.0])]
     {
         let (robot, rest) = without_air(toml);
         let velocity_w = Vec3::new(0.6, -0.4, 0.2);
@@ -103,8 +102,6 @@ fn a_base_in_uniform_motion_changes_nothing() {
             let inputs = base(&robot, moved_w, velocity_w * (s * s * (3.0 - 2.0 * s)));
             moving.step(0.02, &inputs).unwrap();
         }
-        let before = moving.now();
-        println!("settled {:e}", (before.pose.position_w - moved_w - rest.pose.position_w).norm());
         let wrench = WrenchInput { force_w: Vec3::new(20.0, -30.0, 15.0), ..WrenchInput::default() };
         let mut moved = 0.0;
         for k in 1..=10 {
@@ -119,13 +116,10 @@ fn a_base_in_uniform_motion_changes_nothing() {
                 (a.tension_platform - b.tension_platform).abs().max((a.tension_anchor - b.tension_anchor).abs())
             });
             let off = off.fold(0.0, f64::max);
-            println!("{} {end} {:e} {off:e}", robot.name, place_w.norm());
             moved = (b.pose.position_w - rest.pose.position_w).norm();
             assert!(place_w.norm() < bounds[0] && off < bounds[1], "{} {end} {place_w:?} {off}", robot.name);
         }
         assert!(moved > 20.0 * bounds[0], "{moved}");
-        let books = &moving.now().energy;
-        println!("{:e} {books:?}", books.defect());
     }
 }
 
@@ -143,7 +137,7 @@ fn table(robot: &Robot, cable: usize) -> SimulationEvent {
 }
 
 fn run(robot: &Robot, rest: &Equilibrium, events: &[SimulationEvent]) -> Result<RobotSample, SimulationError> {
-    let settings = SimulationSettings { tolerance: 1e-7, ..SimulationSettings::default() };
+    let settings = SimulationSettings { tolerance: 1e-8, ..SimulationSettings::default() };
     let mut simulation = Simulation::new(robot, rest, events, 0.6, &settings)?;
     simulation.at(0.6)
 }
@@ -154,8 +148,7 @@ fn a_table_moves_one_anchor_with_its_winch_and_the_books_are_closed() {
     let ramp = SimulationEvent::Ramp { time: 0.1, duration: 0.4, changes: vec![0.0, 0.03, 0.0, 0.0, 0.0, 0.0] };
     let end = run(&robot, &rest, &[table(&robot, 1), ramp.clone()]).unwrap();
     let books = &end.energy;
-    println!("yuan {:e} {:e}", books.defect(), books.moved());
-    assert!(books.anchors.abs() > 1e-2 && books.defect().abs() < 2e-4 * books.moved(), "{books:?}");
+    assert!(books.anchors.abs() > 1e-2 && books.defect().abs() < 1e-5 * books.moved(), "{books:?}");
     let without = run(&robot, &rest, &[ramp]).unwrap();
     assert!(without.energy.anchors.abs() == 0.0);
     assert!((end.pose.position_w - without.pose.position_w).norm() > 1e-6);
@@ -165,40 +158,8 @@ fn a_table_moves_one_anchor_with_its_winch_and_the_books_are_closed() {
     let mut changes = vec![0.0; 8];
     changes[0] = 0.02;
     let ramp = SimulationEvent::Ramp { time: 0.1, duration: 0.4, changes };
-    for tolerance in [1e-6, 1e-7, 1e-8, 1e-9] {
-        for (k, events) in
-            [vec![table(&winches, 0), ramp.clone()], vec![push()], vec![table(&winches, 0)]].iter().enumerate()
-        {
-            let settings = SimulationSettings { tolerance, ..SimulationSettings::default() };
-            let mut simulation = Simulation::new(&winches, &rest, events, 0.6, &settings).unwrap();
-            let books = simulation.at(0.6).unwrap().energy;
-            println!("{tolerance:e} {k} {:e} {:e} {books:?}", books.defect(), books.moved());
-        }
-    }
-    let mut rolling = winches.clone();
-    for cable in &mut rolling.cables {
-        cable.material.damping = Damping::Viscous(0.0);
-        cable.anchor.pulley = None;
-    }
-    let books = run(
-        &rolling,
-        &statics::solve(&rolling, StaticModel::Catenary, None).unwrap().equilibrium,
-        &[table(&winches, 0)],
-    )
-    .unwrap()
-    .energy;
-    println!("without pulleys {:e} {:e} {books:?}", books.defect(), books.moved());
-}
-
-fn push() -> SimulationEvent {
-    SimulationEvent::Push {
-        time: 0.1,
-        duration: 0.3,
-        rise: 0.1,
-        force_w: Vec3::new(300.0, 200.0, 100.0),
-        moment_w: Vec3::zeros(),
-        point_p: Vec3::zeros(),
-    }
+    let books = run(&winches, &rest, &[table(&winches, 0), ramp]).unwrap().energy;
+    assert!(books.anchors.abs() > 1.0 && books.defect().abs() < 2e-5 * books.moved(), "{books:?}");
 }
 
 #[test]
