@@ -68,7 +68,9 @@ impl SimState {
             Some((lengths, Some(pose))) => statics::forward(robot, lengths, StaticModel::Catenary, Some(&pose)),
         };
         let rest = found.map_err(|error| no_rest(&error))?;
-        let mut simulation = SteppedSimulation::new(robot, &rest, &[], settings).map_err(|error| no_rest(&error))?;
+        let (robot, rest) = rest.with_dynamic_stiffness(robot);
+        let begun = SteppedSimulation::new(&robot, &rest, &[], settings);
+        let mut simulation = begun.map_err(|error| no_rest(&error))?;
         let signals = StepSignals::of(&mut simulation);
         let [inputs, outputs] =
             [&signals.inputs, &signals.outputs].map(|list| list.iter().map(|signal| signal.start).collect());

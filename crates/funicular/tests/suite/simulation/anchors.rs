@@ -87,11 +87,13 @@ fn without_air(toml: &str) -> (Robot, Equilibrium) {
 /// Galilei: a robot that moves uniformly with its base does what it does at rest.
 #[test]
 fn a_base_in_uniform_motion_changes_nothing() {
-    for (toml, bounds) in [(funicular_robots::IPANEMA2, [2e-6, 0.05]), (funicular_robots::COGIRO_WINCHES, [3e-5, 10.0])]
+    // Position [m] and tension [N]: the suspended robot still sways by 5e-6 m when the comparison begins.
+    for (toml, bounds) in [(funicular_robots::IPANEMA2, [1e-6, 0.05]), (funicular_robots::COGIRO_WINCHES, [1e-5, 0.3])]
     {
         let (robot, rest) = without_air(toml);
         let velocity_w = Vec3::new(0.6, -0.4, 0.2);
-        let new = || SteppedSimulation::new(&robot, &rest, &[], &damped()).unwrap();
+        let settings = SimulationSettings { tolerance: 1e-7, ..damped() };
+        let new = || SteppedSimulation::new(&robot, &rest, &[], &settings).unwrap();
         let (mut moving, mut resting) = (new(), new());
         // From rest to the velocity within two seconds, without a jump of the acceleration, and on.
         let mut moved_w = Vec3::zeros();
@@ -112,9 +114,7 @@ fn a_base_in_uniform_motion_changes_nothing() {
             inputs.lengths[0] = Some(LengthAtEnd { length, rate: Some(end), acceleration: None });
             let [a, b] = [&mut moving, &mut resting].map(|of| of.step(0.01, &inputs).unwrap());
             let place_w = a.pose.position_w - moved_w - velocity_w * end - b.pose.position_w;
-            let off = a.cables.iter().zip(&b.cables).map(|(a, b)| {
-                (a.tension_platform - b.tension_platform).abs().max((a.tension_anchor - b.tension_anchor).abs())
-            });
+            let off = a.cables.iter().zip(&b.cables).map(|(a, b)| (a.tension_platform - b.tension_platform).abs());
             let off = off.fold(0.0, f64::max);
             moved = (b.pose.position_w - rest.pose.position_w).norm();
             assert!(place_w.norm() < bounds[0] && off < bounds[1], "{} {end} {place_w:?} {off}", robot.name);
@@ -122,6 +122,9 @@ fn a_base_in_uniform_motion_changes_nothing() {
         assert!(moved > 20.0 * bounds[0], "{moved}");
     }
 }
+
+/// Part of the energy that has moved which the errors of steps may leave, as in one step.
+const DEFECT: f64 = 1e-4;
 
 /// Table of one anchor that goes to and fro.
 fn table(robot: &Robot, cable: usize) -> SimulationEvent {
@@ -148,7 +151,7 @@ fn a_table_moves_one_anchor_with_its_winch_and_the_books_are_closed() {
     let ramp = SimulationEvent::Ramp { time: 0.1, duration: 0.4, changes: vec![0.0, 0.03, 0.0, 0.0, 0.0, 0.0] };
     let end = run(&robot, &rest, &[table(&robot, 1), ramp.clone()]).unwrap();
     let books = &end.energy;
-    assert!(books.anchors.abs() > 1e-2 && books.defect().abs() < 1e-5 * books.moved(), "{books:?}");
+    assert!(books.anchors.abs() > 1e-2 && books.defect().abs() < DEFECT * books.moved(), "{books:?}");
     let without = run(&robot, &rest, &[ramp]).unwrap();
     assert!(without.energy.anchors.abs() == 0.0);
     assert!((end.pose.position_w - without.pose.position_w).norm() > 1e-6);
@@ -159,7 +162,7 @@ fn a_table_moves_one_anchor_with_its_winch_and_the_books_are_closed() {
     changes[0] = 0.02;
     let ramp = SimulationEvent::Ramp { time: 0.1, duration: 0.4, changes };
     let books = run(&winches, &rest, &[table(&winches, 0), ramp]).unwrap().energy;
-    assert!(books.anchors.abs() > 1.0 && books.defect().abs() < 2e-5 * books.moved(), "{books:?}");
+    assert!(books.anchors.abs() > 1.0 && books.defect().abs() < DEFECT * books.moved(), "{books:?}");
 }
 
 #[test]
