@@ -193,7 +193,6 @@ unsafe fn read<'a, T>(from: *const T, count: usize) -> Checked<&'a [T]> {
 
 /// `fn_sim_new`: simulation of the text of a robot file.
 #[unsafe(no_mangle)]
-#[expect(clippy::too_many_arguments, reason = "a function of C")]
 pub unsafe extern "C" fn fn_sim_new(
     toml: *const c_char,
     bytes: usize,
@@ -227,9 +226,9 @@ pub unsafe extern "C" fn fn_sim_new(
         Ok(Box::new(Sim { kind, busy, poisoned, state: UnsafeCell::new(state) }))
     };
     let (status, why) = match guarded(make).unwrap_or_else(|| Err(silent(PANIC))) {
-        Ok(made) => {
+        Ok(sim) => {
             // SAFETY: `out` was checked.
-            unsafe { out.write(Box::into_raw(made)) };
+            unsafe { out.write(Box::into_raw(sim)) };
             (CERTIFIED, String::new())
         }
         Err(told) => told,

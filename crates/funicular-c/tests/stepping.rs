@@ -110,10 +110,14 @@ fn steps_are_those_of_the_core() {
 fn a_saved_state_goes_on_with_the_same_bits_also_in_another_simulation() {
     let [first, second] = [(); 2].map(|()| new(ROBOT, 1e-6).1);
     assert_eq!(set(first, "force_z_n", 15.0), CERTIFIED);
-    (0..3).for_each(|_| assert_eq!(step(first, 0.003), CERTIFIED));
+    for _ in 0..3 {
+        assert_eq!(step(first, 0.003), CERTIFIED);
+    }
     let saved = save(first);
     let go_on = |sim: *mut Sim| {
-        (0..3).for_each(|_| assert_eq!(step(sim, 0.002), CERTIFIED));
+        for _ in 0..3 {
+            assert_eq!(step(sim, 0.002), CERTIFIED);
+        }
         assert_eq!(unsafe { fn_sim_release(sim, 0.5, null(), null_mut(), 0) }, CERTIFIED);
         assert_eq!(unsafe { fn_sim_cut(sim, 2, null_mut(), 0) }, CERTIFIED);
         assert_eq!(step(sim, 0.002), CERTIFIED);
@@ -136,7 +140,9 @@ fn a_saved_state_goes_on_with_the_same_bits_also_in_another_simulation() {
     let other = new(ROBOT, 1e-5).1;
     assert_eq!(unsafe { fn_sim_restore(other, saved.as_ptr().cast(), saved.len()) }, BAD_STATE);
     assert_eq!(save(second), before);
-    [first, second, other].into_iter().for_each(|sim| assert_eq!(unsafe { fn_sim_free(sim) }, CERTIFIED));
+    for sim in [first, second, other] {
+        assert_eq!(unsafe { fn_sim_free(sim) }, CERTIFIED);
+    }
 }
 
 #[test]
@@ -191,8 +197,8 @@ fn signals_have_names_and_units() {
             all.push((text(&name), text(&unit)));
         }
     }
-    // Six cables with two numbers each, six anchors with six, force and moment; no air, no wind.
-    assert_eq!((inputs, outputs), (12 + 36 + 6, 7 + 12 + 24 + 1));
+    // Six cables with two numbers each, six anchors with six, force, moment and wind.
+    assert_eq!((inputs, outputs), (12 + 36 + 9, 7 + 12 + 24 + 1));
     assert!(all.contains(&("length_rate_1_m_s".to_owned(), "m/s".to_owned())), "{all:?}");
     assert!((0..all.len()).all(|k| all[k + 1..].iter().all(|(name, _)| *name != all[k].0)));
     assert_eq!(unsafe { fn_sim_free(sim) }, CERTIFIED);

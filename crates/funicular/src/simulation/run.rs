@@ -466,13 +466,12 @@ impl Simulation {
         let at_platform = [Some(i), system.half_of(i)].into_iter().flatten();
         let attached = at_platform.filter(|rope| system.ends[*rope] == RopeEnd::Attached);
         let platform = attached.map(|rope| at(system.of_rope(rope).start).norm()).fold(0.0, |sum, of| sum + of);
-        let anchor = match system.far_forces(i, time, &lengths[i], m, needed) {
-            Some(forces) => forces.exit_w.norm(),
-            None => {
-                // The momentum of rope that passes is its own along the rope, and that of the anchor's motion.
-                let with_w = m.point(range.end - 3)[1] * (system.ropes[i].mass * lengths[i].rate);
-                system.ropes[i].anchor_tension(&lengths[i], &m.x[range.clone()], &(at(range.end - 3) - with_w))
-            }
+        let anchor = if let Some(forces) = system.far_forces(i, time, &lengths[i], m, needed) {
+            forces.exit_w.norm()
+        } else {
+            // The momentum of rope that passes is its own along the rope, and that of the anchor's motion.
+            let with_w = m.point(range.end - 3)[1] * (system.ropes[i].mass * lengths[i].rate);
+            system.ropes[i].anchor_tension(&lengths[i], &m.x[range.clone()], &(at(range.end - 3) - with_w))
         };
         [platform, anchor]
     }

@@ -103,9 +103,9 @@ impl StepSignals {
                     inputs.lengths.resize(cables, None);
                     let command = inputs.lengths[i].get_or_insert(still);
                     if let SignalOf::Length(_) = signal.of {
-                        command.length = *value
+                        command.length = *value;
                     } else {
-                        command.rate = Some(*value)
+                        command.rate = Some(*value);
                     }
                 }
                 SignalOf::Anchor(i, axis) | SignalOf::AnchorVelocity(i, axis) => {
