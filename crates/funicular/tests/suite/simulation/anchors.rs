@@ -190,7 +190,7 @@ fn refused_motions_of_anchors_change_nothing() {
     let mut inputs = base(&robot, Vec3::new(0.0, 0.0, 1e-3), Vec3::zeros());
     let before = simulation.save();
     let change = |inputs: &mut StepInputs, change: &dyn Fn(&mut AnchorAtEnd)| {
-        inputs.anchors.iter_mut().flatten().for_each(|of| change(of));
+        inputs.anchors.iter_mut().flatten().for_each(change);
     };
     change(&mut inputs, &|of| of.velocity_w = None);
     assert!(matches!(simulation.step(0.01, &inputs), Err(StepError::AnchorJump { .. })));
