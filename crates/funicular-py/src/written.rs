@@ -10,6 +10,7 @@ use crate::vibration::{PROMINENCE_DB, pairs};
 use funicular::math::DMat;
 use funicular::reduced_model::StateSpace;
 use funicular::robot::Robot;
+use funicular_answers::document;
 use funicular_files::endings::{self, Kind};
 use funicular_files::mat::{self, Value, Variable};
 use funicular_formats::export;
