@@ -3,8 +3,8 @@
  * SI units; every name has its unit. World axes. Cables in the order of the robot file. Lengths are unstrained lengths
  * from the attachment on the platform to the drum (to the anchor without one): what a winch has to pay out.
  *
- * Memory. The caller owns all memory but that of models and simulations. fn_inverse, fn_forward, fn_wrench, fn_warm_up and fn_reset
- * reserve none, take no lock, print nothing, and every iteration in them has a largest number of steps.
+ * Memory. The caller owns all memory but that of models and simulations. fn_inverse, fn_forward, fn_wrench, fn_warm_up
+ * and fn_reset reserve none, take no lock, print nothing, and every iteration in them has a largest number of steps.
  * The others are for set-up.
  *
  * Threads. A model is read only: many loops may use it. A loop serves one thread at a time; a second one gets FN_BUSY.

@@ -95,7 +95,7 @@ pub fn c_library() -> Result<PathBuf> {
     found.with_context(|| {
         format!(
             "a unit with the robot in motion needs the C library {LIBRARY}, which is not in {}: build it by \
-             `cargo build --release -p funicular-c`, and name the file in the environment variable {LIBRARY_VARIABLE}",
+             `cargo build -p funicular-c`, and name the file in the environment variable {LIBRARY_VARIABLE}",
             folder.display()
         )
     })
