@@ -15,7 +15,7 @@ declared! {
     pub struct SimulateRequest {
         /// Robot file.
         robot: RobotText = RobotText::default() => (Data(shape::robot)).required();
-        /// Events: lists `release`, `pick`, `lengths`, `tension`, `stop`, `push` and `cut` of events.
+        /// Events: lists `release`, `pick`, `lengths`, `tension`, `stop`, `push`, `anchor` and `cut` of events.
         scenario: Scenario = Scenario::default() => (Data(shape::scenario))
             .read_by(Reader::Scenario, "the scenario");
         /// Simulated time [s].
