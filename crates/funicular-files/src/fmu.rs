@@ -138,7 +138,7 @@ fn folder_of_fmi3() -> &'static str {
 /// Arguments of the compiler behind the C library: what it needs of the system, and nothing of it that is seen outside.
 fn linked() -> impl Iterator<Item = OsString> {
     let given: &[&str] = match env::consts::OS {
-        "linux" => &["-Wl,--exclude-libs,ALL", "-Wl,--gc-sections", "-s", "-lpthread", "-ldl", "-lm"],
+        "linux" => &["-Wl,-exclude-libs,ALL", "-Wl,-gc-sections", "-s", "-lpthread", "-ldl", "-lm"],
         "macos" => &["-Wl,-dead_strip", "-lm"],
         _ => &[],
     };
