@@ -5,6 +5,7 @@
 //! `parameters`, `identify`, `calibrate`, `design` and `uncertainty` read the robot themselves, because they need the
 //! text of its file.
 
+mod anchor_table;
 pub mod cable;
 pub mod calibrate;
 mod candidate_poses;

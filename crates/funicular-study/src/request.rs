@@ -46,8 +46,8 @@ pub use parts::{
 };
 pub use shape::schema;
 pub use simulate::{
-    CutEvent, LengthsEvent, PickEvent, PointValue, PushEvent, ReleaseEvent, SIMULATED_S, Scenario, SimulateRequest,
-    StopEvent,
+    AnchorEvent, CutEvent, LengthsEvent, PickEvent, PointValue, PushEvent, ReleaseEvent, SIMULATED_S, Scenario,
+    SimulateRequest, StopEvent,
 };
 pub use source_file::{MAX_BYTES, SourceFile};
 pub use speeds::{RequiredVelocities, SpeedsRequest};

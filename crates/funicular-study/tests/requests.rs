@@ -356,6 +356,10 @@ fn requests() -> Vec<Value> {
                             "at_s": 0.0, "duration_s": 0.2, "rise_s": 0.05, "force_n": [1.0, 0.0, 0.0],
                             "moment_n_m": [0.0, 0.0, 0.0], "point_m": [0.0, 0.0, 0.0],
                         }],
+                        "anchor": [{
+                            "at_s": 0.0, "cables": ["1", "3"],
+                            "table": { "t_s": [0.0, 0.5], "x_m": [0.0, 0.0], "y_m": [0.0, 0.0], "z_m": [0.0, 0.01] },
+                        }],
                         "cut": [{ "cable": "2", "at_tension_n": 300.0, "place_m": 1.5 }],
                     },
                     "duration_s": 1.0, "sample_time_s": 0.01, "tolerance_m": 1e-6, "elements": 2, "degree": 6,

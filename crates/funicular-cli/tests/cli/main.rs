@@ -22,6 +22,7 @@ mod loads;
 mod messages;
 mod modes;
 mod motion;
+mod motion_unit;
 mod new_robot;
 mod pages;
 mod payload;

@@ -237,8 +237,8 @@ def simulate(
     Parameters
     ----------
     scenario
-        What happens: a mapping from `release`, `pick`, `lengths`, `tension`, `stop`, `push` and `cut` to lists of events,
-        each a mapping with the keys of docs/simulation.md. The `table` of an event of `lengths` may be a function of the
+        What happens: a mapping from `release`, `pick`, `lengths`, `tension`, `stop`, `push`, `anchor` and `cut` to lists
+        of events, each a mapping with the keys of docs/simulation.md. The `table` of an event of `lengths` or `anchor` may be a function of the
         time [s] from its beginning on, which returns a mapping from the columns of such a table to numbers; the event then
         needs its `duration_s`.
     point
@@ -283,14 +283,14 @@ _MAX_TABLE_S = 10_000
 
 def _tabled(scenario: Any) -> Any:
     """The scenario with tables in the place of functions of the time."""
-    if not isinstance(scenario, Mapping) or not isinstance(scenario.get("lengths"), (list, tuple)):
+    if not isinstance(scenario, Mapping):
         return scenario
 
-    def event(place: int, of: Any) -> Any:
+    def event(kind: str, place: int, of: Any) -> Any:
         if not isinstance(of, Mapping) or not callable(of.get("table")):
             return of
         function = of["table"]
-        name = f"scenario.lengths[{place}]"
+        name = f"scenario.{kind}[{place}]"
         rest = {key: value for key, value in of.items() if key not in ("table", "duration_s")}
         if of.get("duration_s") is None:
             raise InputError(f"`{name}`: a table that is a function needs `duration_s`")
@@ -317,7 +317,12 @@ def _tabled(scenario: Any) -> Any:
                 columns.setdefault(key, []).append(number(f'{called}({time:g})["{key}"]', value))
         return {**rest, "table": {"t_s": times, **columns}}
 
-    return {**scenario, "lengths": [event(k, of) for k, of in enumerate(scenario["lengths"])]}
+    tabled = {
+        kind: [event(kind, k, of) for k, of in enumerate(scenario[kind])]
+        for kind in ("lengths", "anchor")
+        if isinstance(scenario.get(kind), (list, tuple))
+    }
+    return {**scenario, **tabled}
 
 
 @declared(Robot, "clearance", positional=("pose", "static_model"), others=_AS_REST)

@@ -1599,6 +1599,8 @@ class SimulatedRow(Row):
     """Unstrained length of each cable [m]."""
     velocity_m_s: NDArray[np.float64]
     """Velocity of the platform origin [m/s]."""
+    work_of_anchors_j: float
+    """Work at moving anchors since the start [J]."""
     work_of_loads_j: float
     """Work of loads, pushes and wind since the start [J]."""
     work_of_winches_j: float

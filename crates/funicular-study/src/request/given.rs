@@ -73,7 +73,8 @@ pub fn convert_units(command: &str, given: &mut Object) -> Result<()> {
             (Kind::Columns | Kind::GappedColumns, value) => vec![value],
             (Kind::Data(_), Value::Array(rows)) if key.name == "offers" => rows.iter_mut().collect(),
             (Kind::Data(_), Value::Object(scenario)) if key.name == "scenario" => {
-                let events = scenario.get_mut("lengths").and_then(Value::as_array_mut).into_iter().flatten();
+                let kinds = scenario.iter_mut().filter(|(kind, _)| ["lengths", "anchor"].contains(&kind.as_str()));
+                let events = kinds.filter_map(|(_, events)| events.as_array_mut()).flatten();
                 events.filter_map(|event| event.get_mut("table")).collect()
             }
             _ => continue,
