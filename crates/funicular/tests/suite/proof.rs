@@ -40,7 +40,12 @@ fn the_volume_of_cogiro_is_between_the_proved_bounds() {
     for (statement, most) in [(&statement, 0.47), (&sagging, 0.5)] {
         let search = searched(statement, cogiro_box(), 10_000);
         let volumes = search.volumes();
-        println!("{volumes:?} {} {} {:?}", volumes.undecided() / volumes.whole, volumes.undecided_share(), begin.elapsed());
+        println!(
+            "{volumes:?} {} {} {:?}",
+            volumes.undecided() / volumes.whole,
+            volumes.undecided_share(),
+            begin.elapsed()
+        );
         // 200,000 samples by linear programs gave 479.8 m³ with a deviation of 1.0 m³.
         assert!(volumes.inside < 479.8 + 3.0 && volumes.whole - volumes.outside > 479.8 - 3.0, "{volumes:?}");
         assert!(volumes.undecided() / volumes.whole < most, "{volumes:?}");

@@ -59,6 +59,7 @@ rows! {
 
 rows! {
     /// Box of a division.
+    #[derive(Debug, Clone)]
     pub struct BoxRow in tables() {
         /// Least coordinate of the positions, {}.
         pub lower_m: [f64; 3] => each(AXES, "lower_{}_m").decimals("from", 4);
