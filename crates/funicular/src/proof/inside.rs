@@ -25,6 +25,9 @@ pub(super) struct Held {
 /// Part of the tensions of a witness by which the true ones may differ when their sag is bounded.
 const SLACKER: f64 = 0.05;
 
+/// Largest ratio of the tension of a sagging cable to its minimum for which the bound of its sag is made.
+pub(super) const MAX_TENSION_RATIO: f64 = 1e3;
+
 /// Tensions as functions of the free ones: `fixed + Σ free`, at the centre and by each coordinate.
 struct Family {
     center: Vec<f64>,
@@ -147,24 +150,47 @@ impl BoxFrame<'_> {
     }
 
     /// Tests whether exact tensions about a witness are within their limits everywhere in the box: (41b) to (41d).
+    ///
+    /// Tensions within their limits have the sag bound of the limits. If that is too wide, the bound of tensions that
+    /// differ little from those of the witness is tried.
     fn tested(&self, load: &Affine, witness: Witness) -> Result<Held, Undecided> {
         let sizes: Vec<f64> = (0..self.cables.len())
             .map(|i| witness.center[i].abs() + witness.by.iter().map(|by| by[i].abs()).sum::<f64>())
             .collect();
-        let sags = self.sags(&witness, &sizes).ok_or(Undecided::SagBound)?;
-        let correction = self.correction(load, &witness, &sizes, &sags).ok_or(Undecided::NearSingular)?;
+        let wide: Vec<SagBound> =
+            self.cables.iter().map(|cable| cable.sag.map_or_else(SagBound::default, |(_, bound)| bound)).collect();
+        let within = |i: usize| [self.cables[i].within[0], self.cables[i].within[0] * MAX_TENSION_RATIO];
+        let mut margin = self.margin(load, &witness, &sizes, &wide, &within);
+        if margin == Err(Undecided::SagBound) {
+            let near = self.sags(&witness, &sizes).ok_or(Undecided::SagBound)?;
+            let apart = |i: usize| {
+                let spread = sizes[i] - witness.center[i].abs();
+                let ratio = self.cables[i].moves[1] / self.cables[i].length;
+                let least = (witness.center[i] - spread) * (1.0 - ratio) * (1.0 - SLACKER);
+                [least, sizes[i] * (1.0 + ratio) * (1.0 + SLACKER)]
+            };
+            margin = self.margin(load, &witness, &sizes, &near, &apart);
+        }
+        margin.map(|margin| Held { witness, margin })
+    }
 
+    /// Least distance of exact tensions from their limits over the box, if it is positive and their sag has the given
+    /// bounds, which belong to chord tensions of the range that `holds_for` gives.
+    fn margin(
+        &self,
+        load: &Affine,
+        witness: &Witness,
+        sizes: &[f64],
+        sags: &[SagBound],
+        holds_for: &dyn Fn(usize) -> [f64; 2],
+    ) -> Result<f64, Undecided> {
+        let correction = self.correction(load, witness, sizes, sags).ok_or(Undecided::NearSingular)?;
         let (mut margin, mut of_sag, mut of_size) = (f64::INFINITY, 0.0, 0.0);
-        for (i, (cable, sag)) in self.cables.iter().zip(&sags).enumerate() {
+        for (i, (cable, sag)) in self.cables.iter().zip(sags).enumerate() {
             let Correction { squares, others, .. } = &correction;
             let below: f64 = squares.iter().map(|of| of[i].min(0.0)).sum();
             let above: f64 = squares.iter().map(|of| of[i].max(0.0)).sum();
             let center = witness.center[i];
-            // The bounds of the sag belong to tensions that differ little from those of the witness.
-            let spread: f64 = witness.by.iter().map(|by| by[i].abs()).sum();
-            if sag.deviation > 0.0 && others[i] - below + above > 0.5 * SLACKER * (center - spread) {
-                return Err(Undecided::SmallMargin);
-            }
             let of = &self.statement.cables[i];
             let least = of.least.at(cable.length + cable.moves[1]) + sag.below;
             let greatest = of.greatest - sag.above;
@@ -172,13 +198,21 @@ impl BoxFrame<'_> {
                 let by = witness.by.iter().zip(&cable.nearer);
                 by.map(|(by, nearer)| (by[i] - limit * nearer).abs()).sum::<f64>()
             };
-            let lower = center - differs(least) + below - others[i] - least * (1.0 + cable.curved[0]);
-            let distance = if greatest.is_finite() {
-                let upper = greatest * (1.0 - cable.curved[1]) - center - differs(greatest) - above - others[i];
-                lower.min(upper)
-            } else {
-                lower
+            let above_least = |limit: f64| {
+                center - differs(limit) + below - others[i] - limit * (1.0 + cable.curved[0])
             };
+            let below_greatest = |limit: f64| {
+                limit * (1.0 - cable.curved[1]) - center - differs(limit) - above - others[i]
+            };
+            // The limits, and the range of tensions to which the bounds of the sag belong.
+            let mut distance = above_least(least);
+            if greatest.is_finite() {
+                distance = distance.min(below_greatest(greatest));
+            }
+            if cable.sag.is_some() {
+                let [from, to] = holds_for(i);
+                distance = distance.min(above_least(from)).min(below_greatest(to.max(greatest.min(to))));
+            }
             if distance < margin {
                 margin = distance;
                 of_sag = correction.of_sag[i];
@@ -186,7 +220,7 @@ impl BoxFrame<'_> {
             }
         }
         if margin > 0.0 {
-            return Ok(Held { witness, margin });
+            return Ok(margin);
         }
         Err(if of_sag > 0.0 && of_size < of_sag { Undecided::SagBound } else { Undecided::SmallMargin })
     }

@@ -36,14 +36,15 @@ impl BoxFrame<'_> {
         let corners: Vec<Corner> = self.corners.iter().map(|corner| self.at_corner(corner, load, &cables)).collect();
         let n = self.statement.coordinates.count();
         let scale = corners.iter().map(|corner| corner.load.norm()).fold(1.0, f64::max);
-        // Rows: y·(load + wrenches of the best tensions) + s ≤ 0 at each corner, and −y ≤ 1.
+        // Rows: y·(load + wrenches of the best tensions) + s ≤ 0 at each corner, and |y| ≤ 1.
         let mut bounds = vec![1.0; n + 1];
         bounds[n] = 1e4 * scale;
         let next = |x: &[f64], cut: &mut Cut| {
             let y = Vec6::from_fn(|i, _| if i < n { x[i] } else { 0.0 });
-            if let Some(k) = (0..n).find(|k| x[*k] < -1.0 - 1e-9) {
+            let farthest = (0..n).max_by(|a, b| x[*a].abs().total_cmp(&x[*b].abs()));
+            if let Some(k) = farthest.filter(|k| x[*k].abs() > 1.0 + 1e-9) {
                 cut.row.fill(0.0);
-                cut.row[k] = -1.0;
+                cut.row[k] = x[k].signum();
                 cut.limit = 1.0;
                 return true;
             }
