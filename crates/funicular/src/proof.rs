@@ -24,7 +24,7 @@ pub use surface::FaceMesh;
 
 use crate::math::{Vec3, Vec6};
 use frame::BoxFrame;
-use inside::Witness;
+use inside::{NotHeld, Witness};
 
 /// Box of positions of the platform origin, world axes [m].
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -137,30 +137,19 @@ impl ProofStatement {
     /// ```
     ///
     /// # References
-    /// docs/theory.md, equations (41a) to (41h).
+    /// docs/theory.md, equations (42a) to (42h).
     pub fn prove(&self, region: &PositionBox) -> BoxProof {
         let frame = match BoxFrame::of(self, region) {
             Ok(frame) => frame,
             Err(reason) => return BoxProof::undecided(reason),
         };
 
-        // Tensions for every load; the first load without any is tried for the other verdict.
-        let (mut witnesses, mut margin) = (Vec::with_capacity(self.loads.len()), f64::INFINITY);
-        let mut failed = None;
-        for load in 0..self.loads.len() {
-            match frame.held(load) {
-                Ok(held) => {
-                    margin = margin.min(held.margin);
-                    witnesses.push(held.witness);
-                }
-                Err(reason) => {
-                    failed = Some((load, reason));
-                    break;
-                }
+        let (load, reason) = match frame.held() {
+            Ok(held) => {
+                let verdict = BoxVerdict::Inside(held.margin);
+                return BoxProof { verdict, witnesses: held.witnesses, missing: None };
             }
-        }
-        let Some((load, reason)) = failed else {
-            return BoxProof { verdict: BoxVerdict::Inside(margin), witnesses, missing: None };
+            Err(NotHeld { load, reason }) => (load, reason),
         };
 
         // A load that no tensions hold anywhere in the box.

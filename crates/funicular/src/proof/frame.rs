@@ -51,13 +51,29 @@ pub(super) struct CableFrame {
     pub(super) moves: [f64; 2],
     /// Limits of the chord tension [N] for a proof that it is within them.
     pub(super) within: [f64; 2],
-    /// Chords of a cable that sags, and its bounds for these limits.
-    pub(super) sag: Option<(ChordRange, SagBound)>,
+    /// Chords of a cable that sags, and its bounds.
+    pub(super) sag: Option<SagOverBox>,
+    /// Rounding of its ends [m].
+    pub(super) rounding: f64,
+    /// Bound of the components of its wrenches over the box, at least 1.
+    pub(super) size: f64,
     /// Wrench of a unit force upwards at the attachment, reduced.
     pub(super) lift: Vec6,
     /// Greatest change of it by turns, and what is left of the change after its first order.
     pub(super) lift_turns: [f64; 2],
 }
+
+/// Sag of a cable over a box.
+#[derive(Clone, Copy)]
+pub(super) struct SagOverBox {
+    pub(super) chords: ChordRange,
+    /// Chord tensions to which the bounds belong [N].
+    pub(super) tensions: [f64; 2],
+    pub(super) bound: SagBound,
+}
+
+/// Largest ratio of the chord tension of a sagging cable to its minimum for which its bounds are made.
+const MAX_TENSION_RATIO: f64 = 1e3;
 
 impl<'a> BoxFrame<'a> {
     /// Balance over a box.
@@ -175,25 +191,25 @@ impl Place<'_> {
 
         let range = self.chords(&chord, (length, shortest), moves[1]);
         let mut within = [cable.least.at(range.longest), cable.greatest];
-        let sag = cable.sag.map(|of| {
-            // A cable that is too slack for a bound is asked for more tension.
-            let bound = (0..12).find_map(|k| {
-                let least = within[0] * 1.15_f64.powi(k);
-                of.bound(&range, [least, cable.greatest.min(1e3 * least)]).map(|bound| (least, bound))
-            });
-            bound.map(|(least, bound)| {
-                within = [least + bound.below, cable.greatest - bound.above];
-                (range, bound)
-            })
-        });
-        let sag = match sag {
-            Some(None) => return Err(Undecided::SagBound),
-            other => other.flatten(),
+        let sag = match cable.sag {
+            None => None,
+            Some(of) => {
+                // A cable that is too slack for a bound is asked for more tension.
+                let found = (0..12).find_map(|k| {
+                    let least = within[0] * 1.15_f64.powi(k);
+                    let tensions = [least, cable.greatest.min(MAX_TENSION_RATIO * least)];
+                    of.bound(&range, tensions).map(|bound| SagOverBox { chords: range, tensions, bound })
+                });
+                let found = found.ok_or(Undecided::SagBound)?;
+                within = [found.tensions[0] + found.bound.below, cable.greatest - found.bound.above];
+                Some(found)
+            }
         };
         let lift = coordinates.reduce_force(up_w, arm);
         let lift_turns = [(first + second) / ell, second / ell];
         let nearer = approaches.collect();
-        Ok(CableFrame { length, shortest, column, nearer, curved, moves, within, sag, lift, lift_turns })
+        let size = column.by.iter().fold(column.center.abs(), |sum, of| sum + of.abs()).amax().max(1.0);
+        Ok(CableFrame { length, shortest, column, nearer, curved, moves, within, sag, rounding, size, lift, lift_turns })
     }
 
     /// Range of the chords of a cable.

@@ -3,7 +3,7 @@
 
 use super::Undecided;
 use super::cutting::{Cut, largest_last};
-use super::frame::{Affine, BoxFrame};
+use super::frame::{Affine, BoxFrame, CableFrame, uniform};
 use super::outside::ROUNDING;
 use super::sag::SagBound;
 use crate::math::{Mat6, Vec6};
@@ -15,18 +15,41 @@ pub(crate) struct Witness {
     pub(crate) by: Vec<Vec<f64>>,
 }
 
-/// Load that is held at every pose of a box.
+impl Witness {
+    /// Bound of the tension of a cable over the box.
+    fn size(&self, cable: usize) -> f64 {
+        self.center[cable].abs() + self.by.iter().map(|by| by[cable].abs()).sum::<f64>()
+    }
+
+    fn sizes(&self) -> Vec<f64> {
+        (0..self.center.len()).map(|cable| self.size(cable)).collect()
+    }
+}
+
+/// Loads that are held at every pose of a box.
 pub(super) struct Held {
-    pub(super) witness: Witness,
+    /// Tensions of each load.
+    pub(super) witnesses: Vec<Witness>,
     /// Least distance of a tension from its limits [N].
     pub(super) margin: f64,
 }
 
-/// Part of the tensions of a witness by which the true ones may differ when their sag is bounded.
+/// Load that is not proved to be held.
+pub(super) struct NotHeld {
+    /// Number of the load.
+    pub(super) load: usize,
+    pub(super) reason: Undecided,
+}
+
+/// Part of the tensions of witnesses by which the true ones may differ when their sag is bounded.
 const SLACKER: f64 = 0.05;
 
-/// Largest ratio of the tension of a sagging cable to its minimum for which the bound of its sag is made.
-pub(super) const MAX_TENSION_RATIO: f64 = 1e3;
+/// Bounds of the sag of a cable, and the chord tensions to which they belong [N].
+#[derive(Clone, Copy, Default)]
+struct SagInRange {
+    bound: SagBound,
+    tensions: [f64; 2],
+}
 
 /// Tensions as functions of the free ones: `fixed + Σ free`, at the centre and by each coordinate.
 struct Family {
@@ -47,14 +70,39 @@ struct Correction {
 }
 
 impl BoxFrame<'_> {
-    /// Proves that a load is held at every pose of the box.
+    /// Proves that every load is held at every pose of the box, and with them their combinations: tensions of these are
+    /// combinations of those of the loads, if the bounds of the sag are the same for all loads.
     ///
     /// # Errors
-    /// The reason why it is not proved.
-    pub(super) fn held(&self, number: usize) -> Result<Held, Undecided> {
-        let load = self.load(number);
-        let witness = self.witness(&load).ok_or(Undecided::SmallMargin)?;
-        self.tested(&load, witness)
+    /// The first load that is not proved to be held.
+    pub(super) fn held(&self) -> Result<Held, NotHeld> {
+        let loads: Vec<Affine> = (0..self.statement.loads.len()).map(|number| self.load(number)).collect();
+        let over_box = |cable: &CableFrame| {
+            cable.sag.map(|of| SagInRange { bound: of.bound, tensions: of.tensions }).unwrap_or_default()
+        };
+        let wide: Vec<SagInRange> = self.cables.iter().map(over_box).collect();
+        let (mut witnesses, mut margin, mut too_wide) = (Vec::with_capacity(loads.len()), f64::INFINITY, None);
+        for (number, load) in loads.iter().enumerate() {
+            let refused = |reason| NotHeld { load: number, reason };
+            let witness = self.witness(load).ok_or_else(|| refused(Undecided::SmallMargin))?;
+            match self.margin(load, &witness, &wide) {
+                Ok(of_load) => margin = margin.min(of_load),
+                Err(Undecided::SagBound) => too_wide = too_wide.or(Some(number)),
+                Err(reason) => return Err(refused(reason)),
+            }
+            witnesses.push(witness);
+        }
+        let Some(first) = too_wide else { return Ok(Held { witnesses, margin }) };
+
+        // Bounds of the sag for tensions that differ little from those of the witnesses.
+        let refused = |load, reason| NotHeld { load, reason };
+        let near = self.sags(&witnesses).ok_or_else(|| refused(first, Undecided::SagBound))?;
+        let mut margin = f64::INFINITY;
+        for (number, (load, witness)) in loads.iter().zip(&witnesses).enumerate() {
+            let of_load = self.margin(load, witness, &near).map_err(|reason| refused(number, reason))?;
+            margin = margin.min(of_load);
+        }
+        Ok(Held { witnesses, margin })
     }
 
     /// Tensions whose least distance from the limits over the box is greatest, to first order.
@@ -149,42 +197,11 @@ impl BoxFrame<'_> {
         true
     }
 
-    /// Tests whether exact tensions about a witness are within their limits everywhere in the box: (41b) to (41d).
-    ///
-    /// Tensions within their limits have the sag bound of the limits. If that is too wide, the bound of tensions that
-    /// differ little from those of the witness is tried.
-    fn tested(&self, load: &Affine, witness: Witness) -> Result<Held, Undecided> {
-        let sizes: Vec<f64> = (0..self.cables.len())
-            .map(|i| witness.center[i].abs() + witness.by.iter().map(|by| by[i].abs()).sum::<f64>())
-            .collect();
-        let wide: Vec<SagBound> =
-            self.cables.iter().map(|cable| cable.sag.map_or_else(SagBound::default, |(_, bound)| bound)).collect();
-        let within = |i: usize| [self.cables[i].within[0], self.cables[i].within[0] * MAX_TENSION_RATIO];
-        let mut margin = self.margin(load, &witness, &sizes, &wide, &within);
-        if margin == Err(Undecided::SagBound) {
-            let near = self.sags(&witness, &sizes).ok_or(Undecided::SagBound)?;
-            let apart = |i: usize| {
-                let spread = sizes[i] - witness.center[i].abs();
-                let ratio = self.cables[i].moves[1] / self.cables[i].length;
-                let least = (witness.center[i] - spread) * (1.0 - ratio) * (1.0 - SLACKER);
-                [least, sizes[i] * (1.0 + ratio) * (1.0 + SLACKER)]
-            };
-            margin = self.margin(load, &witness, &sizes, &near, &apart);
-        }
-        margin.map(|margin| Held { witness, margin })
-    }
-
-    /// Least distance of exact tensions from their limits over the box, if it is positive and their sag has the given
-    /// bounds, which belong to chord tensions of the range that `holds_for` gives.
-    fn margin(
-        &self,
-        load: &Affine,
-        witness: &Witness,
-        sizes: &[f64],
-        sags: &[SagBound],
-        holds_for: &dyn Fn(usize) -> [f64; 2],
-    ) -> Result<f64, Undecided> {
-        let correction = self.correction(load, witness, sizes, sags).ok_or(Undecided::NearSingular)?;
+    /// Least distance of exact tensions about a witness from their limits over the box, if it is positive and their sag
+    /// has the given bounds: (42b) to (42d).
+    fn margin(&self, load: &Affine, witness: &Witness, sags: &[SagInRange]) -> Result<f64, Undecided> {
+        let sizes = witness.sizes();
+        let correction = self.correction(load, witness, &sizes, sags).ok_or(Undecided::NearSingular)?;
         let (mut margin, mut of_sag, mut of_size) = (f64::INFINITY, 0.0, 0.0);
         for (i, (cable, sag)) in self.cables.iter().zip(sags).enumerate() {
             let Correction { squares, others, .. } = &correction;
@@ -192,17 +209,18 @@ impl BoxFrame<'_> {
             let above: f64 = squares.iter().map(|of| of[i].max(0.0)).sum();
             let center = witness.center[i];
             let of = &self.statement.cables[i];
-            let least = of.least.at(cable.length + cable.moves[1]) + sag.below;
-            let greatest = of.greatest - sag.above;
+            let least = of.least.at(cable.length + cable.moves[1]) + sag.bound.below;
+            let greatest = of.greatest - sag.bound.above;
             let differs = |limit: f64| {
                 let by = witness.by.iter().zip(&cable.nearer);
                 by.map(|(by, nearer)| (by[i] - limit * nearer).abs()).sum::<f64>()
             };
+            let rounded = |limit: f64| ROUNDING * limit * (1.0 + cable.curved[0] + cable.size);
             let above_least = |limit: f64| {
-                center - differs(limit) + below - others[i] - limit * (1.0 + cable.curved[0])
+                center - differs(limit) + below - others[i] - limit * (1.0 + cable.curved[0]) - rounded(limit)
             };
             let below_greatest = |limit: f64| {
-                limit * (1.0 - cable.curved[1]) - center - differs(limit) - above - others[i]
+                limit * (1.0 - cable.curved[1]) - center - differs(limit) - above - others[i] - rounded(limit)
             };
             // The limits, and the range of tensions to which the bounds of the sag belong.
             let mut distance = above_least(least);
@@ -210,8 +228,8 @@ impl BoxFrame<'_> {
                 distance = distance.min(below_greatest(greatest));
             }
             if cable.sag.is_some() {
-                let [from, to] = holds_for(i);
-                distance = distance.min(above_least(from)).min(below_greatest(to.max(greatest.min(to))));
+                let [from, to] = sag.tensions;
+                distance = distance.min(above_least(from)).min(below_greatest(to));
             }
             if distance < margin {
                 margin = distance;
@@ -225,23 +243,33 @@ impl BoxFrame<'_> {
         Err(if of_sag > 0.0 && of_size < of_sag { Undecided::SagBound } else { Undecided::SmallMargin })
     }
 
-    /// Bounds of the sag for the tensions of a witness; zero for straight cables.
-    fn sags(&self, witness: &Witness, sizes: &[f64]) -> Option<Vec<SagBound>> {
+    /// Bounds of the sag for tensions near those of witnesses; nothing for straight cables.
+    fn sags(&self, witnesses: &[Witness]) -> Option<Vec<SagInRange>> {
         let cables = self.statement.cables.iter().zip(&self.cables).enumerate();
         let bounds = cables.map(|(i, (of, cable))| {
-            let (Some(sag), Some((chords, wide))) = (of.sag, &cable.sag) else { return Some(SagBound::default()) };
-            let spread = sizes[i] - witness.center[i].abs();
-            let ratios = [1.0 - cable.moves[1] / cable.length, 1.0 + cable.moves[1] / cable.length];
-            let least = (witness.center[i] - spread) * ratios[0] * (1.0 - SLACKER);
-            let least = least.max(cable.within[0] - wide.below);
-            let greatest = sizes[i] * ratios[1] * (1.0 + SLACKER);
-            sag.bound(chords, [least, greatest.max(least)])
+            let (Some(sag), Some(over)) = (of.sag, &cable.sag) else { return Some(SagInRange::default()) };
+            let ratio = cable.moves[1] / cable.length;
+            let (mut least, mut greatest) = (f64::INFINITY, 0.0_f64);
+            for witness in witnesses {
+                let (center, size) = (witness.center[i], witness.size(i));
+                least = least.min((2.0 * center.abs() - size) * (1.0 - ratio) * (1.0 - SLACKER));
+                greatest = greatest.max(size * (1.0 + ratio) * (1.0 + SLACKER));
+            }
+            let least = least.max(over.tensions[0]);
+            let tensions = [least, greatest.max(least)];
+            sag.bound(&over.chords, tensions).map(|bound| SagInRange { bound, tensions })
         });
         bounds.collect()
     }
 
     /// What Brouwer's theorem leaves of a witness; `None` if the wrenches are too near to dependence.
-    fn correction(&self, load: &Affine, witness: &Witness, sizes: &[f64], sags: &[SagBound]) -> Option<Correction> {
+    fn correction(
+        &self,
+        load: &Affine,
+        witness: &Witness,
+        sizes: &[f64],
+        sags: &[SagInRange],
+    ) -> Option<Correction> {
         let (n, coordinates) = (self.statement.coordinates.count(), self.steps.len());
         let cables = || self.cables.iter().enumerate();
 
@@ -268,11 +296,12 @@ impl BoxFrame<'_> {
         let (mut rest, mut of_sag, mut total) = (load.rest, Vec6::zeros(), rounding);
         for (i, cable) in cables() {
             rest += cable.column.rest * sizes[i];
-            let turned = super::frame::uniform(cable.lift_turns[0], n);
-            of_sag += (cable.lift.abs() + turned) * sags[i].deviation;
+            let turned = uniform(cable.lift_turns[0], n);
+            of_sag += (cable.lift.abs() + turned) * sags[i].bound.deviation;
         }
-        let scale: f64 = sizes.iter().sum::<f64>() + load.center.amax();
-        rest += super::frame::uniform(ROUNDING * scale, n);
+        let of_load = load.by.iter().fold(load.center.abs(), |sum, by| sum + by.abs()).amax();
+        let scale = cables().map(|(i, cable)| sizes[i] * cable.size).sum::<f64>() + of_load;
+        rest += uniform(ROUNDING * scale, n);
         let (mut squares, mut crossed) = (Vec::new(), vec![0.0; self.cables.len()]);
         for j in 0..coordinates {
             for k in j..coordinates {
@@ -312,7 +341,7 @@ impl BoxFrame<'_> {
             bound += product(&|i| self.cables[i].column.by[j]).abs();
         }
         for (row, cable) in self.inverse.iter().zip(&self.cables) {
-            let columns = cable.column.rest + super::frame::uniform(ROUNDING, n);
+            let columns = cable.column.rest + uniform(ROUNDING * cable.size, n);
             bound += columns * row.abs().transpose();
         }
         bound

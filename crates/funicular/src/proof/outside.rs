@@ -82,13 +82,14 @@ impl BoxFrame<'_> {
             let arm = self.statement.cables[i].arm_w;
             let along = force + moment.cross(&(arm / self.statement.coordinates.ell()));
             let moves = frame.moves[0];
-            let curve = along.norm() * moves * moves / (3.0_f64.sqrt() * frame.shortest * frame.shortest);
+            let (span, rounding) = (frame.shortest, 4.0 * frame.rounding);
+            let curve = along.norm() * (moves * moves / (3.0_f64.sqrt() * span * span) + rounding / span);
             let pulls = corners.iter().any(|corner| y.dot(&corner.columns[i]) + curve > 0.0);
             let tension = cable.tensions[usize::from(pulls)];
             rest += tension * curve;
             // The length is convex: with y·lift > 0 the weight along y is concave.
             let lift = y.dot(&frame.lift);
-            rest += cable.hangs * lift.max(0.0) * 0.5 * moves * moves / frame.shortest;
+            rest += cable.hangs * (lift.max(0.0) * 0.5 * moves * moves / span + lift.abs() * rounding);
             rest += cable.deviation * lift.abs();
             size += tension * along.norm() + cable.hangs * frame.length * lift.abs();
         }
@@ -100,11 +101,11 @@ impl BoxFrame<'_> {
         let cables = self.statement.cables.iter().zip(&self.cables);
         let pulled = cables.map(|(of, frame)| {
             let (least, greatest) = (of.least.at(frame.shortest), of.greatest);
-            let (Some(sag), Some((chords, _))) = (of.sag, &frame.sag) else {
+            let (Some(sag), Some(over)) = (of.sag, &frame.sag) else {
                 return Some(PulledCable { tensions: [least, greatest], deviation: 0.0, hangs: 0.0 });
             };
-            let tensions = sag.chord_tensions(chords, [least, greatest])?;
-            let deviation = sag.bound(chords, [least, greatest])?.deviation;
+            let tensions = sag.chord_tensions(&over.chords, [least, greatest])?;
+            let deviation = sag.bound(&over.chords, [least, greatest])?.deviation;
             deviation.is_finite().then_some(PulledCable { tensions, deviation, hangs: 0.5 * sag.weight })
         });
         pulled.collect()
