@@ -209,7 +209,20 @@ impl Place<'_> {
         let lift_turns = [(first + second) / ell, second / ell];
         let nearer = approaches.collect();
         let size = column.by.iter().fold(column.center.abs(), |sum, of| sum + of.abs()).amax().max(1.0);
-        Ok(CableFrame { length, shortest, column, nearer, curved, moves, within, sag, rounding, size, lift, lift_turns })
+        Ok(CableFrame {
+            length,
+            shortest,
+            column,
+            nearer,
+            curved,
+            moves,
+            within,
+            sag,
+            rounding,
+            size,
+            lift,
+            lift_turns,
+        })
     }
 
     /// Range of the chords of a cable.
@@ -236,9 +249,9 @@ impl Place<'_> {
                 *by -= turned * (half * cable.length);
             }
             let moves = cable.moves[1];
-            let longer = 0.5 * moves * moves / cable.shortest + 1e-15 * cable.length;
-            load.rest += cable.lift.abs() * (half * longer * 1.01);
             let [change, left] = cable.lift_turns;
+            let longer = 0.5 * moves * moves / cable.shortest + left * coordinates.ell() + 1e-15 * cable.length;
+            load.rest += cable.lift.abs() * (half * longer * 1.01);
             let turned = (cable.length + moves) * left + moves * change;
             load.rest += uniform(half * turned, count);
         }

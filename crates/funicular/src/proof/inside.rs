@@ -263,13 +263,7 @@ impl BoxFrame<'_> {
     }
 
     /// What Brouwer's theorem leaves of a witness; `None` if the wrenches are too near to dependence.
-    fn correction(
-        &self,
-        load: &Affine,
-        witness: &Witness,
-        sizes: &[f64],
-        sags: &[SagInRange],
-    ) -> Option<Correction> {
+    fn correction(&self, load: &Affine, witness: &Witness, sizes: &[f64], sags: &[SagInRange]) -> Option<Correction> {
         let (n, coordinates) = (self.statement.coordinates.count(), self.steps.len());
         let cables = || self.cables.iter().enumerate();
 

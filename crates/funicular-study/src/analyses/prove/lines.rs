@@ -1,6 +1,7 @@
 //! Certificate of a proof: lines of JSON that a second program checks without solving anything.
 
 use super::Proved;
+use crate::sweep::digest;
 use funicular::math::{Vec3, Vec6};
 use funicular::proof::BoxCertificate;
 use serde_json::{Value, json};
@@ -10,16 +11,21 @@ use std::fmt::Write as _;
 const FORM: &str = "funicular-certificate/1";
 
 impl Proved {
-    /// Certificate: a line with the statement, then one for each box that is proved inside or outside. Numbers have
-    /// every digit.
+    /// Certificate: a line with the statement, then one for each box that is proved inside or outside, at last one with
+    /// their numbers, their sizes and a digest of all lines before. Numbers have every digit.
     pub fn certificate(&self) -> String {
         let mut text = format!("{}\n", self.statement_line());
+        let mut counts = [0_usize; 2];
         for of in self.boxes.iter().filter(|of| of.verdict != "undecided") {
             let proof = self.statement.prove(&of.region());
             let mut line = json!({"lower": of.lower_m, "upper": of.upper_m, "verdict": of.verdict});
             match proof.certificate() {
-                BoxCertificate::Inside(tensions) => line["tensions"] = json!(tensions),
+                BoxCertificate::Inside(tensions) => {
+                    counts[0] += 1;
+                    line["tensions"] = json!(tensions);
+                }
                 BoxCertificate::Outside(load, direction) => {
+                    counts[1] += 1;
                     line["load"] = load.into();
                     line["direction"] = components(&direction).into();
                 }
@@ -27,6 +33,11 @@ impl Proved {
             }
             let _ = writeln!(text, "{line}");
         }
+        let end = json!({
+            "inside": counts[0], "outside": counts[1], "inside_size": self.inside, "outside_size": self.outside,
+            "sha256": digest::of_text(&text),
+        });
+        let _ = writeln!(text, "{end}");
         text
     }
 
@@ -58,6 +69,8 @@ impl Proved {
             "turning": of.turning_forces().iter().map(|[force, arm]| [point(force), point(arm)]).collect::<Vec<_>>(),
             "turns": point(&turns),
             "up": point(&up),
+            "lower": point(&self.region.lower),
+            "upper": point(&self.region.upper),
         })
     }
 }

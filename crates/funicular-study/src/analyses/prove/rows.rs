@@ -36,10 +36,13 @@ rows! {
         pub reason: Option<&'static str>;
         /// Unit of the volumes: m³, or m², m if the box has no width along one or two axes.
         pub volume_unit: &'static str;
-        /// Volume of the box, and those that are proved inside, proved outside and undecided.
+        /// Volume of the box, in the unit that is given.
         pub whole: f64;
+        /// Volume that is proved inside.
         pub inside: f64;
+        /// Volume that is proved outside.
         pub outside: f64;
+        /// Volume that is neither.
         pub undecided: f64;
         /// Undecided volume over the volume that is not proved outside.
         pub undecided_share: f64;
@@ -51,6 +54,7 @@ rows! {
         pub worst: Vec<BoxRow>;
         /// Boxes of the division.
         pub boxes: Vec<BoxRow>;
+        pub region: PositionBox = hidden;
         pub surface: FaceMesh = hidden;
         pub statement: ProofStatement = hidden;
         pub warnings: Vec<String> = hidden;
@@ -147,6 +151,7 @@ impl Proved {
             tried: search.tried(),
             end: end.name(),
             worst,
+            region: study.region,
             surface: search.surface(),
             statement: study.statement.clone(),
             warnings: study.warnings(),
