@@ -568,21 +568,21 @@ def check(text, report=lambda done, total: None):
     Raises Rejected with the line and the reason if anything is not proved."""
     need(text.endswith("\n"), "the last line is not complete")
     lines = text.split("\n")[:-1]
-    need(len(lines) >= 2, "no line with the statement, or none with the end")
+    need(len(lines) >= 3, "no line with the statement, or none with the end")
     try:
         parsed = [json.loads(line) for line in lines]
     except ValueError as reason:
         raise Rejected(f"not lines of JSON: {reason}") from None
     need(all(isinstance(line, dict) for line in parsed), "a line that is no object")
-    end = parsed[-1]
+    end, digest = parsed[-2:]
     before = text[: len(text) - len(lines[-1]) - 1]
-    need(end.get("sha256") == hashlib.sha256(before.encode()).hexdigest(), "lines differ from those that were written")
+    need(digest.get("sha256") == hashlib.sha256(before.encode()).hexdigest(), "lines differ from those that were written")
 
     count, volume, known = {"inside": 0, "outside": 0}, {"inside": Fraction(0), "outside": Fraction(0)}, []
     place = "line 1"
     try:
         statement = Statement(parsed[0])
-        for number, line in enumerate(parsed[1:-1]):
+        for number, line in enumerate(parsed[1:-2]):
             place = f"line {number + 2}"
             box = Box(statement, line)
             need(line["verdict"] in count, f"the verdict {line['verdict']!r} does not exist")
@@ -593,8 +593,8 @@ def check(text, report=lambda done, total: None):
             count[line["verdict"]] += 1
             volume[line["verdict"]] += box.measure()
             known.append((line["lower"], line["upper"]))
-            report(number + 1, len(parsed) - 2)
-        place = f"line {len(parsed)}"
+            report(number + 1, len(parsed) - 3)
+        place = f"line {len(parsed) - 1}"
         for verdict in count:
             need(end[verdict] == count[verdict], f"{end[verdict]} boxes {verdict}, and not {count[verdict]}")
             stated, found = exact(end[f"{verdict}_size"]), volume[verdict]

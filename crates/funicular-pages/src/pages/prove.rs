@@ -44,7 +44,7 @@ pub fn page(found: &Proved, command_line: String) -> anyhow::Result<String> {
     page.render().context("the page could not be written as HTML")
 }
 
-/// What is proved and what is not, in words.
+/// Sentences about what is proved and what is not.
 pub(super) fn sentences(found: &Proved) -> Vec<String> {
     let turn = if found.within_deg.iter().any(|of| *of > 0.0) {
         format!(" and with every turn up to ({})° about the axes of the world", vector(&found.within_deg, 3))

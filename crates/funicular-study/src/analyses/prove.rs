@@ -14,7 +14,7 @@ use funicular::proof::{BoxProof, PositionBox, ProofSearch, ProofStatement};
 use funicular::robot::{self, Pose, Robot};
 use funicular::statics::StaticModel;
 use funicular::warnings;
-use rows::End;
+use rows::DivisionEnd;
 
 /// Number of boxes between two looks at the clock: some ten milliseconds of work.
 const BOXES_AT_ONCE: usize = 256;
@@ -102,22 +102,22 @@ impl ProofStudy {
             let left = self.most_boxes.saturating_sub(search.tried());
             let boxes = search.next(left.min(BOXES_AT_ONCE));
             if boxes.is_empty() {
-                break if left == 0 { End::Boxes } else { End::Complete };
+                break if left == 0 { DivisionEnd::Boxes } else { DivisionEnd::Complete };
             }
-            let Some(proofs) = prove(&self.statement, &boxes) else { break End::Stopped };
+            let Some(proofs) = prove(&self.statement, &boxes) else { break DivisionEnd::Stopped };
             search.add(&proofs);
             report(search.tried(), self.most_boxes, &rows::so_far(&search));
             if let (Some(limit), Some(elapsed)) = (self.division.time_s, elapsed)
                 && elapsed() >= limit
             {
-                break End::Time;
+                break DivisionEnd::Time;
             }
             if self.division.undecided.is_some_and(|share| search.volumes().undecided_share() <= share) {
-                break End::Undecided;
+                break DivisionEnd::Undecided;
             }
         };
-        let end = if search.volumes().undecided() <= 1e-9 * search.volumes().whole && end == End::Boxes {
-            End::Complete
+        let end = if search.volumes().undecided() <= 1e-9 * search.volumes().whole && end == DivisionEnd::Boxes {
+            DivisionEnd::Complete
         } else {
             end
         };

@@ -1,7 +1,7 @@
 //! Linear program with far more rows than unknowns: rows are asked for one by one, the most violated first.
 
 /// Row `g·x ≤ h`.
-pub(super) struct Cut {
+pub(super) struct LinearCut {
     pub(super) row: Vec<f64>,
     pub(super) limit: f64,
 }
@@ -10,21 +10,21 @@ pub(super) struct Cut {
 const MAX_EXCHANGES: usize = 400;
 
 /// Unknowns with the largest last one, among those within a bound by which all rows hold that `next` knows; or the best
-/// so far, after many exchanges. `None` if the last one is at most `enough`. Dual simplex method: it begins at a corner of
-/// the bounds, and every row that is added makes the last unknown smaller.
+/// so far, after many exchanges. `None` if the last one is at most `enough`. Dual simplex method: it begins at a corner
+/// of the bounds, and every row that is added makes the last unknown smaller.
 ///
 /// `next` writes the row that the unknowns violate most, and returns false if they violate none.
 pub(super) fn largest_last(
     bounds: &[f64],
     enough: f64,
-    mut next: impl FnMut(&[f64], &mut Cut) -> bool,
+    mut next: impl FnMut(&[f64], &mut LinearCut) -> bool,
 ) -> Option<Vec<f64>> {
     let d = bounds.len();
     let mut x = bounds.to_vec();
     // Inverse of the matrix of the rows that hold as equations, by rows, and their multipliers.
     let mut inverse: Vec<Vec<f64>> = (0..d).map(|i| (0..d).map(|j| f64::from(u8::from(i == j))).collect()).collect();
     let mut multipliers: Vec<f64> = (0..d).map(|i| f64::from(u8::from(i + 1 == d))).collect();
-    let mut cut = Cut { row: vec![0.0; d], limit: 0.0 };
+    let mut cut = LinearCut { row: vec![0.0; d], limit: 0.0 };
     let mut combination = vec![0.0; d];
 
     for _ in 0..MAX_EXCHANGES {

@@ -1,5 +1,5 @@
-//! Balance over a box: wrenches of the cables as functions that are linear in the coordinates of the box, with bounds of
-//! what is left.
+//! Balance over a box: wrenches of the cables as functions that are linear in the coordinates of the box, with bounds
+//! of what is left.
 
 use super::sag::{ChordRange, SagBound};
 use super::statement::{CableOfStatement, ProofStatement};
@@ -88,7 +88,7 @@ impl<'a> BoxFrame<'a> {
         let turning = (0..3).filter(|k| turns[*k] > 0.0).map(|k| [Vec3::zeros(), axis(k) * turns[k]]);
         let steps: Vec<[Vec3; 2]> = moves.chain(turning).collect();
 
-        let place = Place { statement, center, half, steps: &steps };
+        let place = PlaceInBox { statement, center, half, steps: &steps };
         let cables = statement.cables.iter().map(|cable| place.cable(cable)).collect::<Result<Vec<_>, _>>()?;
         let hanging = place.hanging(&cables);
         let inverse = right_inverse(&cables, statement.coordinates.count()).ok_or(Undecided::NearSingular)?;
@@ -141,14 +141,14 @@ fn corners_of(center: &Vec3, half: &Vec3) -> Vec<Vec3> {
 }
 
 /// Where the platform is in a box.
-struct Place<'a> {
+struct PlaceInBox<'a> {
     statement: &'a ProofStatement,
     center: Vec3,
     half: Vec3,
     steps: &'a [[Vec3; 2]],
 }
 
-impl Place<'_> {
+impl PlaceInBox<'_> {
     fn cable(&self, cable: &CableOfStatement) -> Result<CableFrame, Undecided> {
         let ProofStatement { coordinates, turns, up_w, .. } = self.statement;
         let arm = &cable.arm_w;
@@ -189,22 +189,11 @@ impl Place<'_> {
         let beside = (second + rounding) / length;
         let curved = [curve + beside, 0.5 * curve + beside];
 
-        let range = self.chords(&chord, (length, shortest), moves[1]);
-        let mut within = [cable.least.at(range.longest), cable.greatest];
-        let sag = match cable.sag {
-            None => None,
-            Some(of) => {
-                // A cable that is too slack for a bound is asked for more tension.
-                let found = (0..12).find_map(|k| {
-                    let least = within[0] * 1.15_f64.powi(k);
-                    let tensions = [least, cable.greatest.min(MAX_TENSION_RATIO * least)];
-                    of.bound(&range, tensions).map(|bound| SagOverBox { chords: range, tensions, bound })
-                });
-                let found = found.ok_or(Undecided::SagBound)?;
-                within = [found.tensions[0] + found.bound.below, cable.greatest - found.bound.above];
-                Some(found)
-            }
-        };
+        let chords = self.chords(&chord, (length, shortest), moves[1]);
+        let sag = sag_over_box(cable, chords)?;
+        let within = sag.map_or([cable.least.at(chords.longest), cable.greatest], |sag| {
+            [sag.tensions[0] + sag.bound.below, cable.greatest - sag.bound.above]
+        });
         let lift = coordinates.reduce_force(up_w, arm);
         let lift_turns = [(first + second) / ell, second / ell];
         let nearer = approaches.collect();
@@ -257,6 +246,18 @@ impl Place<'_> {
         }
         load
     }
+}
+
+/// Sag of a cable whose chords have a range, from the least tension on for which it has a bound.
+fn sag_over_box(cable: &CableOfStatement, chords: ChordRange) -> Result<Option<SagOverBox>, Undecided> {
+    let Some(of) = cable.sag else { return Ok(None) };
+    // A cable that is too slack for a bound is asked for more tension.
+    let found = (0..12).find_map(|k| {
+        let least = cable.least.at(chords.longest) * 1.15_f64.powi(k);
+        let tensions = [least, cable.greatest.min(MAX_TENSION_RATIO * least)];
+        of.bound(&chords, tensions).map(|bound| SagOverBox { chords, tensions, bound })
+    });
+    found.map(Some).ok_or(Undecided::SagBound)
 }
 
 /// Reduced wrench of a force and a moment about the platform origin.

@@ -2,7 +2,7 @@
 //! what they leave.
 
 use super::Undecided;
-use super::cutting::{Cut, largest_last};
+use super::cutting::{LinearCut, largest_last};
 use super::frame::{Affine, BoxFrame, CableFrame, uniform};
 use super::outside::ROUNDING;
 use super::sag::SagBound;
@@ -27,7 +27,7 @@ impl Witness {
 }
 
 /// Loads that are held at every pose of a box.
-pub(super) struct Held {
+pub(super) struct HeldInBox {
     /// Tensions of each load.
     pub(super) witnesses: Vec<Witness>,
     /// Least distance of a tension from its limits [N].
@@ -52,14 +52,14 @@ struct SagInRange {
 }
 
 /// Tensions as functions of the free ones: `fixed + Σ free`, at the centre and by each coordinate.
-struct Family {
+struct TensionFamily {
     center: Vec<f64>,
     by: Vec<Vec<f64>>,
     /// Change of the tensions of each coordinate by the free ones at the centre, rows per cable.
     coupled: Vec<Vec<Vec<f64>>>,
 }
 
-/// What an exact balance may change of a witness.
+/// Bounds of the change by which a witness becomes an exact balance.
 struct Correction {
     /// Coefficients of the squares of the coordinates, per cable.
     squares: Vec<Vec<f64>>,
@@ -75,7 +75,7 @@ impl BoxFrame<'_> {
     ///
     /// # Errors
     /// The first load that is not proved to be held.
-    pub(super) fn held(&self) -> Result<Held, NotHeld> {
+    pub(super) fn held(&self) -> Result<HeldInBox, NotHeld> {
         let loads: Vec<Affine> = (0..self.statement.loads.len()).map(|number| self.load(number)).collect();
         let over_box = |cable: &CableFrame| {
             cable.sag.map(|of| SagInRange { bound: of.bound, tensions: of.tensions }).unwrap_or_default()
@@ -92,7 +92,7 @@ impl BoxFrame<'_> {
             }
             witnesses.push(witness);
         }
-        let Some(first) = too_wide else { return Ok(Held { witnesses, margin }) };
+        let Some(first) = too_wide else { return Ok(HeldInBox { witnesses, margin }) };
 
         // Bounds of the sag for tensions that differ little from those of the witnesses.
         let refused = |load, reason| NotHeld { load, reason };
@@ -102,7 +102,7 @@ impl BoxFrame<'_> {
             let of_load = self.margin(load, witness, &near).map_err(|reason| refused(number, reason))?;
             margin = margin.min(of_load);
         }
-        Ok(Held { witnesses, margin })
+        Ok(HeldInBox { witnesses, margin })
     }
 
     /// Tensions whose least distance from the limits over the box is greatest, to first order.
@@ -111,7 +111,7 @@ impl BoxFrame<'_> {
         let (free, coordinates) = (self.null_space.first().map_or(0, Vec::len), self.steps.len());
         let d = 1 + free * (1 + coordinates);
         let scale = self.cables.iter().map(|cable| cable.within[0]).fold(load.center.norm(), f64::max).max(1e-6);
-        let next = |x: &[f64], cut: &mut Cut| self.most_violated(&family, x, 1e-9 * scale, cut);
+        let next = |x: &[f64], cut: &mut LinearCut| self.most_violated(&family, x, 1e-9 * scale, cut);
         let x = largest_last(&vec![1e4 * scale; d], 0.0, next)?;
 
         let along = |row: &[f64], z: &[f64]| row.iter().zip(z).map(|(n, z)| n * z).sum::<f64>();
@@ -126,7 +126,7 @@ impl BoxFrame<'_> {
     }
 
     /// Tensions that balance the load to first order, with free ones.
-    fn family(&self, load: &Affine) -> Family {
+    fn family(&self, load: &Affine) -> TensionFamily {
         let (m, free) = (self.cables.len(), self.null_space.first().map_or(0, Vec::len));
         let center: Vec<f64> = self.inverse.iter().map(|row| -row.dot(&load.center)).collect();
         let (mut by, mut coupled) = (Vec::new(), Vec::new());
@@ -141,12 +141,12 @@ impl BoxFrame<'_> {
             let of_cable = |i: usize| of_free.iter().map(|of| -self.inverse[i].dot(of)).collect();
             coupled.push((0..m).map(of_cable).collect());
         }
-        Family { center, by, coupled }
+        TensionFamily { center, by, coupled }
     }
 
     /// Writes the limit that tensions of free ones `x` miss most, with the signs of its worst corner: two families per
     /// cable stand for all corners.
-    fn most_violated(&self, family: &Family, x: &[f64], tolerance: f64, cut: &mut Cut) -> bool {
+    fn most_violated(&self, family: &TensionFamily, x: &[f64], tolerance: f64, cut: &mut LinearCut) -> bool {
         let (free, coordinates) = (self.null_space.first().map_or(0, Vec::len), self.steps.len());
         let least_distance = x[x.len() - 1];
         let along = |row: &[f64], z: &[f64]| row.iter().zip(z).map(|(n, z)| n * z).sum::<f64>();
@@ -262,7 +262,7 @@ impl BoxFrame<'_> {
         bounds.collect()
     }
 
-    /// What Brouwer's theorem leaves of a witness; `None` if the wrenches are too near to dependence.
+    /// Bounds of the change of a witness by Brouwer's theorem; `None` if the wrenches are too near to dependence.
     fn correction(&self, load: &Affine, witness: &Witness, sizes: &[f64], sags: &[SagInRange]) -> Option<Correction> {
         let (n, coordinates) = (self.statement.coordinates.count(), self.steps.len());
         let cables = || self.cables.iter().enumerate();

@@ -1,6 +1,6 @@
 //! Proof that a load is held nowhere in a box: one direction of wrenches along which the cables fall short everywhere.
 
-use super::cutting::{Cut, largest_last};
+use super::cutting::{LinearCut, largest_last};
 use super::frame::BoxFrame;
 use crate::math::{Vec3, Vec6};
 
@@ -39,7 +39,7 @@ impl BoxFrame<'_> {
         // Rows: y·(load + wrenches of the best tensions) + s ≤ 0 at each corner, and |y| ≤ 1.
         let mut bounds = vec![1.0; n + 1];
         bounds[n] = 1e4 * scale;
-        let next = |x: &[f64], cut: &mut Cut| {
+        let next = |x: &[f64], cut: &mut LinearCut| {
             let y = Vec6::from_fn(|i, _| if i < n { x[i] } else { 0.0 });
             let farthest = (0..n).max_by(|a, b| x[*a].abs().total_cmp(&x[*b].abs()));
             if let Some(k) = farthest.filter(|k| x[*k].abs() > 1.0 + 1e-9) {

@@ -1,8 +1,8 @@
 //! Bounds of what the weight of an elastic catenary adds to a straight cable.
 //!
 //! With the tension τ along the chord, which is horizontal force over cos α, the vertical force at the platform is
-//! `τ sin α − ½ w l` up to β. Let `g = 1/EA + 1/T`. The chord gives `τ sin α = ∫ V g ds / ∫ g ds`, a mean of the vertical
-//! force V along the cable, which is linear in the arc s. Its deviation from the plain mean is at most
+//! `τ sin α − ½ w l` up to β. Let `g = 1/EA + 1/T`. The chord gives `τ sin α = ∫ V g ds / ∫ g ds`, a mean of the
+//! vertical force V along the cable, which is linear in the arc s. Its deviation from the plain mean is at most
 //! `w G L₀³/12 / ∫ g ds` with `G = max |g'| ≤ w max|V| / min T³`.
 
 /// Cable that sags.
@@ -41,8 +41,8 @@ pub(super) struct SagBound {
 impl SagOfCable {
     /// Bounds for chord tensions from `least` to `greatest`; `None` for a cable so slack that they have no meaning.
     pub(super) fn bound(&self, chord: &ChordRange, [least, greatest]: [f64; 2]) -> Option<SagBound> {
-        /// Assumed bound of `|V − τ sin α|` over the weight of the chord. It is one half for a taut cable. If it gives a
-        /// smaller one for every smaller weight, too, it is true: the cable without weight has none, and all is
+        /// Assumed bound of `|V − τ sin α|` over the weight of the chord. It is one half for a taut cable. If it gives
+        /// a smaller one for every smaller weight, too, it is true: the cable without weight has none, and all is
         /// continuous in the weight.
         const ASSUMED: f64 = 0.75;
         let Self { weight, axial_stiffness } = *self;

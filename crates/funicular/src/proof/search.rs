@@ -95,7 +95,7 @@ impl ProofSearch {
 
     /// True for a box small enough that its sag bound is not what its size makes of it.
     fn is_small(&self, region: &PositionBox) -> bool {
-        region.measure() < 1e-3 * self.volumes.whole
+        region.measure() < 1e-5 * self.volumes.whole
     }
 
     fn divide(&mut self, number: usize, region: &PositionBox) {

@@ -65,9 +65,9 @@ fn cogiro_box() -> PositionBox {
 }
 
 /// Numbers from 0 to 1, evenly spread in any number of dimensions: the fractions of multiples of irrational numbers.
-struct Spread(u32);
+struct EvenSpread(u32);
 
-impl Spread {
+impl EvenSpread {
     fn next<const N: usize>(&mut self) -> [f64; N] {
         self.0 += 1;
         std::array::from_fn(|k| (f64::from(self.0) * [2.0_f64, 3.0, 5.0, 7.0, 11.0, 13.0][k].sqrt()).fract())
@@ -175,8 +175,8 @@ fn symmetric() -> Robot {
         let (x, y, z) = (sign(0), sign(1), sign(2));
         let (anchor, attachment) = ([3.0 * x, 2.0 * y, 2.0 + 2.0 * z], [0.3 * x, -0.2 * y, -0.25 * z]);
         text += &format!(
-            "[[cables]]\nname = \"{number}\"\nmaterial = \"rope\"\nanchor_m = {anchor:?}\nattachment_m = {attachment:?}\n\
-             minimum_tension_n = 50\nmaximum_tension_n = 3000\n"
+            "[[cables]]\nname = \"{number}\"\nmaterial = \"rope\"\nanchor_m = {anchor:?}\nattachment_m = \
+             {attachment:?}\nminimum_tension_n = 50\nmaximum_tension_n = 3000\n"
         );
     }
     robot_of(&text)
@@ -204,14 +204,14 @@ fn robots() -> Vec<(Robot, PositionBox)> {
 
 #[test]
 fn no_pose_contradicts_a_proof() {
-    let mut spread = Spread(0);
+    let mut spread = EvenSpread(0);
     for (robot, region) in robots() {
         for model in [StaticModel::Spring, StaticModel::Catenary] {
             let search = searched(&upright(&robot, model), region, 3000, 256);
             let (mut inside, mut outside) = (0, 0);
-            // Every 7th box, so that all sizes are among them: a corner and a point of it.
-            for (number, of) in search.boxes().enumerate().filter(|(number, _)| number % 7 == 0) {
-                for position in [corner(&of.region, number / 7), spread.in_box(&of.region)] {
+            // Every second box: a corner and a point of it.
+            for (number, of) in search.boxes().enumerate().filter(|(number, _)| number % 2 == 0) {
+                for position in [corner(&of.region, number / 2), spread.in_box(&of.region)] {
                     let pose = Pose::new(position.into(), [0.0; 3]);
                     let held = distribute_tensions(&robot, &pose, model, &TensionRule::Lowest).is_ok();
                     match of.verdict {
@@ -228,7 +228,7 @@ fn no_pose_contradicts_a_proof() {
                 }
             }
             println!("{} {model:?}: {inside} inside, {outside} outside, {:?}", robot.name, search.volumes());
-            assert!(inside > 20 && outside > 20, "{} {model:?}: {inside} {outside}", robot.name);
+            assert!(inside > 60 && outside > 20, "{} {model:?}: {inside} {outside}", robot.name);
         }
     }
 }
@@ -242,7 +242,7 @@ fn turned_poses_with_every_load_are_held_in_a_proved_box() {
     for model in [StaticModel::Spring, StaticModel::Catenary] {
         let statement = ProofStatement::of(&robot, &start, model, turns).unwrap();
         assert_eq!(statement.load_count(), 8);
-        let mut spread = Spread(7);
+        let mut spread = EvenSpread(7);
         let mut proved = 0;
         let middle = PositionBox { lower: Vec3::new(-3.0, -2.0, 1.0), upper: Vec3::new(3.0, 2.0, 3.0) };
         for of in searched(&statement, middle, 500, 64).boxes() {

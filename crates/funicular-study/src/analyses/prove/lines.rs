@@ -11,8 +11,8 @@ use std::fmt::Write as _;
 const FORM: &str = "funicular-certificate/1";
 
 impl Proved {
-    /// Certificate: a line with the statement, then one for each box that is proved inside or outside, at last one with
-    /// their numbers, their sizes and a digest of all lines before. Numbers have every digit.
+    /// Certificate: a line with the statement, then one for each box that is proved inside or outside, one with
+    /// their numbers and sizes, and at last one with a digest of all lines before. Numbers have every digit.
     pub fn certificate(&self) -> String {
         let mut text = format!("{}\n", self.statement_line());
         let mut counts = [0_usize; 2];
@@ -35,9 +35,10 @@ impl Proved {
         }
         let end = json!({
             "inside": counts[0], "outside": counts[1], "inside_size": self.inside, "outside_size": self.outside,
-            "sha256": digest::of_text(&text),
         });
         let _ = writeln!(text, "{end}");
+        let digest = json!({"sha256": digest::of_text(&text)});
+        let _ = writeln!(text, "{digest}");
         text
     }
 
@@ -60,8 +61,8 @@ impl Proved {
         json!({
             "form": FORM,
             "robot": self.robot,
-            "claim": "at every position of a box with verdict inside and every turn, tensions within the limits balance \
-                      every load; at every position of a box with verdict outside they do not balance the load without \
+            "claim": "at every position of a box with verdict inside and every turn, tensions within the limits \
+                      balance every load; at every position of a box with verdict outside they do not balance the load without \
                       a turn",
             "cables": cables.collect::<Vec<_>>(),
             "rows": of.rows().iter().map(components).collect::<Vec<_>>(),

@@ -48,7 +48,7 @@ rows! {
         pub undecided_share: f64;
         /// Number of boxes that were proved or tried.
         pub tried: usize;
-        /// What ended the division: `complete`, `boxes`, `time`, `undecided` or `stopped`.
+        /// Reason why the division ended: `complete`, `boxes`, `time`, `undecided` or `stopped`.
         pub end: &'static str;
         /// Largest undecided boxes, with the reasons.
         pub worst: Vec<BoxRow>;
@@ -78,9 +78,9 @@ rows! {
     }
 }
 
-/// What ended a division.
+/// Reason why a division ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum End {
+pub(super) enum DivisionEnd {
     Complete,
     Boxes,
     Time,
@@ -88,7 +88,7 @@ pub(super) enum End {
     Stopped,
 }
 
-impl End {
+impl DivisionEnd {
     fn name(self) -> &'static str {
         match self {
             Self::Complete => "complete",
@@ -118,7 +118,7 @@ impl BoxRow {
 }
 
 impl Proved {
-    pub(super) fn of(study: &ProofStudy, search: &ProofSearch, end: End) -> Self {
+    pub(super) fn of(study: &ProofStudy, search: &ProofSearch, end: DivisionEnd) -> Self {
         let boxes: Vec<BoxRow> = search.boxes().map(|of| BoxRow::of(&of)).collect();
         let mut undecided: Vec<&BoxRow> = boxes.iter().filter(|of| of.verdict == "undecided").collect();
         undecided.sort_by(|a, b| b.region().measure().total_cmp(&a.region().measure()));
@@ -161,7 +161,7 @@ impl Proved {
 
     /// True if the work was stopped from outside.
     pub fn is_stopped(&self) -> bool {
-        self.end == End::Stopped.name()
+        self.end == DivisionEnd::Stopped.name()
     }
 }
 
