@@ -27,6 +27,7 @@ mod pages;
 mod payload;
 mod plots;
 mod pose_error;
+mod prove;
 mod readme;
 mod reduce;
 mod request;

@@ -61,8 +61,8 @@ pub(super) fn sentences(found: &Proved) -> Vec<String> {
         "Proved outside: at every position there is no such choice of tensions for one of the loads. Undecided: \
          nothing is proved; such a place may be held or not."
             .to_owned(),
-        "Not proved: that a rule or a controller chooses these tensions, that lengths or anchors are those of the file, \
-         distances between cables, stiffness, motion."
+        "Not proved: that a rule or a controller chooses these tensions, that lengths or anchors are those of the \
+         file, distances between cables, stiffness, motion."
             .to_owned(),
     ];
     if !unit.is_empty() {

@@ -61,8 +61,7 @@ impl ProofStudy {
         let turns = Vec3::from(turns_deg).map(f64::to_radians);
         let statement = ProofStatement::of(&robot, &pose, state.static_model, turns)?;
         let region = PositionBox::about(&pose.position_w, &half);
-        let narrowed = statement.within_motion(&region);
-        if narrowed.measure() < region.measure() {
+        if statement.within_motion(&region) != region {
             bail!("⟪within_m⟫: the platform stays in its plane: give 0 for the axis at right angles to it");
         }
         let (model, most_boxes) = (state.static_model, division.most_boxes(1));

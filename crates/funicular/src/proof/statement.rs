@@ -229,7 +229,7 @@ fn cable_of(robot: &Robot, i: usize, pose: &Pose, with_weight: bool) -> Result<C
     }
     let weight = cable.material.mass_per_length * robot.gravity_w.norm();
     let sag =
-        (with_weight && weight > 0.0).then(|| SagOfCable { weight, axial_stiffness: cable.material.axial_stiffness });
+        (with_weight && weight > 0.0).then_some(SagOfCable { weight, axial_stiffness: cable.material.axial_stiffness });
     if with_weight {
         let windy = robot.wind.velocity_w.norm() > 0.0 && cable.material.drag_width.is_some_and(|width| width > 0.0);
         if windy || cable.load_per_length_w.norm() > 0.0 {

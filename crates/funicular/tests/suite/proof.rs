@@ -6,8 +6,8 @@ use funicular::proof::{BoxVerdict, PositionBox, ProofRefusal, ProofSearch, Proof
 use funicular::robot::{LoadShape, Pose, Robot, TensionLimits};
 use funicular::statics::{StaticModel, TensionRule, distribute_tensions};
 
-/// Boxes of CoGiRo with straight cables between 100 N and 5000 N: middle [m], half widths [m], verdict, and the least and
-/// greatest margin [N] at 21 × 21 × 21 points. Margins by a separate simplex method and by HiGHS.
+/// Boxes of CoGiRo with straight cables between 100 N and 5000 N: middle [m], half widths [m], verdict, and the least
+/// and greatest margin [N] at 21 × 21 × 21 points. Margins by a separate simplex method and by HiGHS.
 const BOXES: [([f64; 3], [f64; 3], &str, f64, f64); 15] = [
     ([4.921875, -2.40625, 2.3625], [0.234375, 0.34375, 0.3375], "inside", 46.221037, 129.247716),
     ([-1.640625, 1.890625, 4.21875], [0.234375, 0.171875, 0.16875], "inside", 714.005613, 1356.583069),

@@ -163,7 +163,8 @@ pub(crate) fn proved_in_space(found: &Proved) -> PageFigure {
     PageFigure::new(
         "figure-proved",
         520,
-        "Set that is proved inside, with one scale for all three axes. Squares: anchors. Drag to rotate, scroll to zoom.",
+        "Set that is proved inside, with one scale for all three axes. Squares: anchors. Drag to rotate, scroll to \
+         zoom.",
         &data,
         json!({
             "scene": scene(&points, true, WIDE), "showlegend": false, "margin": {"l": 0, "r": 0, "t": 0, "b": 0},

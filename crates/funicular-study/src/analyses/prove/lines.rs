@@ -62,8 +62,8 @@ impl Proved {
             "form": FORM,
             "robot": self.robot,
             "claim": "at every position of a box with verdict inside and every turn, tensions within the limits \
-                      balance every load; at every position of a box with verdict outside they do not balance the load without \
-                      a turn",
+                      balance every load; at every position of a box with verdict outside they do not balance the \
+                      load without a turn",
             "cables": cables.collect::<Vec<_>>(),
             "rows": of.rows().iter().map(components).collect::<Vec<_>>(),
             "loads": of.loads().iter().map(components).collect::<Vec<_>>(),

@@ -197,8 +197,8 @@ fn proof_of(
     if let Some(bound) = request.at_least.iter().chain(&request.at_most).next() {
         bail!(
             "⟪prove⟫ proves that tensions within their limits hold the required loads, and not the quantity `{}`, \
-             which belongs to tensions that a rule chooses pose by pose: leave out ⟪at_least⟫ and ⟪at_most⟫, or leave out \
-             ⟪prove⟫",
+             which belongs to tensions that a rule chooses pose by pose: leave out ⟪at_least⟫ and ⟪at_most⟫, or \
+             leave out ⟪prove⟫",
             bound.quantity
         );
     }
