@@ -36,14 +36,14 @@ impl SurfaceFormat {
 /// None that the memory does not give.
 pub fn of_workspace(found: &Workspace, format: SurfaceFormat) -> Result<Vec<u8>> {
     let Workspace { vertices_m, triangles, triangles_of_surface, .. } = found;
-    Surface { vertices_m, triangles, triangles_of_surface: *triangles_of_surface }.written(format)
+    Surface { vertices_m, triangles, before_cut: *triangles_of_surface }.written(format)
 }
 
 /// Closed surface: vertices, triangles by their numbers, and the number of triangles before those on a box.
 struct Surface<'a> {
     vertices_m: &'a [[f64; 3]],
     triangles: &'a [[usize; 3]],
-    triangles_of_surface: usize,
+    before_cut: usize,
 }
 
 impl Surface<'_> {
@@ -62,7 +62,7 @@ impl Surface<'_> {
 /// None that the memory does not give.
 pub fn of_proof(mesh: &FaceMesh, format: SurfaceFormat) -> Result<Vec<u8>> {
     let vertices: Vec<[f64; 3]> = mesh.vertices.iter().map(|vertex| (*vertex).into()).collect();
-    let surface = Surface { vertices_m: &vertices, triangles: &mesh.triangles, triangles_of_surface: usize::MAX };
+    let surface = Surface { vertices_m: &vertices, triangles: &mesh.triangles, before_cut: usize::MAX };
     surface.written(format)
 }
 
@@ -119,7 +119,7 @@ fn vtp(found: &Surface<'_>) -> Result<Vec<u8>> {
     out.write_event(Event::Start(BytesStart::new("Piece").with_attributes(counts)))?;
 
     out.write_event(Event::Start(BytesStart::new("CellData")))?;
-    let is_cut = |i: usize| u8::from(i >= found.triangles_of_surface);
+    let is_cut = |i: usize| u8::from(i >= found.before_cut);
     array(&mut out, ("UInt8", "cut", 1), (0..triangles).map(is_cut))?;
     out.write_event(Event::End(BytesEnd::new("CellData")))?;
 

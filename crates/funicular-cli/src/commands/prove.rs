@@ -3,11 +3,14 @@
 use crate::output::Printed;
 use crate::table::{Table, significant, vector};
 use funicular_study::analyses::prove::{BoxRow, Proved};
+use std::fmt::Write as _;
 
 impl Printed for Proved {
     fn text(&self) -> String {
         let mut text = format!("{}: proof with {} cables\n\n", self.robot, self.static_model);
-        let mut line = |name: &str, value: &str| text += &format!("  {name:<17} {value}\n");
+        let mut line = |name: &str, value: &str| {
+            let _ = writeln!(text, "  {name:<17} {value}");
+        };
         let (position, within) = (vector(&self.pose.position_m, 6), vector(&self.within_m, 6));
         line("positions", &format!("({position}) m ± ({within}) m"));
         let turns = if self.within_deg.iter().any(|of| *of > 0.0) {
@@ -39,7 +42,7 @@ impl Printed for Proved {
             line("undecided", &format!("{}; {share} % of what may be inside", part(self.undecided)));
             line("boxes", &format!("{}; ended by: {}", self.tried, end_in_words(self.end)));
             if !self.worst.is_empty() {
-                text += &format!("\nLargest undecided boxes:\n{}", Table::of(&BoxRow::columns(), &self.worst));
+                let _ = write!(text, "\nLargest undecided boxes:\n{}", Table::of(&BoxRow::columns(), &self.worst));
             }
         }
         text

@@ -64,7 +64,7 @@ impl Printed for Workspace {
             text += &compared_text(compared, "m³");
         }
         if let Some(proof) = &self.proof {
-            text += &format!("\nProof in the box of the grid\n\n{}", proof.text());
+            let _ = write!(text, "\nProof in the box of the grid\n\n{}", proof.text());
         }
         text
     }

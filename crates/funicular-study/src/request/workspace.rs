@@ -42,7 +42,7 @@ declared! {
         /// Section at right angles to an axis, as in z=1.5 or z=0.5,1,1.5 (repeatable).
         section: Vec<Axis> = Vec::new() => (List(ProgramForm::GridAxis)).form("AXIS=V,V,…").under("Set");
         /// Robot file whose set is compared with this one, on the same grid and with the same options.
-        compare: Option<RobotText> = None => (Data(shape::robot)).under("Set")
+        compare: Option<Box<RobotText>> = None => (Data(shape::robot)).under("Set")
             .read_by(Reader::Robot, "the other robot file");
         /// Prove as well in which parts of the box required loads are held at every position, not only at the nodes.
         prove: bool = false => (Switch).under("Proof");

@@ -5,10 +5,13 @@ use funicular::math::{Rotation, Vec3};
 use funicular::proof::{BoxVerdict, PositionBox, ProofRefusal, ProofSearch, ProofStatement, Undecided};
 use funicular::robot::{LoadShape, Pose, Robot, TensionLimits};
 use funicular::statics::{StaticModel, TensionRule, distribute_tensions};
+use std::fmt::Write as _;
+
+type ReferenceBox = ([f64; 3], [f64; 3], &'static str, f64, f64);
 
 /// Boxes of CoGiRo with straight cables between 100 N and 5000 N: middle [m], half widths [m], verdict, and the least
 /// and greatest margin [N] at 21 × 21 × 21 points. Margins by a separate simplex method and by HiGHS.
-const BOXES: [([f64; 3], [f64; 3], &str, f64, f64); 15] = [
+const BOXES: [ReferenceBox; 15] = [
     ([4.921875, -2.40625, 2.3625], [0.234375, 0.34375, 0.3375], "inside", 46.221037, 129.247716),
     ([-1.640625, 1.890625, 4.21875], [0.234375, 0.171875, 0.16875], "inside", 714.005613, 1356.583069),
     ([5.859375, 3.609375, 3.54375], [0.234375, 0.171875, 0.16875], "inside", 80.982255, 210.377061),
@@ -174,7 +177,8 @@ fn symmetric() -> Robot {
         let sign = |bit: usize| if number & (1 << bit) == 0 { -1.0 } else { 1.0 };
         let (x, y, z) = (sign(0), sign(1), sign(2));
         let (anchor, attachment) = ([3.0 * x, 2.0 * y, 2.0 + 2.0 * z], [0.3 * x, -0.2 * y, -0.25 * z]);
-        text += &format!(
+        let _ = write!(
+            text,
             "[[cables]]\nname = \"{number}\"\nmaterial = \"rope\"\nanchor_m = {anchor:?}\nattachment_m = \
              {attachment:?}\nminimum_tension_n = 50\nmaximum_tension_n = 3000\n"
         );
