@@ -2504,16 +2504,16 @@ class Proved(Row):
     boxes: list[BoxRow]
     """Boxes of the division."""
     end: str
-    """What ended the division: `complete`, `boxes`, `time`, `undecided` or `stopped`."""
+    """Reason why the division ended: `complete`, `boxes`, `time`, `undecided` or `stopped`."""
     inside: float
-    """Inside."""
+    """Volume that is proved inside."""
     loads: int
     """Number of required loads of which all others are combinations."""
     margin_n: float | None
     """Least distance of a tension from its limits if the box is inside; the least wrench that is missing if it is outside
     [N]."""
     outside: float
-    """Outside."""
+    """Volume that is proved outside."""
     pose: PoseRow
     """Middle of the box, and the orientation of the statement."""
     reason: str | None
@@ -2523,7 +2523,7 @@ class Proved(Row):
     tried: int
     """Number of boxes that were proved or tried."""
     undecided: float
-    """Undecided."""
+    """Volume that is neither."""
     undecided_share: float
     """Undecided volume over the volume that is not proved outside."""
     verdict: str
@@ -2531,7 +2531,7 @@ class Proved(Row):
     volume_unit: str
     """Unit of the volumes: m³, or m², m if the box has no width along one or two axes."""
     whole: float
-    """Volume of the box, and those that are proved inside, proved outside and undecided."""
+    """Volume of the box, in the unit that is given."""
     within_deg: NDArray[np.float64]
     """Largest turns about the axes of the world, which belong to the statement at every position [deg]."""
     within_m: NDArray[np.float64]
@@ -3248,16 +3248,16 @@ class ProveResults(Results):
     boxes: list[BoxRow]
     """Boxes of the division."""
     end: str
-    """What ended the division: `complete`, `boxes`, `time`, `undecided` or `stopped`."""
+    """Reason why the division ended: `complete`, `boxes`, `time`, `undecided` or `stopped`."""
     inside: float
-    """Inside."""
+    """Volume that is proved inside."""
     loads: int
     """Number of required loads of which all others are combinations."""
     margin_n: float | None
     """Least distance of a tension from its limits if the box is inside; the least wrench that is missing if it is outside
     [N]."""
     outside: float
-    """Outside."""
+    """Volume that is proved outside."""
     pose: PoseRow
     """Middle of the box, and the orientation of the statement."""
     reason: str | None
@@ -3269,7 +3269,7 @@ class ProveResults(Results):
     tried: int
     """Number of boxes that were proved or tried."""
     undecided: float
-    """Undecided."""
+    """Volume that is neither."""
     undecided_share: float
     """Undecided volume over the volume that is not proved outside."""
     verdict: str
@@ -3279,7 +3279,7 @@ class ProveResults(Results):
     warnings: list[str]
     """Sentences that the user should know before trusting the numbers."""
     whole: float
-    """Volume of the box, and those that are proved inside, proved outside and undecided."""
+    """Volume of the box, in the unit that is given."""
     within_deg: NDArray[np.float64]
     """Largest turns about the axes of the world, which belong to the statement at every position [deg]."""
     within_m: NDArray[np.float64]
