@@ -34,7 +34,7 @@ fn a_certificate_has_a_line_for_every_box_that_is_proved() {
     let folder = tempfile::tempdir().unwrap();
     let at = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
     let (certificate, surface) = (at("cogiro.jsonl"), at("cogiro.stl"));
-    let options = ["--grid", "z=0:5:6", "--step-m", "3", "--prove", "--boxes", "300"];
+    let options = ["--grid", "z=0:5:6", "--step-m", "3", "--prove", "--boxes", "2000"];
     let cogiro = robot("cogiro.toml");
     let line = [&["workspace", &cogiro][..], &options].concat();
     succeed(&[&line[..], &["--certificate", &certificate, "--proved", &surface]].concat());
