@@ -6,7 +6,10 @@ mod rows;
 mod wanted;
 
 pub use opened::{Opened, Written, told};
-use rows::{drawn, figure, file, lengths, page, robot_file, surface_of, universal_file};
+use rows::{
+    certificate, certificate_of, drawn, figure, file, lengths, page, proved_of, proved_surface, robot_file, surface_of,
+    universal_file,
+};
 pub use wanted::{FILES, Wanted, schema, take_wanted, wanted_to_value};
 
 use crate::destination::{Bytes, Content, Destination};
@@ -486,6 +489,32 @@ static OUTPUTS: &[(&str, &[Output])] = &[
                 "Write a page with the surface in space, the volumes and the sections",
                 |at| of!(Workspace, at, found => pages::workspace::page(found, at.call.to_owned())),
             ),
+            Output {
+                needs: Some("prove"),
+                ..proved_surface(|at, kind| of!(Workspace, at, found => proved_of(found.proof.as_ref(), kind)))
+            },
+            Output {
+                needs: Some("prove"),
+                ..certificate(|at, _| of!(Workspace, at, found => certificate_of(found.proof.as_ref())))
+            },
+        ],
+    ),
+    (
+        "prove",
+        &[
+            figure(
+                "Draw a section with what is proved inside, outside and neither",
+                |at, _, _| of!(Prove, at, found => Ok(plain(figures::of_proof(found)?))),
+            ),
+            Output {
+                by_ending: true,
+                ..proved_surface(|at, kind| of!(Prove, at, found => proved_of(Some(&**found), kind)))
+            },
+            page(
+                "Write a page that says what is proved and what is not, with the three sets",
+                |at| of!(Prove, at, found => pages::prove::page(found, at.call.to_owned())),
+            ),
+            certificate(|at, _| of!(Prove, at, found => certificate_of(Some(&**found)))),
         ],
     ),
     (

@@ -19,6 +19,7 @@ mod parameters;
 mod payload;
 mod pose_error;
 mod profile_table;
+mod prove;
 mod reduce;
 mod request;
 mod settle;

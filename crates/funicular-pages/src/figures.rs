@@ -21,6 +21,7 @@ pub(crate) mod map;
 mod motions;
 mod pairs;
 pub(crate) mod pdf;
+pub(crate) mod proved;
 mod sections;
 mod settling;
 pub(crate) mod simulated;
@@ -33,7 +34,7 @@ mod winches;
 
 pub use making::{
     RequestFigure, of_calibration, of_clearance, of_compare, of_decay, of_frf, of_gust, of_loads, of_modes, of_payload,
-    of_rest, of_sections, of_simulation, of_speeds, of_statics, of_trajectory, of_winches,
+    of_proof, of_rest, of_sections, of_simulation, of_speeds, of_statics, of_trajectory, of_winches,
 };
 pub use space::animation_of_simulation;
 

@@ -11,6 +11,7 @@ pub mod identify;
 pub mod live;
 pub mod paper;
 pub mod plot;
+pub mod prove;
 pub mod report;
 pub mod settle;
 pub mod simulate;

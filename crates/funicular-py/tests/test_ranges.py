@@ -29,7 +29,7 @@ def numeric(command: str) -> list[str]:
     return [key["name"] for key in COMMANDS[command] if key["type"] == "SupportsFloat | SupportsIndex" and not key["required"]]
 
 
-@pytest.mark.parametrize("command", ["simulate", "trajectory", "pose-error", "statics", "modes", "settle", "gust", "loads", "design", "calibrate", "uncertainty", "workspace", "reduce", "frf", "identify"])
+@pytest.mark.parametrize("command", ["simulate", "trajectory", "pose-error", "statics", "modes", "settle", "gust", "loads", "design", "calibrate", "uncertainty", "workspace", "prove", "reduce", "frf", "identify"])
 def test_a_number_out_of_its_range_is_refused_before_any_work(robot: funicular.Robot, command: str) -> None:
     tried = 0
     beside = BESIDE.get(command, {})

@@ -122,6 +122,10 @@ MORE = [
     "--center-m 0,0,1.5 --payload-center-m 0,0,-0.1",
     f"funicular workspace robots/cogiro.toml --step-m 3.5 --at-least first-platform-frequency=0.2 --max-tension-n 4000 {MODEL} "
     "--up-to-hz 50 --platform-share 0.6",
+    "funicular workspace robots/cogiro.toml --step-m 3 --prove --boxes 50 --max-tension-n 4000",
+    "funicular workspace robots/cogiro.toml --step-m 3 --prove --undecided 0.9 --time-s 100",
+    "funicular prove robots/cogiro.toml --pose 0,0,1.5 --within-m 2,1,0.5 --within-deg 0.5,0,1 --boxes 40 --max-tension-n 4000 --required-force-n 20,20,20",
+    "funicular prove robots/cogiro.toml --pose 0,0,1.5 --static-model spring --within-m 5,3,1 --undecided 0.5 --time-s 100",
     f"funicular workspace robots/cogiro-winches.toml --step-m 3.5 --at-least speed-factor=1 --max-tension-n 4000 {VELOCITIES}",
     f"funicular statics robots/cogiro.toml {TENSIONS} --hold-lengths-of-pose --mass-kg 250 --set platform.mass_kg=200",
     f"funicular stiffness robots/cogiro.toml {TENSIONS} --hold-lengths-of-pose --mass-kg 250",
@@ -344,7 +348,7 @@ def test_a_command_line_and_a_call_are_one_request(line: str, executable: str) -
 
 # Commands whose results are compared; the others make pages, files or rows, which have their own tests.
 COMPUTED = (
-    *("check", "parameters", "statics", "stiffness", "modes", "frf", "compare", "gradient", "payload", "loads", "speeds", "winches", "trajectory", "simulate", "clearance", "workspace", "pose-error", "cable"),
+    *("check", "parameters", "statics", "stiffness", "modes", "frf", "compare", "gradient", "payload", "loads", "speeds", "winches", "trajectory", "simulate", "clearance", "workspace", "prove", "pose-error", "cable"),
     *("settle", "gust", "reduce", "identify", "calibrate", "uncertainty"),
 )
 
@@ -381,7 +385,7 @@ def test_a_call_and_a_request_have_the_results_of_the_program(line: str, executa
     if command == "uncertainty":
         assert robot.uncertainty(**keywords).details == theirs
         return
-    if command in ("pose-error", "payload", "loads", "speeds", "winches", "trajectory", "simulate", "clearance", "workspace", "calibrate"):
+    if command in ("pose-error", "payload", "loads", "speeds", "winches", "trajectory", "simulate", "clearance", "workspace", "prove", "calibrate"):
         method = getattr(robot, command.replace("-", "_"))
         assert plain(method(**keywords)) == theirs
         return

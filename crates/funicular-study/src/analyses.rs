@@ -24,6 +24,7 @@ pub mod parameters;
 pub mod payload;
 pub mod pose_error;
 mod profile;
+pub mod prove;
 pub mod reduce;
 mod result_groups;
 pub mod settle;

@@ -17,6 +17,7 @@ mod library_words;
 mod loads;
 mod pages;
 mod parts;
+mod prove;
 mod shape;
 mod simulate;
 mod source_file;
@@ -44,6 +45,7 @@ pub use parts::{
     Axis, Change, FrequencyRange, GappedColumns, ImportPlatform, ImportRopes, Load, MAX_HZ, Model, NumberColumns,
     OneOrSeveral, Places, Pose, ResponsePoints, ResponseRange, RobotText, State, Tensions, Terms,
 };
+pub use prove::{BOXES, Division, ProveRequest};
 pub use shape::schema;
 pub use simulate::{
     AnchorEvent, CutEvent, LengthsEvent, PickEvent, PointValue, PushEvent, ReleaseEvent, SIMULATED_S, Scenario,
@@ -183,6 +185,7 @@ commands! {
     Map(MapRequest) "map" Needed robot;
     Sweep(SweepRequest) "sweep" Needed robot;
     Workspace(WorkspaceRequest) "workspace" Needed robot;
+    Prove(ProveRequest) "prove" Needed robot;
     Merge(MergeRequest) "merge" None;
     Plot(PlotRequest) "plot" None;
     Report(ReportRequest) "report" Embedded robot;

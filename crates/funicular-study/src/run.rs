@@ -17,6 +17,7 @@ use crate::analyses::{
     parameters::{self, ParameterList},
     payload::{self, Payload},
     pose_error::{self, PoseErrors},
+    prove::{self, Proved},
     reduce::{self, ReducedForm},
     settle::{self, Settled},
     simulate::{self, Simulated},
@@ -167,6 +168,7 @@ answers! {
     Identify(Box<Identified>): of => Box::new(identify::run(of, watch)?);
     Calibrate(Box<Calibrated>): of => Box::new(calibrate::run(of, watch)?);
     Workspace(Box<Workspace>): of => Box::new(workspace::run(robot()?, of, watch)?);
+    Prove(Box<Proved>): of => Box::new(prove::run(robot()?, of, watch)?);
     Design(Box<Designed>): of => Box::new(design::run(of, watch)?);
 }
 

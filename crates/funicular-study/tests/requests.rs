@@ -221,6 +221,20 @@ fn requests() -> Vec<Value> {
                     "step_m": 0.3, "orientations": "some", "vertex_tolerance_m": 1e-5, "rays": 66,
                     "center_m": [0.0, 0.1, 1.0], "compare": robot["robot"],
                     "section": [{ "axis": "z", "values": [1.5] }], "up_to_hz": 50.0,
+                    "prove": true, "boxes": 200, "undecided": 0.1, "time_s": 5.0,
+                }),
+            ],
+        ),
+        of(
+            "prove",
+            &[
+                &robot,
+                &state,
+                &tensions,
+                &required,
+                &json!({
+                    "within_m": [0.5, 0.4, 0.3], "within_deg": [1.0, 0.0, 2.0], "boxes": 200, "undecided": 0.1,
+                    "time_s": 5.0,
                 }),
             ],
         ),

@@ -64,6 +64,7 @@ pub mod modes;
 pub mod path;
 mod platform;
 pub mod pose_error;
+pub mod proof;
 pub mod reduced_model;
 pub mod response;
 pub mod robot;

@@ -28,6 +28,7 @@ mod pages;
 mod payload;
 mod plots;
 mod pose_error;
+mod prove;
 mod readme;
 mod reduce;
 mod request;

@@ -6,7 +6,7 @@ use super::{robot, run, run_with, stderr, stdout, succeed};
 #[expect(clippy::too_many_lines, reason = "a table")]
 fn command_lines() -> Vec<Vec<String>> {
     let cogiro = robot("cogiro.toml");
-    let lines: [&[&str]; 27] = [
+    let lines: [&[&str]; 28] = [
         &["check", &cogiro],
         &["parameters", &cogiro, "--set", "platform.center_of_mass_m.x=0.1"],
         &["statics", &cogiro, "--pose", "1,2,1.5", "--tension-rule", "middle", "--max-tension-n", "1200"],
@@ -119,6 +119,7 @@ fn command_lines() -> Vec<Vec<String>> {
             "0.2",
         ],
         &["workspace", &cogiro, "--step-m", "2", "--max-tension-n", "5000"],
+        &["prove", &cogiro, "--pose", "0,0,1.5", "--within-m", "2,1,0.5", "--within-deg", "0,0,1", "--boxes", "30"],
         &["export", "ROBOT", "--to", "vtk", "--segments", "3", "--modes-below-hz", "1"],
         &["new", "--cables", "6", "--motion", "rigid", "--box-m", "0.4,0.3,0.2", "--mass-kg", "20", "--rope", "7x7"],
         &["schema"],

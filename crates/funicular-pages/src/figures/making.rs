@@ -5,7 +5,9 @@ use super::chart::{Chart, Entry, Layer, Panel, Sample};
 use super::drawing::{BLACK, Stroke};
 use super::space::{RobotShape, Space};
 use super::style::{self, GREY, ModelStyle, Symbol};
-use super::{Figure, FigureContent, bars, calibration, gusts, motions, pairs, sections, settling, simulated, winches};
+use super::{
+    Figure, FigureContent, bars, calibration, gusts, motions, pairs, proved, sections, settling, simulated, winches,
+};
 use crate::figure_style::{MODE_TICKS, ModeTick, rgb};
 use anyhow::{Result, bail};
 use funicular::cable::CableModel;
@@ -23,6 +25,7 @@ use funicular_study::analyses::gust::Gusty;
 use funicular_study::analyses::loads::Loads;
 use funicular_study::analyses::modes::with_rigid_cables;
 use funicular_study::analyses::payload::Payload;
+use funicular_study::analyses::prove::Proved;
 use funicular_study::analyses::settle::Settled;
 use funicular_study::analyses::simulate::Simulated;
 use funicular_study::analyses::speeds::Speeds;
@@ -53,6 +56,14 @@ pub fn of_decay(found: &Settled) -> Figure {
 /// No section, or sections along several axes.
 pub fn of_sections(found: &Workspace) -> Result<Figure> {
     Ok(Figure(FigureContent::Chart(sections::chart(found)?)))
+}
+
+/// Makes the figure of a proof: a section with the three sets.
+///
+/// # Errors
+/// A box without an area.
+pub fn of_proof(found: &Proved) -> Result<Figure> {
+    Ok(Figure(FigureContent::Chart(proved::chart(found)?)))
 }
 
 /// Makes the figure of a calibration that has been computed before.

@@ -31,6 +31,8 @@ struct WorkspacePage<'a> {
     pieces: PageTable,
     sections: Option<PageFigure>,
     areas: PageTable,
+    proof: Vec<String>,
+    proved: Option<PageTable>,
     command_line: String,
 }
 
@@ -67,6 +69,8 @@ pub fn page(found: &Workspace, command_line: String) -> anyhow::Result<String> {
         pieces: pieces(found),
         sections: has_sections.then(|| sections(found)),
         areas: areas(found),
+        proof: found.proof.as_ref().map(super::prove::sentences).unwrap_or_default(),
+        proved: found.proof.as_ref().map(super::prove::volumes),
         command_line,
     };
     page.render().context("the page could not be written as HTML")

@@ -25,6 +25,7 @@ from funicular.results import (
     LoadsResults,
     PayloadResults,
     PoseErrorResults,
+    ProveResults,
     SimulateResults,
     SpeedsResults,
     TrajectoryResults,
@@ -382,7 +383,7 @@ def workspace(
     Returns
     -------
     The keys of the program's JSON: `volumes` with the steps or the number of rays of each, `parts`, `holes`,
-    `touches`, `bounds_m`, `inner_box`, `sections`, `rays`, `compared`; `vertices_m` (n, 3) and `triangles` (m, 3) of the closed
+    `touches`, `bounds_m`, `inner_box`, `sections`, `rays`, `compared`, `proof`; `vertices_m` (n, 3) and `triangles` (m, 3) of the closed
     surface, whose first `triangles_of_surface` lie on the set and the others on the box of the grid.
 
     Raises
@@ -402,6 +403,41 @@ def workspace(
     if compare is not None:
         given = {**given, "compare": {"text": compare.to_toml()}}
     return _results.of_answered(WorkspaceResults, of._answer("workspace", given, threads=threads, progress=progress))
+
+
+@declared(Robot, "prove", positional=("pose", "within_m", "within_deg"), others=_AS_REST, files=True)
+def prove(
+    of: Any,
+    given: Given,
+    threads: SupportsIndex | None = None,
+    progress: Callable[[int, int], object] | None = None,
+) -> ProveResults:
+    """Proves that required loads are held within the tension limits at every pose of a box, not only at samples of it.
+
+    Parameters
+    ----------
+    threads
+        Number of threads of this process; one per processor if not given.
+    progress
+        Function that is called with the number of boxes that are done, and of the most that are wanted.
+
+    Returns
+    -------
+    The keys of the program's JSON: `verdict` with `margin_n` or `reason`, `inside`, `outside` and `undecided` in
+    `volume_unit`, `undecided_share`, `tried`, `end`, `worst`, and `boxes` with their verdicts.
+
+    Raises
+    ------
+    InputError
+        An argument is wrong, or the robot has something for which no bound over a box is derived; the message says which.
+    KeyboardInterrupt
+        Ctrl-C stopped the division; its attribute `partial_results` has the `Results` of what was proved until then.
+
+    References
+    ----------
+    docs/theory.md, section 10b.
+    """
+    return _results.of_answered(ProveResults, of._answer("prove", given, threads=threads, progress=progress))
 
 
 @declared(Robot, "pose-error", positional=("mass_kg",), others=_AS_REST)

@@ -1344,6 +1344,21 @@ class ThresholdRow(Row):
     """`everywhere`, `from` or `nowhere`."""
 
 
+class BoxRow(Row):
+    """Box of a division."""
+
+    lower_m: NDArray[np.float64]
+    """Least coordinate of the positions [m]."""
+    margin_n: float | None
+    """Least distance of a tension from its limits inside, or the least missing wrench outside [N]."""
+    reason: str | None
+    """Reason why it is undecided."""
+    upper_m: NDArray[np.float64]
+    """Greatest coordinate of the positions [m]."""
+    verdict: str
+    """Verdict: inside, outside or undecided."""
+
+
 class HistoryRow(Row):
     """Displacement of the point at one time from where the lengths of this time hold it at rest, and the bound of its
     distance."""
@@ -2510,6 +2525,54 @@ class AreaOfWorkspace(Row):
     """Numbers of parts that do not touch each other, and of holes."""
 
 
+class Proved(Row):
+    """Results of `prove`, or of the proof of a workspace."""
+
+    boxes: list[BoxRow]
+    """Boxes of the division."""
+    end: str
+    """Reason why the division ended: `complete`, `boxes`, `time`, `undecided` or `stopped`."""
+    inside: float
+    """Volume that is proved inside."""
+    loads: int
+    """Number of required loads of which all others are combinations."""
+    margin_n: float | None
+    """Least distance of a tension from its limits if the box is inside; the least wrench that is missing if it is outside
+    [N]."""
+    outside: float
+    """Volume that is proved outside."""
+    pose: PoseRow
+    """Middle of the box, and the orientation of the statement."""
+    reason: str | None
+    """Reason why the whole box is undecided."""
+    static_model: str
+    """Static model."""
+    tried: int
+    """Number of boxes that were proved or tried."""
+    undecided: float
+    """Volume that is neither."""
+    undecided_share: float
+    """Undecided volume over the volume that is not proved outside."""
+    verdict: str
+    """`inside`, `outside` or `undecided` for the whole box, or `divided` if parts of it are decided differently."""
+    volume_unit: str
+    """Unit of the volumes: m³, or m², m if the box has no width along one or two axes."""
+    whole: float
+    """Volume of the box, in the unit that is given."""
+    within_deg: NDArray[np.float64]
+    """Largest turns about the axes of the world, which belong to the statement at every position [deg]."""
+    within_m: NDArray[np.float64]
+    """Half widths of the box of positions [m]."""
+    worst: list[BoxRow]
+    """Largest undecided boxes, with the reasons."""
+
+    _PARTS: ClassVar[dict[str, type[Row]]] = {
+        "boxes": BoxRow,
+        "pose": PoseRow,
+        "worst": BoxRow,
+    }
+
+
 class RaysOfWorkspace(Row):
     """Set along rays."""
 
@@ -3209,6 +3272,58 @@ class PoseErrorResults(Results):
     }
 
 
+class ProveResults(Results):
+    """Results of `prove`."""
+
+    boxes: list[BoxRow]
+    """Boxes of the division."""
+    end: str
+    """Reason why the division ended: `complete`, `boxes`, `time`, `undecided` or `stopped`."""
+    inside: float
+    """Volume that is proved inside."""
+    loads: int
+    """Number of required loads of which all others are combinations."""
+    margin_n: float | None
+    """Least distance of a tension from its limits if the box is inside; the least wrench that is missing if it is outside
+    [N]."""
+    outside: float
+    """Volume that is proved outside."""
+    pose: PoseRow
+    """Middle of the box, and the orientation of the statement."""
+    reason: str | None
+    """Reason why the whole box is undecided."""
+    robot: str | None
+    """Name of the robot; absent if there are several."""
+    static_model: str
+    """Static model."""
+    tried: int
+    """Number of boxes that were proved or tried."""
+    undecided: float
+    """Volume that is neither."""
+    undecided_share: float
+    """Undecided volume over the volume that is not proved outside."""
+    verdict: str
+    """`inside`, `outside` or `undecided` for the whole box, or `divided` if parts of it are decided differently."""
+    volume_unit: str
+    """Unit of the volumes: m³, or m², m if the box has no width along one or two axes."""
+    warnings: list[str]
+    """Sentences that the user should know before trusting the numbers."""
+    whole: float
+    """Volume of the box, in the unit that is given."""
+    within_deg: NDArray[np.float64]
+    """Largest turns about the axes of the world, which belong to the statement at every position [deg]."""
+    within_m: NDArray[np.float64]
+    """Half widths of the box of positions [m]."""
+    worst: list[BoxRow]
+    """Largest undecided boxes, with the reasons."""
+
+    _PARTS: ClassVar[dict[str, type[Row]]] = {
+        "boxes": BoxRow,
+        "pose": PoseRow,
+        "worst": BoxRow,
+    }
+
+
 class SettleResults(Results):
     """Results of `settle`."""
 
@@ -3675,6 +3790,8 @@ class WorkspaceResults(Results):
     """Parts that do not touch each other, and holes, the largest first."""
     plane: AreaOfWorkspace | None
     """Plane of a planar platform, in which the set is an area; absent in space. Volumes are those of a slab of 1 m."""
+    proof: Proved | None
+    """Proof in which parts of the box required loads are held."""
     rays: RaysOfWorkspace | None
     """Set along rays."""
     robot: str | None
@@ -3706,6 +3823,7 @@ class WorkspaceResults(Results):
         "inner_box": InnerBox,
         "parts": PartOfWorkspace,
         "plane": AreaOfWorkspace,
+        "proof": Proved,
         "rays": RaysOfWorkspace,
         "sections": SectionOfWorkspace,
         "volumes": VolumeRow,
@@ -3729,6 +3847,7 @@ OF_COMMANDS.update(
         "parameters": ParametersResults,
         "payload": PayloadResults,
         "pose-error": PoseErrorResults,
+        "prove": ProveResults,
         "settle": SettleResults,
         "simulate": SimulateResults,
         "speeds": SpeedsResults,

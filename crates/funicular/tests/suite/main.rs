@@ -25,6 +25,7 @@ mod modes;
 mod path;
 mod platform;
 mod pose_error;
+mod proof;
 mod random;
 mod reduced_model;
 mod response;
