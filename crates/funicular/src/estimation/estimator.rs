@@ -279,6 +279,11 @@ impl Estimator {
         let turn = rest.fixed_rows::<3>(3).norm() * kalman.of.coordinates.ell();
         let speed = rest.fixed_rows::<3>(0).norm().max(turn);
         self.vibration = speed.max(self.vibration * (-step / MEMORY).exp());
+        self.hold_payload();
+    }
+
+    /// Lets the filter consider the payload, and trust tensions less, while the platform rings.
+    fn hold_payload(&mut self) {
         let rings = self.rings();
         self.kalman.holds_payload = rings;
         self.kalman.force_factor = if rings { RINGING_FORCE } else { 1.0 };
@@ -330,6 +335,7 @@ impl Estimator {
         self.window = Some(PayloadWindow::new(&self.kalman));
         self.since_mean = 0.0;
         self.since_alarm = 0.0;
+        self.hold_payload();
         Ok(Some(size))
     }
 
