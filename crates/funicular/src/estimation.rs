@@ -1,5 +1,5 @@
-//! State of a robot from its sensors: pose, velocity, payload, external wrench, tensions of all cables, and the errors of
-//! the sensors themselves, each with its standard deviation.
+//! State of a robot from its sensors: pose, velocity, payload, external wrench, tensions of all cables, and the errors
+//! of the sensors themselves, each with its standard deviation.
 //!
 //! An [`Estimator`] is an error-state Kalman filter of a rigid platform on quasi-static elastic catenaries. Lengths are
 //! its inputs; load cells, gyroscope, accelerometer, tracker and cable angles are its measurements. After the start it
@@ -13,9 +13,9 @@
 
 mod consistency;
 mod covariance;
+mod estimator;
 mod exponential;
 mod faults;
-mod estimator;
 mod kalman;
 mod model;
 mod payload_mean;

@@ -1,10 +1,23 @@
 //! Statistics of the innovations: whether the stated deviations are true.
 
-use super::kalman::GroupResult;
 use super::rows::MAX_ROWS;
 
 /// Probability beyond the bands that are told.
 const BAND: f64 = 0.05;
+
+/// Result of a group of rows.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct GroupResult {
+    /// Squared size of the innovation by its covariance, and its degrees of freedom.
+    pub(super) nis: f64,
+    pub(super) count: usize,
+    /// Rows left out as outliers.
+    pub(super) gated: usize,
+    /// Logarithm of the determinant of the covariance of the innovation.
+    pub(super) log_determinant: f64,
+    /// Innovations over their deviations, by cable or axis; NaN without a reading.
+    pub(super) relative: [f64; MAX_ROWS],
+}
 
 /// Statistics of one group of sensors since the start.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -95,8 +108,8 @@ pub(super) fn normal_quantile(probability: f64) -> f64 {
     let tail = probability.min(1.0 - probability).max(1e-300);
     // Rational start of Hastings, good to 4.5e-4.
     let t = (-2.0 * tail.ln()).sqrt();
-    let mut x = t - (2.515_517 + t * (0.802_853 + t * 0.010_328))
-        / (1.0 + t * (1.432_788 + t * (0.189_269 + t * 0.001_308)));
+    let mut x =
+        t - (2.515_517 + t * (0.802_853 + t * 0.010_328)) / (1.0 + t * (1.432_788 + t * (0.189_269 + t * 0.001_308)));
     for _ in 0..3 {
         let density = (-0.5 * x * x).exp() / std::f64::consts::TAU.sqrt();
         x += (upper_tail(x) - tail) / density;

@@ -1,6 +1,6 @@
 //! Estimator of a control loop or a log: filter, tests and monitors.
 
-use super::consistency::{Consistency, chi2_quantile, normal_quantile};
+use super::consistency::{Consistency, GroupResult, chi2_quantile, normal_quantile};
 use super::faults::{FaultAlarm, FaultKind, FaultTests, FaultVerdict, explain};
 use super::kalman::Kalman;
 use super::model::EstimatedRobot;
@@ -8,7 +8,7 @@ use super::payload_mean::PayloadWindow;
 use super::readings::{SensorGroup, SensorReadings};
 use super::rows::MAX_ROWS;
 use super::settings::EstimationSettings;
-use super::start::{EstimationError, MAX_STEP, check, prior, rest_pose, tie_pose, wrench_prior};
+use super::start::{EstimationError, MAX_STEP, balanced, check, prior, rest_pose, tie_pose, wrench_prior};
 use super::state::{Estimate, EstimatedCable, EstimatedState, Slackness, StateMean, StatePlaces};
 use crate::control_loop::MAX_CABLES;
 use crate::math::{Vec3, Vec6};
@@ -45,6 +45,9 @@ const TRUST: f64 = 1e-6;
 /// Time that the readings behind an alarm are kept [s], and their largest number.
 const KEPT_TIME: f64 = 0.05;
 const KEPT_ROWS: usize = 128;
+
+/// Rounds of Gauss and Newton's method at rest; the third changes tensions by less than a tenth of a newton.
+const ROUNDS: usize = 3;
 
 /// False alarms of all tests of the load cells per hour.
 const FALSE_ALARMS: f64 = 0.1;
@@ -169,19 +172,37 @@ impl Estimator {
         let priors = kalman.settings.priors;
         kalman.rates = [0.0; MAX_CABLES];
         kalman.silent = [0.0; MAX_CABLES];
-        tie_pose(&mut kalman.covariance, kalman.places, &kalman.of, &kalman.at, &kalman.mean.pose, &priors)
-            .ok_or(EstimationError::NoBalance)?;
         (kalman.acceleration, kalman.largest_acceleration) = (Vec6::zeros(), 0.0);
-        self.measure(readings)?;
+        let (known, before) = (kalman.covariance.clone(), kalman.mean);
+
+        // Offsets of a millimetre are a quarter of the tension, so that tangents change: Gauss and Newton's method.
+        for round in 1..=ROUNDS {
+            let kalman = &mut self.kalman;
+            kalman.covariance.copy_from(&known);
+            let all = kalman.lengths();
+            let load = kalman.mean.load;
+            let (pose, at) = balanced(&kalman.of, &all[..kalman.places.cables], &load, kalman.mean.pose)
+                .ok_or(EstimationError::NoBalance)?;
+            (kalman.mean.pose, kalman.at, kalman.mean.twist) = (pose, at, Vec6::zeros());
+            let motion = tie_pose(&mut kalman.covariance, kalman.places, &kalman.of, &kalman.at, &pose, &priors)
+                .ok_or(EstimationError::NoBalance)?;
+            kalman.begin_from(&before, &motion);
+            self.take_groups(readings, round == ROUNDS)?;
+        }
         Ok(())
     }
 
     /// Updates by all groups of one time.
     fn measure(&mut self, readings: &SensorReadings) -> Result<usize, EstimationError> {
-        let mut gated = 0;
         self.kalman.begin();
+        self.take_groups(readings, true)
+    }
+
+    /// Takes the readings of all groups, and counts them if they are new. Returns the number of outliers.
+    fn take_groups(&mut self, readings: &SensorReadings, are_new: bool) -> Result<usize, EstimationError> {
+        let mut gated = 0;
         for group in SensorGroup::ALL {
-            if let Some(result) = self.kalman.measure(group, readings) {
+            if let Some(result) = self.kalman.measure(group, readings).filter(|_| are_new) {
                 self.consistency[group.index()].add(&result);
                 gated += result.gated;
                 if group == SensorGroup::Tensions {
@@ -345,13 +366,7 @@ impl Estimator {
             self.tests.reset();
             return None;
         }
-        let result = super::kalman::GroupResult {
-            nis: 0.0,
-            count: 0,
-            gated: 0,
-            log_determinant: 0.0,
-            relative: self.relative,
-        };
+        let result = GroupResult { nis: 0.0, count: 0, gated: 0, log_determinant: 0.0, relative: self.relative };
         self.relative = [f64::NAN; MAX_ROWS];
         let found = self.tests.innovations(&result, self.kalman.places.cables, step);
         if found.is_some() {
@@ -395,9 +410,8 @@ impl Estimator {
         let (mean, places) = (kalman.mean, kalman.places);
         let covariance = &kalman.covariance;
         let std = |place: usize| covariance.variance(place).sqrt();
-        let three = |values: Vec3, first: usize| {
-            std::array::from_fn(|k| Estimate { value: values[k], std: std(first + k) })
-        };
+        let three =
+            |values: Vec3, first: usize| std::array::from_fn(|k| Estimate { value: values[k], std: std(first + k) });
         let upper = |of: &Vec6| Vec3::new(of[0], of[1], of[2]);
         let lower = |of: &Vec6| Vec3::new(of[3], of[4], of[5]);
         let mut state = EstimatedState {

@@ -1,7 +1,7 @@
 //! Tests for faults with a stated rate of false alarms, and the hypotheses about an alarm.
 
-use super::consistency::normal_quantile;
-use super::kalman::{GroupResult, Kalman, StepNoise};
+use super::consistency::{GroupResult, normal_quantile};
+use super::kalman::{Kalman, StepNoise};
 use super::readings::{SensorGroup, SensorReadings};
 use super::rows::MAX_ROWS;
 use super::state::StatePlaces;
@@ -50,8 +50,8 @@ pub struct FaultAlarm {
     pub time: f64,
     /// Cable whose innovation raised it; `None` for the test of the payload.
     pub cable: Option<usize>,
-    /// What the test itself says: [`FaultKind::Payload`], [`FaultKind::Stuck`], or `None` before the hypotheses are
-    /// compared.
+    /// Kind that the test itself tells, [`FaultKind::Payload`] or [`FaultKind::Stuck`]; `None` before the hypotheses
+    /// are compared.
     pub kind: Option<FaultKind>,
     /// Size of the test over its limit.
     pub size: f64,
@@ -62,7 +62,7 @@ pub struct FaultAlarm {
 pub struct FaultHypothesis {
     /// Kind of fault.
     pub kind: FaultKind,
-    /// Its cable, if it has one.
+    /// Cable with the fault; `None` for payload and wrench.
     pub cable: Option<usize>,
     /// Size: slip [m], step of a load cell [N], payload [kg], vertical force [N].
     pub size: f64,
@@ -266,7 +266,9 @@ fn of_kind<'a>(
     let i = cable.unwrap_or(0);
     let (places, std) = match kind {
         FaultKind::Slip | FaultKind::Cut => ([StatePlaces::OFFSETS + i, 0, 0, 0], [5e-3, 0.0, 0.0, 0.0]),
-        FaultKind::LoadCell | FaultKind::Stuck => ([start.places.tension_biases() + i, 0, 0, 0], [200.0, 0.0, 0.0, 0.0]),
+        FaultKind::LoadCell | FaultKind::Stuck => {
+            ([start.places.tension_biases() + i, 0, 0, 0], [200.0, 0.0, 0.0, 0.0])
+        }
         FaultKind::Payload => {
             let first = StatePlaces::PAYLOAD;
             ([first, first + 1, first + 2, first + 3], [20.0, 2.0, 2.0, 2.0])

@@ -1,6 +1,6 @@
 //! Kalman filter: prediction by the exponential of the tangent, and updates by groups of rows.
 
-use super::consistency::chi2_quantile;
+use super::consistency::{GroupResult, chi2_quantile};
 use super::covariance::{Covariance, MOTION};
 use super::exponential::{Mat12, StepExponential};
 use super::model::{EstimatedRobot, Tangents, gravity_of, split};
@@ -18,20 +18,6 @@ const GATE: f64 = 1e-6;
 
 /// Time without a reading of a length from which on the cable's own motion adds to its error [s].
 const SHORT_GAP: f64 = 0.02;
-
-/// Result of a group of rows.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct GroupResult {
-    /// Squared size of the innovation by its covariance, and its degrees of freedom.
-    pub(super) nis: f64,
-    pub(super) count: usize,
-    /// Rows left out as outliers.
-    pub(super) gated: usize,
-    /// Logarithm of the determinant of the covariance of the innovation.
-    pub(super) log_determinant: f64,
-    /// Innovations over their deviations, by cable or axis; NaN without a reading.
-    pub(super) relative: [f64; MAX_ROWS],
-}
 
 /// Additional noise while hypotheses are compared: variance per step of one or more states.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -170,7 +156,7 @@ impl Kalman {
         for i in 0..self.places.cables {
             self.errors_before[i] = self.covariance.variance(self.places.encoder_errors() + i);
         }
-        let (m, n) = (self.places.cables, self.places.size());
+        let m = self.places.cables;
         let inverse = self.at.inverse_mass;
         let acceleration = self.at.acceleration(&self.of, &self.mean.twist, &self.rates[..m]);
         let exponential = StepExponential::of(&self.tangent(), step);
@@ -193,42 +179,12 @@ impl Kalman {
                 .sum();
         }
 
-        // Columns of the state over the step.
-        self.motion.fill(0.0);
-        for k in 0..MOTION {
-            for j in 0..MOTION {
-                self.motion[k * n + j] = exponential.whole[(k, j)];
-            }
-        }
-        let lower = |of: &Mat12, force: &Vec6| -> [f64; MOTION] {
-            std::array::from_fn(|k| (0..6).map(|j| of[(k, j + 6)] * force[j]).sum())
-        };
-        let columns = self.load_columns(&acceleration);
-        for (c, wrench) in columns.iter().enumerate() {
-            let column = lower(&exponential.once, &(inverse * self.of.allowed(wrench)));
-            (0..MOTION).for_each(|k| self.motion[k * n + StatePlaces::WRENCH + c] = column[k]);
-        }
-        let mut entering = [[0.0; MOTION]; MAX_CABLES];
-        for i in 0..m {
-            let by_length = inverse * self.of.allowed(&self.at.wrench_by_length(i));
-            let cable = &self.at.cables[i];
-            let by_rate = wrench_of(&(cable.direction * -cable.damping), &cable.lever);
-            let by_rate = inverse * self.of.allowed(&by_rate);
-            let (once, twice) = (lower(&exponential.once, &by_length), lower(&exponential.twice, &by_length));
-            let damped = lower(&exponential.once, &by_rate);
-            for k in 0..MOTION {
-                entering[i][k] = (twice[k] + damped[k]) / step;
-                self.motion[k * n + StatePlaces::OFFSETS + i] = once[k];
-                self.motion[k * n + self.places.encoder_errors() + i] = once[k] - entering[i][k];
-            }
-        }
-
-        // Noise.
+        let entering = self.set_columns(&exponential, &acceleration, step);
         let mut noise = self.white_noise(&exponential, step);
-        for i in 0..m {
+        for (of, variance) in entering.iter().zip(variances).take(m) {
             for k in 0..MOTION {
                 for j in 0..MOTION {
-                    noise[(k, j)] += entering[i][k] * entering[i][j] * variances[i];
+                    noise[(k, j)] += of[k] * of[j] * variance;
                 }
             }
         }
@@ -255,6 +211,47 @@ impl Kalman {
         let size = self.acceleration.fixed_rows::<3>(0).norm();
         self.largest_acceleration = size.max(self.largest_acceleration * (-step / 0.5).exp());
         Ok(())
+    }
+
+    /// Sets the columns of the motion over a step by the whole state before it. Returns those of the errors of the
+    /// encoders at its end.
+    fn set_columns(
+        &mut self,
+        exponential: &StepExponential,
+        acceleration: &Vec6,
+        step: f64,
+    ) -> [[f64; MOTION]; MAX_CABLES] {
+        let (m, n) = (self.places.cables, self.places.size());
+        let inverse = self.at.inverse_mass;
+        self.motion.fill(0.0);
+        for k in 0..MOTION {
+            for j in 0..MOTION {
+                self.motion[k * n + j] = exponential.whole[(k, j)];
+            }
+        }
+        let lower = |of: &Mat12, force: &Vec6| -> [f64; MOTION] {
+            std::array::from_fn(|k| (0..6).map(|j| of[(k, j + 6)] * force[j]).sum())
+        };
+        let columns = self.load_columns(acceleration);
+        for (c, wrench) in columns.iter().enumerate() {
+            let column = lower(&exponential.once, &(inverse * self.of.allowed(wrench)));
+            (0..MOTION).for_each(|k| self.motion[k * n + StatePlaces::WRENCH + c] = column[k]);
+        }
+        let mut entering = [[0.0; MOTION]; MAX_CABLES];
+        for i in 0..m {
+            let by_length = inverse * self.of.allowed(&self.at.wrench_by_length(i));
+            let cable = &self.at.cables[i];
+            let by_rate = wrench_of(&(cable.direction * -cable.damping), &cable.lever);
+            let by_rate = inverse * self.of.allowed(&by_rate);
+            let (once, twice) = (lower(&exponential.once, &by_length), lower(&exponential.twice, &by_length));
+            let damped = lower(&exponential.once, &by_rate);
+            for k in 0..MOTION {
+                entering[i][k] = (twice[k] + damped[k]) / step;
+                self.motion[k * n + StatePlaces::OFFSETS + i] = once[k];
+                self.motion[k * n + self.places.encoder_errors() + i] = once[k] - entering[i][k];
+            }
+        }
+        entering
     }
 
     /// Tangent of the motion, (112).
@@ -349,6 +346,17 @@ impl Kalman {
         self.error.fill(0.0);
     }
 
+    /// Begins the updates of a platform at rest at a mean that is not that of `prior`; twelve rows `motion` say how the
+    /// platform follows the rest of the state.
+    pub(super) fn begin_from(&mut self, prior: &StateMean, motion: &[f64]) {
+        self.begin();
+        prior.less(&self.mean, self.places, &mut self.error);
+        let n = self.places.size();
+        for k in 0..6 {
+            self.error[k] = dot(&motion[k * n..][..n], &self.error);
+        }
+    }
+
     /// Update by one group, whose error adds to that of the groups before; `None` without a reading.
     pub(super) fn measure(&mut self, group: SensorGroup, readings: &SensorReadings) -> Option<GroupResult> {
         self.with_rows(|rows, context| rows.fill(group, readings, context));
@@ -370,7 +378,8 @@ impl Kalman {
                 spread[k * MAX_ROWS + j] = value;
             }
         }
-        let mut result = GroupResult { nis: 0.0, count, gated: 0, log_determinant: 0.0, relative: [f64::NAN; MAX_ROWS] };
+        let mut result =
+            GroupResult { nis: 0.0, count, gated: 0, log_determinant: 0.0, relative: [f64::NAN; MAX_ROWS] };
         let mut keeps = [true; MAX_ROWS];
         let limit = chi2_quantile(1.0 - GATE / count as f64, 1.0);
         for k in 0..count {

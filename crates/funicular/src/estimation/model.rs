@@ -3,7 +3,9 @@
 use crate::control_loop::MAX_CABLES;
 use crate::drive::{CableInLoop, force_by_length_w};
 use crate::math::{Mat3, Mat6, Vec3, Vec6, inverse6, skew};
-use crate::platform::{Coordinates, add_congruent, add_lever_term, damping_matrix, load_wrench, mass_matrix, wrench_of};
+use crate::platform::{
+    Coordinates, add_congruent, add_lever_term, damping_matrix, load_wrench, mass_matrix, wrench_of,
+};
 use crate::robot::{Pose, Robot};
 use crate::statics::{LoadedCable, StaticModel, assembled};
 use arrayvec::ArrayVec;

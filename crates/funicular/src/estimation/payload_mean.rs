@@ -118,13 +118,9 @@ impl Kalman {
         }
     }
 
-    /// Sets payload and first moment. Their errors are those of the biases of the tensions times `by_bias`, and `noise`.
-    fn set_payload(
-        &mut self,
-        found: &[f64; 4],
-        by_bias: &[[f64; 4]; MAX_CABLES],
-        noise: impl Fn(usize, usize) -> f64,
-    ) {
+    /// Sets payload and first moment. Their errors are those of the biases of the tensions times `by_bias`, and
+    /// `noise`.
+    fn set_payload(&mut self, found: &[f64; 4], by_bias: &[[f64; 4]; MAX_CABLES], noise: impl Fn(usize, usize) -> f64) {
         let (places, n) = (self.places, self.places.size());
         let first = StatePlaces::PAYLOAD;
         let biases = places.tension_biases();

@@ -29,7 +29,7 @@ pub(super) struct RowGroup {
     size: usize,
 }
 
-/// What the rows of one time have in common.
+/// Values that the rows of one time share.
 pub(super) struct RowContext<'a> {
     pub(super) places: StatePlaces,
     pub(super) mean: &'a StateMean,
@@ -89,7 +89,8 @@ impl RowGroup {
         let noise = context.settings.noise.tension.powi(2) + context.rope_tension.powi(2);
         for (i, cable) in context.at.cables.iter().enumerate() {
             if readings.tensions[i].is_finite() {
-                let residual = readings.tensions[i] - expected_tension(cable, context, i) - context.mean.tension_biases[i];
+                let residual =
+                    readings.tensions[i] - expected_tension(cable, context, i) - context.mean.tension_biases[i];
                 let by_rate = cable.damping / context.step;
                 let row = self.add(i, residual, noise + by_rate.powi(2) * context.errors_before[i]);
                 tension_row(row, cable, context, i);
@@ -103,10 +104,8 @@ impl RowGroup {
         for (i, cable) in context.at.cables.iter().enumerate() {
             let d = &cable.leaving;
             let level = d.x.hypot(d.y).max(1e-9);
-            let by = [
-                (d.y.atan2(d.x), Vec3::new(-d.y, d.x, 0.0) / (level * level)),
-                (d.z.atan2(level), Vec3::z() / level),
-            ];
+            let by =
+                [(d.y.atan2(d.x), Vec3::new(-d.y, d.x, 0.0) / (level * level)), (d.z.atan2(level), Vec3::z() / level)];
             for (read, (angle, gradient)) in readings.angles[i].into_iter().zip(by) {
                 if read.is_finite() {
                     let turns = ((read - angle) / std::f64::consts::TAU).round();

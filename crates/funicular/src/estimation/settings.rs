@@ -80,8 +80,8 @@ pub struct ProcessNoise {
     pub payload: [f64; 2],
     /// Random walk of each offset [m²/s].
     pub offset: f64,
-    /// Coefficient of friction between rope and tension sensor: the bias of a tension wanders by 2 μ T in one centimetre
-    /// of travel.
+    /// Coefficient of friction between rope and tension sensor: the bias of a tension wanders by 2 μ T in one
+    /// centimetre of travel.
     pub friction: f64,
 }
 

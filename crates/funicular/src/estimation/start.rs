@@ -151,7 +151,8 @@ pub(super) fn wrench_prior(covariance: &mut Covariance, priors: &StatePriors) {
     }
 }
 
-/// Ties the pose at rest to wrench, payload, offsets and errors of the encoders: it has no prior of its own.
+/// Ties the pose at rest to wrench, payload, offsets and errors of the encoders: it has no prior of its own. Returns
+/// the rows that say how it follows them.
 ///
 /// # References
 /// docs/theory.md, equation (110).
@@ -162,7 +163,7 @@ pub(super) fn tie_pose(
     at: &Tangents,
     pose: &Pose,
     priors: &StatePriors,
-) -> Option<()> {
+) -> Option<Vec<f64>> {
     let n = places.size();
     let factor = at.stiffness.lu();
     let mut motion = vec![0.0; 12 * n];
@@ -201,5 +202,5 @@ pub(super) fn tie_pose(
             covariance.put(StatePlaces::VELOCITY + k, StatePlaces::VELOCITY + k, can_move * std * std);
         }
     }
-    Some(())
+    Some(motion)
 }

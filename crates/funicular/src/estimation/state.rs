@@ -74,6 +74,24 @@ impl StateMean {
         }
     }
 
+    /// Writes the difference of payload, wrench and errors of the sensors from those of `other`; poses and velocities
+    /// are left.
+    pub(super) fn less(&self, other: &Self, places: StatePlaces, error: &mut [f64]) {
+        let mut three = |first: usize, value: Vec3| error[first..first + 3].copy_from_slice(value.as_slice());
+        three(StatePlaces::FIRST_MOMENT, self.load.moment_p - other.load.moment_p);
+        three(places.accelerometer_bias(), self.accelerometer_bias - other.accelerometer_bias);
+        three(places.gyroscope_bias(), self.gyroscope_bias - other.gyroscope_bias);
+        error[StatePlaces::PAYLOAD] = self.load.mass - other.load.mass;
+        for k in 0..6 {
+            error[StatePlaces::WRENCH + k] = self.load.wrench[k] - other.load.wrench[k];
+        }
+        for i in 0..places.cables {
+            error[StatePlaces::OFFSETS + i] = self.offsets[i] - other.offsets[i];
+            error[places.tension_biases() + i] = self.tension_biases[i] - other.tension_biases[i];
+            error[places.encoder_errors() + i] = self.encoder_errors[i] - other.encoder_errors[i];
+        }
+    }
+
     /// Adds an error state.
     pub(super) fn correct(&mut self, places: StatePlaces, error: &[f64]) {
         let three = |first: usize| Vec3::new(error[first], error[first + 1], error[first + 2]);
@@ -128,7 +146,7 @@ pub struct EstimatedCable {
     pub tension_bias: Estimate,
 }
 
-/// What is known about the robot at one time.
+/// Estimated state of the robot at one time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct EstimatedState {
     /// Pose of the platform.
