@@ -91,6 +91,7 @@ pub struct Estimator {
     window: Option<PayloadWindow>,
     since_mean: f64,
     since_alarm: f64,
+    since_payload: f64,
     /// Sums that forget: squared innovations and degrees of freedom, and samples.
     recent: [f64; 2],
     kept: Option<Box<KeptRows>>,
@@ -129,6 +130,7 @@ impl Estimator {
             window: None,
             since_mean: 0.0,
             since_alarm: f64::INFINITY,
+            since_payload: f64::INFINITY,
             recent: [0.0; 2],
             kept: None,
         };
@@ -231,6 +233,7 @@ impl Estimator {
         self.keep(readings, step);
         self.time += step;
         self.since_alarm += step;
+        self.since_payload += step;
         self.kalman.predict(&readings.lengths, step)?;
         let forget = (-step / TRUST_TIME).exp();
         self.recent = self.recent.map(|sum| sum * forget);
@@ -313,7 +316,7 @@ impl Estimator {
 
     /// True while the platform vibrates.
     pub fn rings(&self) -> bool {
-        let is_new = self.window.is_some() && self.since_alarm < QUIET_AFTER_ALARM;
+        let is_new = self.window.is_some() && self.since_payload < QUIET_AFTER_ALARM;
         is_new || self.vibration > RINGING
     }
 
@@ -338,7 +341,7 @@ impl Estimator {
         // The external force along gravity against its prior.
         let gravity = self.kalman.of.robot.gravity_w;
         let prior = self.kalman.settings.priors.force.powi(2);
-        if gravity == Vec3::zeros() || self.since_alarm < QUIET_AFTER_ALARM || prior == 0.0 {
+        if gravity == Vec3::zeros() || self.since_payload < QUIET_AFTER_ALARM || prior == 0.0 {
             return Ok(None);
         }
         let along = gravity.normalize();
@@ -355,7 +358,7 @@ impl Estimator {
         self.kalman.reopen_payload(NEW_PAYLOAD[0], NEW_PAYLOAD[1]);
         self.window = Some(PayloadWindow::new(&self.kalman));
         self.since_mean = 0.0;
-        self.since_alarm = 0.0;
+        self.since_payload = 0.0;
         self.hold_payload();
         Ok(Some(size))
     }

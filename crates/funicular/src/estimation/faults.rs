@@ -20,6 +20,9 @@ const MIN_QUIET: usize = 50;
 const STUCK_READINGS: usize = 20;
 const STUCK_CHANGE: f64 = 5.0;
 
+/// Innovation [deviations] that half of the cables have at once only if all have one cause.
+const COMMON_SHIFT: f64 = 1.5;
+
 /// Difference of −2 ln L below which the second hypothesis is as good as the first.
 const UNDECIDED: f64 = 10.0;
 
@@ -174,7 +177,9 @@ impl FaultTests {
         if found.is_some() {
             self.reset();
         }
-        found
+        // Most cables at once are no fault of one: the platform is heavier or pushed.
+        let shifted = result.relative[..cables].iter().filter(|z| z.abs() > COMMON_SHIFT * deviation).count();
+        found.filter(|_| 2 * shifted < cables)
     }
 
     /// Load cell that repeats its reading while the tension has changed.

@@ -130,10 +130,7 @@ fn a_payload_that_is_taken_up_is_found_with_a_true_deviation() {
             alarms.extend(notes.alarm);
             let state = estimator.state();
             let off = (state.payload.value - 18.393) / state.payload.std;
-            if pair[1].0 > 2.98 && pair[1].0 < 3.6 {
-                println!("{:.2} {notes:?} {:?} {:?} rings {}", pair[1].0, state.payload, state.force[2], state.rings);
-            }
-            if pair[1].0 > 3.6 {
+            if pair[1].0 > 3.1 {
                 assert!(off.abs() < 3.0, "{} s: {:?}", pair[1].0, state.payload);
             }
         }
@@ -187,33 +184,30 @@ impl RestDraws {
 }
 
 /// Mean squares of errors over stated deviations of position, payload and first tension, and NIS of the load cells, for
-/// robots at rest with drawn offsets, biases, forces and payloads. The statics room has no part of the filter. `axial`
-/// multiplies the stiffness of the ropes of the truth.
-fn mean_squares(axial: f64, offset: f64) -> ([f64; 5], f64) {
-    const DRAWS: usize = 200;
+/// robots at rest with drawn offsets, biases, forces and payloads. The statics room has no part of the filter. `factor`
+/// multiplies the biases of the truth, which the settings do not know.
+fn mean_squares(factor: f64) -> ([f64; 5], f64) {
+    const DRAWS: usize = 1000;
     let robot = robot();
     let State::Lengths(lengths) = &robot.state else { panic!("the file gives lengths") };
     let mut settings = EstimationSettings::default();
-    (settings.noise.tension, settings.priors.offset, settings.priors.payload) = (1.0, offset, [30.0, 5.0]);
+    (settings.noise.tension, settings.priors.payload) = (1.0, [30.0, 5.0]);
     let (noise, priors) = (settings.noise, settings.priors);
     let mut draws = RestDraws(5);
     let (mut sums, mut nis) = ([0.0; 5], 0.0);
-    let (mut each, mut means) = ([0.0; 8], [0.0; 8]);
     for _ in 0..DRAWS {
         let mut truth = robot.clone();
         let payload = priors.payload[0] + priors.payload[1] * draws.normal();
         truth.load.force_w = Vec3::from_fn(|_, _| priors.force * draws.normal()) + robot.gravity_w * payload;
         let first = Vec3::from_fn(|_, _| priors.first_moment * draws.normal());
         truth.load.moment_w = first.cross(&robot.gravity_w) + Vec3::from_fn(|_, _| priors.moment * draws.normal());
-        for cable in &mut truth.cables {
-            cable.material.axial_stiffness *= axial;
-        }
         let rest = statics::forward(&truth, lengths, StaticModel::Catenary, None).unwrap();
         let mut readings = SensorReadings::default();
         for i in 0..8 {
             readings.lengths[i] = lengths[i] + priors.offset * draws.normal() + noise.length * draws.normal();
             let tension = rest.cables[i].tension_anchor;
-            readings.tensions[i] = tension + priors.tension_bias * draws.normal() + noise.tension * draws.normal();
+            readings.tensions[i] =
+                tension + factor * priors.tension_bias * draws.normal() + noise.tension * draws.normal();
         }
         let mut estimator = Estimator::new(robot.clone(), settings, &readings, None).unwrap();
         let state = estimator.state();
@@ -226,28 +220,21 @@ fn mean_squares(axial: f64, offset: f64) -> ([f64; 5], f64) {
             (state.payload.value - payload) / state.payload.std,
             (state.cables[0].tension.value - tension) / state.cables[0].tension.std,
         ];
-        for i in 0..8 {
-            let of = state.cables[i].tension;
-            each[i] += ((of.value - rest.cables[i].tension_anchor) / of.std).powi(2) / DRAWS as f64;
-            means[i] += (of.value - rest.cables[i].tension_anchor) / of.std / DRAWS as f64;
-        }
         sums.iter_mut().zip(errors).for_each(|(sum, error)| *sum += error * error / DRAWS as f64);
         nis += estimator.consistency(SensorGroup::Tensions).per_freedom().unwrap() / DRAWS as f64;
     }
-    println!("{each:.3?} {means:.3?} {nis}");
     (sums, nis)
 }
 
-/// Stated deviations hold the errors of drawn truths: 200 squares have a mean of one within 0.33 (99.9 %), the 1600 of
-/// the innovations within 0.12. Ropes that are 3 % stiffer than the file says are found where offsets are small.
+/// Stated deviations hold the errors of drawn truths: 1000 squares have a mean of one within 0.15 (99.9 %), the 8000 of
+/// the innovations within 0.055. Biases that are a tenth larger than stated are found.
 #[test]
 fn deviations_at_rest_are_true_for_drawn_robots() {
-    let (squares, nis) = mean_squares(1.0, 1e-3);
-    assert!(squares.iter().all(|square| (square - 1.0).abs() < 0.33), "{squares:?}");
-    assert!((nis - 1.0).abs() < 0.12, "{nis}");
-    let (_, exact) = mean_squares(1.0, 2e-5);
-    let (_, stiffer) = mean_squares(1.03, 2e-5);
-    assert!((exact - 1.0).abs() < 0.12 && stiffer > 1.12, "{exact} {stiffer}");
+    let (squares, nis) = mean_squares(1.0);
+    assert!(squares.iter().all(|square| (square - 1.0).abs() < 0.15), "{squares:?}");
+    assert!((nis - 1.0).abs() < 0.055, "{nis}");
+    let (_, larger) = mean_squares(1.1);
+    assert!(larger > 1.055, "{larger}");
 }
 
 /// A slip of 1 mm at rest raises an alarm within three samples, and the right cable is named with its millimetre.
