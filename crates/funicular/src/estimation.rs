@@ -9,7 +9,7 @@
 //! known about the robot: weighted least squares over poses at rest, one row after the other.
 //!
 //! # References
-//! docs/theory.md, section 24.
+//! docs/theory.md, section 18f.
 
 mod consistency;
 mod covariance;

@@ -98,7 +98,7 @@ impl Covariance {
     /// `spread` is hᵀ P h + r.
     ///
     /// # References
-    /// docs/theory.md, equation (116).
+    /// docs/theory.md, equation (97x).
     pub(super) fn joseph(&mut self, gain: &[f64], product: &[f64], spread: f64) {
         let n = self.size;
         for i in 0..n {

@@ -116,7 +116,7 @@ impl Estimator {
         let mut mean = StateMean::new(Pose::new([0.0; 3], [0.0; 3]), settings.priors.payload[0]);
         let (pose, at) = rest_pose(&of, &lengths[..of.cables()], &mean.load, near)?;
         mean.pose = pose;
-        let mut kalman = Kalman::new(of, settings, mean, at, lengths);
+        let mut kalman = Kalman::new(of, settings, &mean, at, lengths);
         prior(&mut kalman.covariance, places, &settings.priors, settings.noise.length);
         let mut estimator = Self {
             kalman,
@@ -285,7 +285,7 @@ impl Estimator {
     pub fn explain(&self) -> Option<FaultVerdict> {
         let kept = self.kept.as_ref()?;
         let rows = kept.rows.iter().map(|(readings, step)| (readings, *step));
-        Some(explain(&kept.older, rows, &self.relative))
+        Some(explain(&kept.older, &rows, &self.relative))
     }
 
     /// Separates vibration from commanded motion.

@@ -30,7 +30,7 @@ impl StepExponential {
     /// Exponential of `a` over a step [s].
     ///
     /// # References
-    /// docs/theory.md, equation (113).
+    /// docs/theory.md, equation (97u).
     pub(super) fn of(a: &Mat12, step: f64) -> Self {
         let size = a.iter().fold(0.0_f64, |size, value| size.max(value.abs())) * 12.0 * step;
         let needed = if size.is_finite() { (size / MAX_SERIES).max(1.0).log2().ceil() } else { 0.0 };
@@ -41,18 +41,18 @@ impl StepExponential {
         let ah = a * h;
         let mut twice = Mat12::identity();
         for k in (1..=TERMS).rev() {
-            twice = Mat12::identity() + &ah * &twice / (k + 2) as f64;
+            twice = Mat12::identity() + ah * twice / (k + 2) as f64;
         }
         twice *= 0.5 * h * h;
-        let mut once = Mat12::identity() * h + a * &twice;
-        let mut whole = Mat12::identity() + a * &once;
+        let mut once = Mat12::identity() * h + a * twice;
+        let mut whole = Mat12::identity() + a * once;
         let mut half = whole;
         let mut h = h;
         for _ in 0..doublings {
             half = whole;
-            twice = &twice + &once * h + &whole * &twice;
-            once = &once + &whole * &once;
-            whole = &whole * &whole;
+            twice = twice + once * h + whole * twice;
+            once = once + whole * once;
+            whole = whole * whole;
             h *= 2.0;
         }
         Self { whole, half, once, twice }

@@ -144,7 +144,7 @@ impl FaultTests {
     /// size over the limit.
     ///
     /// # References
-    /// docs/theory.md, equations (118) and (119).
+    /// docs/theory.md, equation (97z).
     pub(super) fn innovations(&mut self, result: &GroupResult, cables: usize, step: f64) -> Option<(usize, f64)> {
         let samples = 3600.0 / (step * (0.5 * self.rate).max(1e-9));
         let limit = cusum_limit(samples, cables);
@@ -228,7 +228,7 @@ fn single_limit(samples: f64, cables: usize) -> f64 {
 /// fault would be. `relative` are the innovations at the alarm.
 pub(super) fn explain<'a>(
     start: &Kalman,
-    rows: impl Iterator<Item = (&'a SensorReadings, f64)> + Clone,
+    rows: &(impl Iterator<Item = (&'a SensorReadings, f64)> + Clone),
     relative: &[f64; MAX_ROWS],
 ) -> FaultVerdict {
     let places = start.places;
@@ -322,7 +322,7 @@ fn of_kind<'a>(
 mod tests {
     use super::*;
 
-    /// Limits of the table in docs/theory.md: 65,000 samples for h = 12, one a day at 1 kHz for h = 19.3.
+    /// Limits by docs/theory.md: 65,000 samples for h = 12, one a day at 1 kHz for h = 19.3.
     #[test]
     fn limits_of_the_cumulative_sum_have_their_stated_rates() {
         assert!((cusum_limit(65_000.0, 8) - 12.0).abs() < 0.1, "{}", cusum_limit(65_000.0, 8));

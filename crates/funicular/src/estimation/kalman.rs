@@ -63,7 +63,7 @@ impl Kalman {
     pub(super) fn new(
         of: EstimatedRobot,
         settings: EstimationSettings,
-        mean: StateMean,
+        mean: &StateMean,
         at: Tangents,
         readings: [f64; MAX_CABLES],
     ) -> Self {
@@ -73,7 +73,7 @@ impl Kalman {
             of,
             settings,
             places,
-            mean,
+            mean: *mean,
             covariance: Covariance::new(n),
             at,
             readings,
@@ -150,7 +150,7 @@ impl Kalman {
     /// Moves the state to a time `step` later, at which the lengths are read.
     ///
     /// # References
-    /// docs/theory.md, equations (112) to (114).
+    /// docs/theory.md, equations (97t) to (97v).
     pub(super) fn predict(&mut self, lengths: &[f64; MAX_CABLES], step: f64) -> Result<(), EstimationError> {
         let variances = self.take_lengths(lengths, step)?;
         for i in 0..self.places.cables {
@@ -238,7 +238,7 @@ impl Kalman {
             (0..MOTION).for_each(|k| self.motion[k * n + StatePlaces::WRENCH + c] = column[k]);
         }
         let mut entering = [[0.0; MOTION]; MAX_CABLES];
-        for i in 0..m {
+        for (i, of) in entering.iter_mut().enumerate().take(m) {
             let by_length = inverse * self.of.allowed(&self.at.wrench_by_length(i));
             let cable = &self.at.cables[i];
             let by_rate = wrench_of(&(cable.direction * -cable.damping), &cable.lever);
@@ -246,15 +246,15 @@ impl Kalman {
             let (once, twice) = (lower(&exponential.once, &by_length), lower(&exponential.twice, &by_length));
             let damped = lower(&exponential.once, &by_rate);
             for k in 0..MOTION {
-                entering[i][k] = (twice[k] + damped[k]) / step;
+                of[k] = (twice[k] + damped[k]) / step;
                 self.motion[k * n + StatePlaces::OFFSETS + i] = once[k];
-                self.motion[k * n + self.places.encoder_errors() + i] = once[k] - entering[i][k];
+                self.motion[k * n + self.places.encoder_errors() + i] = once[k] - of[k];
             }
         }
         entering
     }
 
-    /// Tangent of the motion, (112).
+    /// Tangent of the motion, (97t).
     fn tangent(&self) -> Mat12 {
         let mut tangent = Mat12::zeros();
         tangent.fixed_view_mut::<6, 6>(0, 6).copy_from(&Mat6::identity());

@@ -17,7 +17,7 @@ const VELOCITY_ERROR: f64 = 0.1;
 /// Sums since a payload was taken up or put down.
 ///
 /// # References
-/// docs/theory.md, equation (117).
+/// docs/theory.md, equation (97y).
 #[derive(Debug, Clone)]
 pub(super) struct PayloadWindow {
     time: f64,
@@ -118,24 +118,29 @@ impl Kalman {
         }
     }
 
+    /// Covariance of a state with the part of payload or first moment that the biases of the tensions have.
+    fn of_biases(&self, by_bias: &[[f64; 4]; MAX_CABLES], part: usize, state: usize) -> f64 {
+        let first = self.places.tension_biases();
+        let cables = by_bias.iter().enumerate().take(self.places.cables);
+        cables.map(|(i, by)| by[part] * self.covariance.at(first + i, state)).sum()
+    }
+
     /// Sets payload and first moment. Their errors are those of the biases of the tensions times `by_bias`, and
     /// `noise`.
     fn set_payload(&mut self, found: &[f64; 4], by_bias: &[[f64; 4]; MAX_CABLES], noise: impl Fn(usize, usize) -> f64) {
-        let (places, n) = (self.places, self.places.size());
+        let n = self.places.size();
         let first = StatePlaces::PAYLOAD;
-        let biases = places.tension_biases();
         let is_payload = |j: usize| (first..StatePlaces::OFFSETS).contains(&j);
         for j in (0..n).filter(|j| !is_payload(*j)) {
             for a in 0..4 {
-                let value = (0..places.cables).map(|i| by_bias[i][a] * self.covariance.at(biases + i, j)).sum();
+                let value = self.of_biases(by_bias, a, j);
                 self.covariance.put(first + a, j, value);
             }
         }
         for a in 0..4 {
             for b in 0..=a {
-                let of_biases: f64 =
-                    (0..places.cables).map(|i| by_bias[i][a] * self.covariance.at(biases + i, first + b)).sum();
-                self.covariance.put(first + a, first + b, of_biases + noise(a, b));
+                let value = self.of_biases(by_bias, a, first + b) + noise(a, b);
+                self.covariance.put(first + a, first + b, value);
             }
         }
         self.mean.load.mass = found[0];

@@ -178,7 +178,7 @@ pub(super) fn expected_tension(cable: &CableTangents, context: &RowContext, i: u
 /// Derivatives of the tension of a cable.
 ///
 /// # References
-/// docs/theory.md, equation (115).
+/// docs/theory.md, equation (97w).
 pub(super) fn tension_row(row: &mut [f64], cable: &CableTangents, context: &RowContext, i: usize) {
     put_attachment(row, &cable.tension_by_start, cable);
     put_length(row, cable.tension_by_length, context.places, i);

@@ -89,14 +89,12 @@ pub(super) fn rest_pose(
     start: Option<&Pose>,
 ) -> Result<(Pose, Tangents), EstimationError> {
     let near = start.and_then(|start| balanced(of, lengths, load, *start));
-    match near {
-        Some(found) => Ok(found),
-        None => {
-            let cold = forward(&of.robot, lengths, StaticModel::Catenary, start)
-                .or_else(|_| forward(&of.robot, lengths, StaticModel::Catenary, None))?;
-            balanced(of, lengths, load, cold.pose).ok_or(EstimationError::NoBalance)
-        }
+    if let Some(found) = near {
+        return Ok(found);
     }
+    let cold = forward(&of.robot, lengths, StaticModel::Catenary, start)
+        .or_else(|_| forward(&of.robot, lengths, StaticModel::Catenary, None))?;
+    balanced(of, lengths, load, cold.pose).ok_or(EstimationError::NoBalance)
 }
 
 /// Newton's method to the balance next to a pose.
@@ -155,7 +153,7 @@ pub(super) fn wrench_prior(covariance: &mut Covariance, priors: &StatePriors) {
 /// the rows that say how it follows them.
 ///
 /// # References
-/// docs/theory.md, equation (110).
+/// docs/theory.md, equation (97r).
 pub(super) fn tie_pose(
     covariance: &mut Covariance,
     places: StatePlaces,

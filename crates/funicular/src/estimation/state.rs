@@ -8,7 +8,7 @@ use crate::robot::Pose;
 /// Places of the components of the error state for a number of cables.
 ///
 /// # References
-/// docs/theory.md, equation (111).
+/// docs/theory.md, equation (97s).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct StatePlaces {
     pub(super) cables: usize,

@@ -54,7 +54,10 @@ fn without_inertial_unit(readings: &SensorReadings) -> SensorReadings {
 
 /// State of the log at some times by a separate program (NumPy) with the same model and settings: time, position,
 /// its deviation, deviation of the turn, payload with its deviation, deviation of the velocity.
-const SEPARATE: [(f64, [f64; 3], [f64; 3], [f64; 3], [f64; 2], [f64; 3]); 3] = [
+type LogState = (f64, [f64; 3], [f64; 3], [f64; 3], [f64; 2], [f64; 3]);
+
+/// Values of the separate program.
+const SEPARATE: [LogState; 3] = [
     (
         0.5,
         [0.001696, 0.001723, 1.507802],
@@ -142,7 +145,7 @@ fn a_payload_that_is_taken_up_is_found_with_a_true_deviation() {
     }
 }
 
-/// Rows of the table of deviations at one pose in docs/theory.md, from a separate program: x, y, z [mm], roll [deg] and
+/// Deviations at one pose by a separate program with the same priors: x, y, z [mm], roll [deg] and
 /// payload [kg].
 #[test]
 fn one_pose_at_rest_has_the_deviations_of_a_separate_program() {
@@ -203,8 +206,8 @@ fn mean_squares(factor: f64) -> ([f64; 5], f64) {
         truth.load.moment_w = first.cross(&robot.gravity_w) + Vec3::from_fn(|_, _| priors.moment * draws.normal());
         let rest = statics::forward(&truth, lengths, StaticModel::Catenary, None).unwrap();
         let mut readings = SensorReadings::default();
-        for i in 0..8 {
-            readings.lengths[i] = lengths[i] + priors.offset * draws.normal() + noise.length * draws.normal();
+        for (i, length) in lengths.iter().enumerate() {
+            readings.lengths[i] = length + priors.offset * draws.normal() + noise.length * draws.normal();
             let tension = rest.cables[i].tension_anchor;
             readings.tensions[i] =
                 tension + factor * priors.tension_bias * draws.normal() + noise.tension * draws.normal();
@@ -247,8 +250,8 @@ fn a_slip_of_a_millimetre_is_found_on_its_cable() {
         let mut draws = RestDraws(slipping as u64 + 1);
         let mut read = |slip: f64| {
             let mut readings = SensorReadings::default();
-            for i in 0..8 {
-                readings.lengths[i] = lengths[i] + 2e-5 * draws.normal();
+            for (i, length) in lengths.iter().enumerate() {
+                readings.lengths[i] = length + 2e-5 * draws.normal();
                 // In the first milliseconds the platform stays where it is: the stiffness of the cable alone counts.
                 let soft = if i == slipping { 68e3 * slip } else { 0.0 };
                 readings.tensions[i] = rest.cables[i].tension_anchor - soft + 3.0 * draws.normal();
