@@ -8,6 +8,7 @@ use crate::analyses::{
     clearance::{self, Clearances},
     compare::{self, Compared},
     design::{self, Designed},
+    estimate::{self, Estimated},
     frf,
     gradient::{self, GradientTable},
     gust::{self, Gusty},
@@ -166,6 +167,7 @@ answers! {
     Reduce(ReducedForm): of => reduce::run(robot()?, of, watch)?, at at_rest => reduce::about(at_rest, of, watch)?;
     Identify(Box<Identified>): of => Box::new(identify::run(of, watch)?);
     Calibrate(Box<Calibrated>): of => Box::new(calibrate::run(of, watch)?);
+    Estimate(Box<Estimated>): of => Box::new(estimate::run(&robot()?, of, watch)?);
     Workspace(Box<Workspace>): of => Box::new(workspace::run(robot()?, of, watch)?);
     Design(Box<Designed>): of => Box::new(design::run(of, watch)?);
 }

@@ -5,7 +5,9 @@ use super::chart::{Chart, Entry, Layer, Panel, Sample};
 use super::drawing::{BLACK, Stroke};
 use super::space::{RobotShape, Space};
 use super::style::{self, GREY, ModelStyle, Symbol};
-use super::{Figure, FigureContent, bars, calibration, gusts, motions, pairs, sections, settling, simulated, winches};
+use super::{
+    Figure, FigureContent, bars, calibration, estimated, gusts, motions, pairs, sections, settling, simulated, winches,
+};
 use crate::figure_style::{MODE_TICKS, ModeTick, rgb};
 use anyhow::{Result, bail};
 use funicular::cable::CableModel;
@@ -18,6 +20,7 @@ use funicular_study::Watch;
 use funicular_study::analyses::calibrate::Calibrated;
 use funicular_study::analyses::clearance::Clearances;
 use funicular_study::analyses::compare::Compared;
+use funicular_study::analyses::estimate::Estimated;
 use funicular_study::analyses::frf;
 use funicular_study::analyses::gust::Gusty;
 use funicular_study::analyses::loads::Loads;
@@ -58,6 +61,11 @@ pub fn of_sections(found: &Workspace) -> Result<Figure> {
 /// Makes the figure of a calibration that has been computed before.
 pub fn of_calibration(found: &Calibrated) -> Figure {
     Figure(FigureContent::Chart(calibration::chart(found)))
+}
+
+/// Makes the figure of an estimate that has been computed before.
+pub fn of_estimate(found: &Estimated) -> Figure {
+    Figure(FigureContent::Chart(estimated::chart(found)))
 }
 
 /// Makes the figure of a simulation that has been computed before.

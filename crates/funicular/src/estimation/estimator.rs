@@ -197,6 +197,7 @@ impl Estimator {
     /// Updates by all groups of one time.
     fn measure(&mut self, readings: &SensorReadings) -> Result<usize, EstimationError> {
         self.kalman.begin();
+        self.relative = [f64::NAN; MAX_ROWS];
         self.take_groups(readings, true)
     }
 
@@ -370,18 +371,20 @@ impl Estimator {
             return None;
         }
         let result = GroupResult { nis: 0.0, count: 0, gated: 0, log_determinant: 0.0, relative: self.relative };
-        self.relative = [f64::NAN; MAX_ROWS];
-        let found = self.tests.innovations(&result, self.kalman.places.cables, step);
-        if found.is_some() {
-            self.relative = result.relative;
-        }
-        found
+        self.tests.innovations(&result, self.kalman.places.cables, step)
     }
 
     /// Takes a length that slipped: the offset of a cable is unknown again, with this deviation [m].
     pub fn reopen_offset(&mut self, cable: usize, std: f64) {
         if cable < self.kalman.places.cables {
             self.kalman.covariance.reopen(StatePlaces::OFFSETS + cable, std * std);
+        }
+    }
+
+    /// Takes a step of a load cell: the constant error of its readings is unknown again, with this deviation [N].
+    pub fn reopen_tension_bias(&mut self, cable: usize, std: f64) {
+        if cable < self.kalman.places.cables {
+            self.kalman.covariance.reopen(self.kalman.places.tension_biases() + cable, std * std);
         }
     }
 
