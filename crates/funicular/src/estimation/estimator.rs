@@ -1,6 +1,6 @@
 //! Estimator of a control loop or a log: filter, tests and monitors.
 
-use super::consistency::{Consistency, GroupResult, chi2_quantile, normal_quantile};
+use super::consistency::{Consistency, chi2_quantile, normal_quantile};
 use super::faults::{FaultAlarm, FaultKind, FaultTests, FaultVerdict, explain};
 use super::kalman::Kalman;
 use super::model::EstimatedRobot;
@@ -44,10 +44,18 @@ const TRUST: f64 = 1e-6;
 
 /// Time that the readings behind an alarm are kept [s], and their largest number.
 const KEPT_TIME: f64 = 0.05;
-const KEPT_ROWS: usize = 128;
+const KEPT_ROWS: usize = 256;
+
+/// Time after an alarm at which its explanation is best [s]: the platform has moved, and the rows before the fault are
+/// still kept.
+const EXPLAINED_AFTER: f64 = 0.05;
 
 /// Rounds of Gauss and Newton's method at rest; the third changes tensions by less than a tenth of a newton.
 const ROUNDS: usize = 3;
+
+/// Time within which the test of the payload decides about an alarm that no cable alone explains [s]: it takes 40 to
+/// 70 ms.
+const PAYLOAD_DELAY: f64 = 0.1;
 
 /// False alarms of all tests of the load cells per hour.
 const FALSE_ALARMS: f64 = 0.1;
@@ -92,6 +100,11 @@ pub struct Estimator {
     since_mean: f64,
     since_alarm: f64,
     since_payload: f64,
+    /// Age of an alarm that no cable alone explains, with its size; innovations of the load cells at the last alarm.
+    common: Option<(f64, f64)>,
+    suspects: [f64; MAX_ROWS],
+    /// Cable that alone explains the last alarm of the load cells.
+    alarmed: Option<usize>,
     /// Sums that forget: squared innovations and degrees of freedom, and samples.
     recent: [f64; 2],
     kept: Option<Box<KeptRows>>,
@@ -131,6 +144,9 @@ impl Estimator {
             since_mean: 0.0,
             since_alarm: f64::INFINITY,
             since_payload: f64::INFINITY,
+            common: None,
+            suspects: [f64::NAN; MAX_ROWS],
+            alarmed: None,
             recent: [0.0; 2],
             kept: None,
         };
@@ -251,7 +267,7 @@ impl Estimator {
         } else if let Some(i) = stuck {
             alarm(Some(i), Some(FaultKind::Stuck), 1.0)
         } else {
-            cable.and_then(|(i, size)| alarm(Some(i), None, size))
+            cable.and_then(|(i, size)| alarm(i, None, size))
         };
         if notes.alarm.is_some() {
             self.since_alarm = 0.0;
@@ -269,7 +285,10 @@ impl Estimator {
     fn keep(&mut self, readings: &SensorReadings, step: f64) {
         let Some(kept) = &mut self.kept else { return };
         kept.time += step;
-        if kept.time >= KEPT_TIME || kept.rows.len() == KEPT_ROWS {
+        // The beginning of an alarm that waits for its explanation stays.
+        let waits = self.common.is_some() || self.since_alarm < EXPLAINED_AFTER;
+        let is_due = !waits && kept.time >= KEPT_TIME;
+        if is_due || kept.rows.len() == KEPT_ROWS {
             std::mem::swap(&mut kept.older, &mut kept.newer);
             kept.newer.copy_from(&self.kalman);
             kept.rows.drain(..kept.middle);
@@ -281,12 +300,13 @@ impl Estimator {
         }
     }
 
-    /// Explanations of the last alarm by the readings of the last 50 to 100 ms. It reserves memory and takes many times
-    /// as long as an update: call it on a copy, outside the control loop.
+    /// Explanations of the last alarm by the readings since 50 to 100 ms before it; best 50 ms after it, when the
+    /// platform has moved. It reserves memory and takes many times as long as an update: call it on a copy, outside the
+    /// control loop.
     pub fn explain(&self) -> Option<FaultVerdict> {
         let kept = self.kept.as_ref()?;
         let rows = kept.rows.iter().map(|(readings, step)| (readings, *step));
-        Some(explain(&kept.older, &rows, &self.relative))
+        Some(explain(&kept.older, &rows, &self.suspects, self.alarmed))
     }
 
     /// Separates vibration from commanded motion.
@@ -364,14 +384,32 @@ impl Estimator {
         Ok(Some(size))
     }
 
-    /// Tests of the load cells; they rest while the platform rings, because its vibration is no white noise.
-    fn test_cables(&mut self, step: f64) -> Option<(usize, f64)> {
+    /// Tests of the load cells; they rest while the platform rings, because its vibration is no white noise. Returns the
+    /// cable, or none if no cable alone has raised an alarm, and the size over the limit.
+    fn test_cables(&mut self, step: f64) -> Option<(Option<usize>, f64)> {
         if self.rings() || self.since_alarm < QUIET_AFTER_ALARM {
             self.tests.reset();
+            self.common = None;
             return None;
         }
-        let result = GroupResult { nis: 0.0, count: 0, gated: 0, log_determinant: 0.0, relative: self.relative };
-        self.tests.innovations(&result, self.kalman.places.cables, step)
+        if let Some((age, size)) = &mut self.common {
+            *age += step;
+            if *age < PAYLOAD_DELAY {
+                return None;
+            }
+            let size = *size;
+            self.common = None;
+            return Some((None, size));
+        }
+        let cables = self.kalman.places.cables;
+        let found = self.tests.innovations(&self.relative[..cables], &self.kalman.tension_factor, step)?;
+        self.suspects = self.relative;
+        self.alarmed = Some(found.cable).filter(|_| found.is_own);
+        if found.is_own {
+            return Some((Some(found.cable), found.size));
+        }
+        self.common = Some((0.0, found.size));
+        None
     }
 
     /// Takes a length that slipped: the offset of a cable is unknown again, with this deviation [m].

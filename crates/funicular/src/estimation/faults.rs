@@ -1,7 +1,7 @@
 //! Tests for faults with a stated rate of false alarms, and the hypotheses about an alarm.
 
-use super::consistency::{GroupResult, normal_quantile};
-use super::kalman::{Kalman, StepNoise};
+use super::consistency::{chi2_quantile, normal_quantile};
+use super::kalman::{Kalman, StepNoise, TensionFactor};
 use super::readings::{SensorGroup, SensorReadings};
 use super::rows::MAX_ROWS;
 use super::state::StatePlaces;
@@ -20,11 +20,17 @@ const MIN_QUIET: usize = 50;
 const STUCK_READINGS: usize = 20;
 const STUCK_CHANGE: f64 = 5.0;
 
-/// Innovation [deviations] that half of the cables have at once only if all have one cause.
-const COMMON_SHIFT: f64 = 1.5;
+/// Probability with which an alarm that one cable alone has caused is not laid to it.
+const NOT_ITS_OWN: f64 = 1e-3;
+
+/// Number of samples whose mean innovations tell whether one cable alone has raised an alarm.
+const KEPT_SAMPLES: usize = 32;
 
 /// Difference of −2 ln L below which the second hypothesis is as good as the first.
 const UNDECIDED: f64 = 10.0;
+
+/// Deviation of a slip within one step [m].
+const SLIP: f64 = 5e-3;
 
 /// Number of cables whose faults are compared after an alarm.
 const SUSPECTS: usize = 3;
@@ -51,7 +57,7 @@ pub enum FaultKind {
 pub struct FaultAlarm {
     /// Time since the start [s].
     pub time: f64,
-    /// Cable whose innovation raised it; `None` for the test of the payload.
+    /// Cable whose innovation raised it; `None` for the test of the payload, and where no cable alone explains it.
     pub cable: Option<usize>,
     /// Kind that the test itself tells, [`FaultKind::Payload`] or [`FaultKind::Stuck`]; `None` before the hypotheses
     /// are compared.
@@ -84,6 +90,16 @@ pub struct FaultVerdict {
     pub is_decided: bool,
 }
 
+/// Alarm of the tests of the load cells.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct CableAlarm {
+    /// Cable with the largest test, and its size over the limit.
+    pub(super) cable: usize,
+    pub(super) size: f64,
+    /// True if this cable alone explains the innovations of all.
+    pub(super) is_own: bool,
+}
+
 /// Sums and limits of the tests.
 #[derive(Debug, Clone)]
 pub(super) struct FaultTests {
@@ -94,6 +110,10 @@ pub(super) struct FaultTests {
     /// Quiet readings: sum of squares, products with the one before, number.
     squares: f64,
     products: f64,
+    /// Innovations over their deviations of the last samples, newest first.
+    kept: [[f64; MAX_CABLES]; KEPT_SAMPLES],
+    /// Samples since each sum was zero.
+    since: [[usize; 2]; MAX_CABLES],
     quiet: usize,
     before: [f64; MAX_CABLES],
     /// Last reading of each load cell, how often it was equal, and the expected tension at the first of these.
@@ -110,6 +130,8 @@ impl FaultTests {
             far: [[false; 2]; MAX_CABLES],
             squares: 0.0,
             products: 0.0,
+            kept: [[f64::NAN; MAX_CABLES]; KEPT_SAMPLES],
+            since: [[0; 2]; MAX_CABLES],
             quiet: 0,
             before: [f64::NAN; MAX_CABLES],
             last: [f64::NAN; MAX_CABLES],
@@ -137,22 +159,24 @@ impl FaultTests {
     pub(super) fn reset(&mut self) {
         self.sums = [[0.0; 2]; MAX_CABLES];
         self.far = [[false; 2]; MAX_CABLES];
+        self.since = [[0; 2]; MAX_CABLES];
         self.before = [f64::NAN; MAX_CABLES];
     }
 
-    /// Tests the innovations of the load cells; half of the rate belongs to each of the two tests. Returns cable and
-    /// size over the limit.
+    /// Tests the innovations of the load cells; half of the rate belongs to each of the two tests.
     ///
     /// # References
     /// docs/theory.md, equation (97z).
-    pub(super) fn innovations(&mut self, result: &GroupResult, cables: usize, step: f64) -> Option<(usize, f64)> {
+    pub(super) fn innovations(&mut self, relative: &[f64], factor: &TensionFactor, step: f64) -> Option<CableAlarm> {
+        let cables = relative.len();
         let samples = 3600.0 / (step * (0.5 * self.rate).max(1e-9));
         let limit = cusum_limit(samples, cables);
         let far_limit = single_limit(samples, cables);
         let (deviation, holds) = (self.deviation(), self.hold());
-        let mut found: Option<(usize, f64)> = None;
-        for i in 0..cables {
-            let z = result.relative[i];
+        self.kept.rotate_right(1);
+        self.kept[0] = [f64::NAN; MAX_CABLES];
+        let mut found: Option<(usize, f64, usize)> = None;
+        for (i, z) in relative.iter().copied().enumerate() {
             if !z.is_finite() {
                 continue;
             }
@@ -163,23 +187,48 @@ impl FaultTests {
             }
             self.before[i] = z;
             let z = z / deviation;
-            let [up, down] = self.sums[i];
-            self.sums[i] = [(up + z - ALLOWANCE).max(0.0), (down - z - ALLOWANCE).max(0.0)];
+            self.kept[0][i] = z;
+            for (side, z) in [z, -z].into_iter().enumerate() {
+                let sum = (self.sums[i][side] + z - ALLOWANCE).max(0.0);
+                self.sums[i][side] = sum;
+                self.since[i][side] = if sum > 0.0 { self.since[i][side] + 1 } else { 0 };
+            }
             let is_far = z.abs() > far_limit;
             let two_of_three = is_far && self.far[i].contains(&true);
             self.far[i] = [is_far, self.far[i][0]];
-            let size = self.sums[i][0].max(self.sums[i][1]) / limit;
+            let side = usize::from(self.sums[i][1] > self.sums[i][0]);
+            let size = self.sums[i][side] / limit;
             let size = if two_of_three { size.max(z.abs() / far_limit) } else { size };
-            if holds && size >= 1.0 && found.is_none_or(|(_, other)| size > other) {
-                found = Some((i, size));
+            if holds && size >= 1.0 && found.is_none_or(|(_, other, _)| size > other) {
+                found = Some((i, size, self.since[i][side].clamp(1, KEPT_SAMPLES)));
             }
         }
-        if found.is_some() {
-            self.reset();
+        let (cable, size, count) = found?;
+        let is_own = self.is_own(cable, count, factor);
+        self.reset();
+        Some(CableAlarm { cable, size, is_own })
+    }
+
+    /// True if the mean innovations of the last samples are those of one cable: what remains without it is noise, χ²
+    /// with one degree of freedom less.
+    ///
+    /// # References
+    /// docs/theory.md, equation (97za).
+    fn is_own(&self, cable: usize, count: usize, factor: &TensionFactor) -> bool {
+        let rows = factor.rows();
+        let Some(own) = rows.iter().position(|i| *i == cable) else { return true };
+        let mut mean = [0.0; MAX_CABLES];
+        for (k, i) in rows.iter().enumerate() {
+            let values = self.kept[..count].iter().map(|sample| sample[*i]).filter(|z| z.is_finite());
+            let (sum, number) = values.fold((0.0, 0_u32), |(sum, number), z| (sum + z, number + 1));
+            mean[k] = factor.deviation(k) * sum / f64::from(number.max(1));
         }
-        // Most cables at once are no fault of one: the platform is heavier or pushed.
-        let shifted = result.relative[..cables].iter().filter(|z| z.abs() > COMMON_SHIFT * deviation).count();
-        found.filter(|_| 2 * shifted < cables)
+        let mut unit = [0.0; MAX_CABLES];
+        unit[own] = 1.0;
+        let (mean, unit) = (factor.whitened(&mean), factor.whitened(&unit));
+        let dot = |a: &[f64; MAX_CABLES], b: &[f64; MAX_CABLES]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+        let rest = count as f64 * (dot(&mean, &mean) - dot(&mean, &unit).powi(2) / dot(&unit, &unit));
+        rows.len() < 2 || rest <= chi2_quantile(1.0 - NOT_ITS_OWN, (rows.len() - 1) as f64)
     }
 
     /// Load cell that repeats its reading while the tension has changed.
@@ -225,11 +274,13 @@ fn single_limit(samples: f64, cables: usize) -> f64 {
 }
 
 /// Explanations of an alarm by runs of copies of a filter over the readings since `start`, each with noise where its
-/// fault would be. `relative` are the innovations at the alarm.
+/// fault would be. `relative` are the innovations at the alarm; `own` is the cable that alone explains them: payload and
+/// wrench, which pull at all cables, are no explanation then.
 pub(super) fn explain<'a>(
     start: &Kalman,
     rows: &(impl Iterator<Item = (&'a SensorReadings, f64)> + Clone),
     relative: &[f64; MAX_ROWS],
+    own: Option<usize>,
 ) -> FaultVerdict {
     let places = start.places;
     let mut order: Vec<usize> = (0..places.cables).collect();
@@ -246,8 +297,10 @@ pub(super) fn explain<'a>(
         run(FaultKind::Slip, Some(cable));
         run(FaultKind::LoadCell, Some(cable));
     }
-    run(FaultKind::Payload, None);
-    run(FaultKind::Wrench, None);
+    if own.is_none() {
+        run(FaultKind::Payload, None);
+        run(FaultKind::Wrench, None);
+    }
     found.sort_by(|a, b| a.worse_by.total_cmp(&b.worse_by));
     let best = found.first().map_or(0.0, |best| best.worse_by);
     let is_decided = found.get(1).is_none_or(|second| second.worse_by - best > UNDECIDED);
@@ -269,11 +322,11 @@ fn of_kind<'a>(
     let mut kalman = start.clone();
     kalman.holds_payload = false;
     let i = cable.unwrap_or(0);
+    // Slip and step of a load cell have one size in newtons, so that neither is likelier by its size alone.
+    let cell = SLIP * kalman.at.cables[i].tension_by_length.abs();
     let (places, std) = match kind {
-        FaultKind::Slip | FaultKind::Cut => ([StatePlaces::OFFSETS + i, 0, 0, 0], [5e-3, 0.0, 0.0, 0.0]),
-        FaultKind::LoadCell | FaultKind::Stuck => {
-            ([start.places.tension_biases() + i, 0, 0, 0], [200.0, 0.0, 0.0, 0.0])
-        }
+        FaultKind::Slip | FaultKind::Cut => ([StatePlaces::OFFSETS + i, 0, 0, 0], [SLIP, 0.0, 0.0, 0.0]),
+        FaultKind::LoadCell | FaultKind::Stuck => ([start.places.tension_biases() + i, 0, 0, 0], [cell, 0.0, 0.0, 0.0]),
         FaultKind::Payload => {
             let first = StatePlaces::PAYLOAD;
             ([first, first + 1, first + 2, first + 3], [20.0, 2.0, 2.0, 2.0])

@@ -27,6 +27,48 @@ pub(super) struct StepNoise {
     pub(super) count: usize,
 }
 
+/// Lower Cholesky factor of the covariance of the innovations of the load cells, and the cables of its rows.
+#[derive(Debug, Clone)]
+pub(super) struct TensionFactor {
+    entries: [f64; MAX_CABLES * MAX_CABLES],
+    rows: [usize; MAX_CABLES],
+    count: usize,
+}
+
+impl TensionFactor {
+    const NONE: Self = Self { entries: [0.0; MAX_CABLES * MAX_CABLES], rows: [0; MAX_CABLES], count: 0 };
+
+    /// Takes the factor of a group with rows of these cables.
+    fn take(&mut self, factor: &[f64; MAX_ROWS * MAX_ROWS], rows: &[usize]) {
+        self.count = rows.len();
+        self.rows[..rows.len()].copy_from_slice(rows);
+        for k in 0..rows.len() {
+            self.entries[k * MAX_CABLES..][..=k].copy_from_slice(&factor[k * MAX_ROWS..][..=k]);
+        }
+    }
+
+    /// Cables of the rows.
+    pub(super) fn rows(&self) -> &[usize] {
+        &self.rows[..self.count]
+    }
+
+    /// Deviation of the innovation of a row.
+    pub(super) fn deviation(&self, k: usize) -> f64 {
+        self.entries[k * MAX_CABLES..][..=k].iter().map(|entry| entry * entry).sum::<f64>().sqrt()
+    }
+
+    /// Innovations with the unit matrix as their covariance.
+    pub(super) fn whitened(&self, innovations: &[f64; MAX_CABLES]) -> [f64; MAX_CABLES] {
+        let mut white = [0.0; MAX_CABLES];
+        for k in 0..self.count {
+            let row = &self.entries[k * MAX_CABLES..][..=k];
+            let before: f64 = row[..k].iter().zip(&white).map(|(entry, white)| entry * white).sum();
+            white[k] = (innovations[k] - before) / row[k];
+        }
+        white
+    }
+}
+
 /// Filter with everything that one update needs.
 #[derive(Debug, Clone)]
 pub(super) struct Kalman {
@@ -51,6 +93,7 @@ pub(super) struct Kalman {
     pub(super) force_factor: f64,
     pub(super) rope_tension: f64,
     pub(super) added: StepNoise,
+    pub(super) tension_factor: TensionFactor,
     group: RowGroup,
     error: Vec<f64>,
     gain: Vec<f64>,
@@ -87,6 +130,7 @@ impl Kalman {
             force_factor: 1.0,
             rope_tension: 0.0,
             added: StepNoise::default(),
+            tension_factor: TensionFactor::NONE,
             group: RowGroup::new(n),
             error: vec![0.0; n],
             gain: vec![0.0; n],
@@ -395,6 +439,9 @@ impl Kalman {
             keeps = [true; MAX_ROWS];
         }
         (result.nis, result.log_determinant) = squared_size(&mut spread, &innovations, count);
+        if group == SensorGroup::Tensions {
+            self.tension_factor.take(&spread, &self.group.of[..count]);
+        }
 
         let held = self.holds_payload;
         for k in (0..count).filter(|k| keeps[*k]) {

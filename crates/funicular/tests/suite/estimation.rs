@@ -1,5 +1,7 @@
 //! Estimator: logs of simulated robots, and truths drawn from its own model.
 
+mod simulated;
+
 use funicular::estimation::{
     EstimationError, EstimationSettings, Estimator, FaultKind, SensorGroup, SensorReadings, StatePriors,
 };

@@ -26,6 +26,10 @@ const CENTER_KNOWN: f64 = 0.1;
 const NEW_OFFSET: f64 = 5e-3;
 const NEW_BIAS: f64 = 200.0;
 
+/// Time after an alarm of the load cells at which it is explained [s]: the platform has moved, and what was before is
+/// still kept.
+const EXPLAINED_AFTER: f64 = 0.05;
+
 /// Probability with which the first row of a log that fits is called one that does not.
 const NO_FIT: f64 = 1e-6;
 
@@ -43,6 +47,8 @@ pub(super) struct LogRun<'a> {
     pub(super) mistrusted: usize,
     /// True if the filter has lost the platform, until a row has the lengths of all cables.
     is_lost: bool,
+    /// Alarm of the load cells that is not explained yet, and its time.
+    unexplained: Option<(f64, FaultAlarm)>,
     /// Payload alarm whose size is not told yet.
     open_payload: Option<usize>,
 }
@@ -72,6 +78,7 @@ impl<'a> LogRun<'a> {
             last: f64::NEG_INFINITY,
             mistrusted: 0,
             is_lost: false,
+            unexplained: None,
             open_payload: None,
         };
         run.estimator.set_false_alarms_per_hour(request.false_alarms_per_hour);
@@ -115,6 +122,7 @@ impl<'a> LogRun<'a> {
             }
             self.take(row)?;
         }
+        self.explain();
         self.close_payload();
         Ok(())
     }
@@ -129,6 +137,9 @@ impl<'a> LogRun<'a> {
         } else {
             match self.estimator.update(&readings, step) {
                 Ok(notes) => {
+                    if self.unexplained.is_some_and(|(time, _)| now - time >= EXPLAINED_AFTER) {
+                        self.explain();
+                    }
                     self.note(now, &notes);
                     self.add_row(row, notes.is_trusted);
                     return Ok(());
@@ -162,6 +173,7 @@ impl<'a> LogRun<'a> {
     /// Tells an alarm of an update, and lets the filter follow what changed.
     fn note(&mut self, now: f64, notes: &UpdateNotes) {
         let Some(alarm) = notes.alarm else { return };
+        self.explain();
         self.close_payload();
         match (alarm.kind, alarm.cable) {
             (Some(FaultKind::Payload), _) => {
@@ -172,12 +184,13 @@ impl<'a> LogRun<'a> {
                 let text = format!("the load cell of cable {} repeats one reading", self.name(i));
                 self.push(now, "stuck", Some(i), None, text);
             }
-            _ => self.explain(now, &alarm),
+            _ => self.unexplained = Some((now, alarm)),
         }
     }
 
     /// Explains an alarm of the load cells by the readings around it.
-    fn explain(&mut self, now: f64, alarm: &FaultAlarm) {
+    fn explain(&mut self) {
+        let Some((now, alarm)) = self.unexplained.take() else { return };
         let Some(FaultVerdict { hypotheses, is_decided }) = self.estimator.explain() else { return };
         let found: Vec<FaultHypothesis> = hypotheses.into_iter().flatten().collect();
         let Some(first) = found.first() else { return };

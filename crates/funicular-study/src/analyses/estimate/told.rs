@@ -128,7 +128,7 @@ fn sensor_fit(group: SensorGroup, of: &Consistency, cables: &[String]) -> Option
             _ => "the residuals are larger than the noise allows".to_owned(),
         }
     } else if squares < band[0] {
-        "the residuals are smaller than the stated noise: it is less".to_owned()
+        "the residuals are smaller than stated: the noise is less, or the platform vibrated".to_owned()
     } else {
         "the residuals fit the stated noise".to_owned()
     };
