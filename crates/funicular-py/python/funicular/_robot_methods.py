@@ -21,8 +21,8 @@ from funicular._sweeps import Sweep
 from funicular._uncertainty import Uncertainty, uncertainty as deviations_of
 from funicular.results import (
     CalibrateResults,
-    EstimateResults,
     ClearanceResults,
+    EstimateResults,
     LoadsResults,
     PayloadResults,
     PoseErrorResults,
