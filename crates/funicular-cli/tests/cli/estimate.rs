@@ -164,7 +164,7 @@ fn a_pause_of_the_log_starts_the_estimate_anew() {
     let found = found(&text, &PRIORS);
     let alarms = found["alarms"].as_array().unwrap();
     assert_eq!(alarms[0]["fault"], "restart", "{alarms:?}");
-    assert!(alarms[0]["text"].as_str().unwrap().contains("the log pauses for 30 s"), "{alarms:?}");
+    assert!(alarms[0]["text"].as_str().unwrap().contains("the log pauses for 30.0 s"), "{alarms:?}");
 }
 
 #[test]
@@ -290,7 +290,7 @@ unstrained_length_m = 5.0
     let found = json(&["estimate", &path("robot.toml"), "--log", &path("run.csv")]);
     let last = found["rows"].as_array().unwrap().last().unwrap();
     for k in 0..3 {
-        let off = number(&last["position_m"][k]) - number(&rest["position_m"][k]);
+        let off = number(&last["position_m"][k]) - number(&rest["pose"]["position_m"][k]);
         assert!(off.abs() < 1e-4, "{k}: {off}");
     }
     assert!(number(&last["payload_kg"]).abs() < 0.1 && last["rotation_std_deg"][0] == 0.0, "{last}");

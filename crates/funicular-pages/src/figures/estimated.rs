@@ -26,14 +26,15 @@ pub(super) fn chart(found: &Estimated) -> Chart {
     let begin = found.rows.first().map_or([0.0; 3], |row| row.pose.position_m);
     let of_axis: Vec<Stroke> = (0..3).map(axis_stroke).collect();
     let of_cable: Vec<Stroke> = (0..found.cables.len()).map(style::curve).collect();
-    let residual =
-        |row: &EstimateRow, i: usize| row.residuals[i].map_or(f64::NAN, |z| z.clamp(-MOST_RESIDUAL, MOST_RESIDUAL));
+    let residual = |row: &EstimateRow, i: usize| {
+        row.residuals.as_ref().map_or(f64::NAN, |all| all[i].clamp(-MOST_RESIDUAL, MOST_RESIDUAL))
+    };
     let mut panels = vec![
         over_time(found, "displacement [mm]", HEIGHT, &of_axis, &|row, k| 1e3 * (row.pose.position_m[k] - begin[k])),
         payload(found),
         over_time(found, "tension [N]", TENSION_HEIGHT, &of_cable, &|row, i| row.tensions_n[i]),
     ];
-    if found.rows.iter().any(|row| row.residuals.iter().any(Option::is_some)) {
+    if found.rows.iter().any(|row| row.residuals.is_some()) {
         panels.push(over_time(found, "residual [deviations]", HEIGHT, &of_cable, &residual));
     }
 

@@ -39,8 +39,8 @@ struct EstimatePage<'a> {
 /// A page that cannot be written.
 pub fn page(found: &Estimated, command_line: String) -> anyhow::Result<String> {
     let begin = found.rows.first().map_or([0.0; 3], |row| row.pose.position_m);
-    let has_cells = found.rows.iter().any(|row| row.residuals.iter().any(Option::is_some));
-    let residual = |row: &EstimateRow, i: usize| row.residuals[i].unwrap_or(f64::NAN);
+    let has_cells = found.rows.iter().any(|row| row.residuals.is_some());
+    let residual = |row: &EstimateRow, i: usize| row.residuals.as_ref().map_or(f64::NAN, |all| all[i]);
     let page = EstimatePage {
         shell: Shell::new(format!("{}: estimate from a log", found.robot), CONTENTS),
         found,

@@ -243,15 +243,15 @@ impl<'a> LogRun<'a> {
             return;
         }
         self.last = now;
-        let residuals = self.estimator.relative_innovations().iter().map(|z| Some(*z).filter(|z| z.is_finite()));
-        let residuals = residuals.collect();
+        let residuals = self.estimator.relative_innovations();
+        let residuals = residuals.iter().all(|z| z.is_finite()).then(|| residuals.to_vec());
         let state = self.estimator.state();
         self.rows.push(row_of(now, &state, residuals, self.robot.cables.len(), is_trusted));
     }
 }
 
 /// Row of a state.
-fn row_of(t_s: f64, of: &EstimatedState, residuals: Vec<Option<f64>>, cables: usize, is_trusted: bool) -> EstimateRow {
+fn row_of(t_s: f64, of: &EstimatedState, residuals: Option<Vec<f64>>, cables: usize, is_trusted: bool) -> EstimateRow {
     let cables = &of.cables[..cables];
     let std = |of: &[Estimate; 3]| is_trusted.then(|| of.map(|part| part.std));
     let value = |of: &[Estimate; 3]| of.map(|part| part.value);

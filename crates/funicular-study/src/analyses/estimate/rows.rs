@@ -42,7 +42,9 @@ rows! {
         /// State of cable {}: `slack`, `taut`, or `unknown`.
         pub slack: Vec<&'static str> => each(cables, "slack_{}");
         /// Reading of the load cell of cable {} less the expected one, in its standard deviations.
-        pub residuals: Vec<Option<f64>> => each(cables, "residual_{}");
+        ///
+        /// Absent at a time without a reading of every load cell.
+        pub residuals: Option<Vec<f64>> => each(cables, "residual_{}");
         /// True if the readings of the last half second fit their stated noise.
         pub is_trusted: bool => one;
         /// True while the platform vibrates: payload and its centre are then read from means of tensions alone.
