@@ -1,5 +1,5 @@
-//! Figure of `estimate`: displacement, payload with two deviations, tensions, and residuals of the load cells over time,
-//! with the alarms.
+//! Figure of `estimate`: displacement, payload with two deviations, tensions, and residuals of the load cells over
+//! time, with the alarms.
 
 use super::axis::ChartAxis;
 use super::chart::{Chart, Entry, Layer, Panel, Sample};

@@ -1,5 +1,5 @@
-//! Page about an estimate: pose, velocity, payload with its deviation, tensions and residuals over time, alarms, and the
-//! fit of the sensors.
+//! Page about an estimate: pose, velocity, payload with its deviation, tensions and residuals over time, alarms, and
+//! the fit of the sensors.
 
 use super::Shell;
 use super::figure::{PageFigure, axis, cable_line_style, colour, line, plain};

@@ -6,6 +6,7 @@ mod log;
 mod log_run;
 mod rows;
 mod told;
+mod words;
 
 pub use log::check as check_log;
 pub use rows::{CableErrors, EstimateAlarm, EstimateRow, SensorFit};

@@ -384,8 +384,8 @@ impl Estimator {
         Ok(Some(size))
     }
 
-    /// Tests of the load cells; they rest while the platform rings, because its vibration is no white noise. Returns the
-    /// cable, or none if no cable alone has raised an alarm, and the size over the limit.
+    /// Tests of the load cells; they rest while the platform rings, because its vibration is no white noise. Returns
+    /// the cable, or none if no cable alone has raised an alarm, and the size over the limit.
     fn test_cables(&mut self, step: f64) -> Option<(Option<usize>, f64)> {
         if self.rings() || self.since_alarm < QUIET_AFTER_ALARM {
             self.tests.reset();

@@ -274,8 +274,8 @@ fn single_limit(samples: f64, cables: usize) -> f64 {
 }
 
 /// Explanations of an alarm by runs of copies of a filter over the readings since `start`, each with noise where its
-/// fault would be. `relative` are the innovations at the alarm; `own` is the cable that alone explains them: payload and
-/// wrench, which pull at all cables, are no explanation then.
+/// fault would be. `relative` are the innovations at the alarm; `own` is the cable that alone explains them: payload
+/// and wrench, which pull at all cables, are no explanation then.
 pub(super) fn explain<'a>(
     start: &Kalman,
     rows: &(impl Iterator<Item = (&'a SensorReadings, f64)> + Clone),

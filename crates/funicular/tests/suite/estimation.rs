@@ -188,8 +188,8 @@ impl RestDraws {
     }
 }
 
-/// Mean squares of errors over stated deviations of position, payload and the tensions of all cables, and NIS of the load
-/// cells, for robots at rest with drawn offsets, biases, forces and payloads. The statics room has no part of the
+/// Mean squares of errors over stated deviations of position, payload and the tensions of all cables, and NIS of the
+/// load cells, for robots at rest with drawn offsets, biases, forces and payloads. The statics room has no part of the
 /// filter. `factor` multiplies the biases of the truth, which the settings do not know.
 fn mean_squares(draws_count: u32, factor: f64) -> ([f64; 12], f64) {
     let robot = robot();

@@ -2,7 +2,7 @@
 
 use super::log::EstimateLog;
 use super::rows::{EstimateAlarm, EstimateRow};
-use super::told;
+use super::words;
 use crate::Watch;
 use crate::analyses::shared::PoseRow;
 use crate::at_rest::check_pose;
@@ -194,10 +194,10 @@ impl<'a> LogRun<'a> {
         let Some(FaultVerdict { hypotheses, is_decided }) = self.estimator.explain() else { return };
         let found: Vec<FaultHypothesis> = hypotheses.into_iter().flatten().collect();
         let Some(first) = found.first() else { return };
-        let near = if is_decided { 1 } else { found.iter().filter(|of| of.worse_by <= told::UNDECIDED).count() };
-        let names = |of: &FaultHypothesis| told::fault(of, |i| self.name(i));
+        let near = if is_decided { 1 } else { found.iter().filter(|of| of.worse_by <= words::UNDECIDED).count() };
+        let names = |of: &FaultHypothesis| words::fault(of, |i| self.name(i));
         let (fault, cable, text) = if is_decided {
-            (told::fault_name(first.kind), first.cable, names(first))
+            (words::fault_name(first.kind), first.cable, names(first))
         } else {
             let all: Vec<String> = found[..near].iter().map(names).collect();
             ("undecided", alarm.cable, format!("undecided between: {}", all.join("; or ")))
