@@ -167,8 +167,8 @@ impl<'a> EstimateLog<'a> {
         let read = self.readings(self.first).lengths[..anchors.len()].iter().copied().fold(0.0, f64::max);
         if size > 0.0 && read > OTHER_UNIT * size {
             return Err(fault(format!(
-                "the lengths are up to {} m, but the anchors of the robot file are within {} m of their middle: lengths \
-                 in millimetres have columns length_NAME_mm",
+                "the lengths are up to {} m, but the anchors of the robot file are within {} m of their middle: \
+                 lengths in millimetres have columns length_NAME_mm",
                 significant(read, 3),
                 significant(size, 3)
             )));

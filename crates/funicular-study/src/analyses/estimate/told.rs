@@ -91,7 +91,8 @@ fn warnings(run: &LogRun, log: &EstimateLog) -> Vec<String> {
         ));
     } else if deviation > WORTH_TELLING {
         warnings.push(format!(
-            "the residuals of the load cells at quiet times are {} times what ⟪tension_std_n⟫ says: alarms are rescaled",
+            "the residuals of the load cells at quiet times are {} times what ⟪tension_std_n⟫ says: alarms are \
+             rescaled",
             significant(deviation, 3)
         ));
     }
