@@ -454,6 +454,19 @@ static OUTPUTS: &[(&str, &[Output])] = &[
         ],
     ),
     (
+        "estimate",
+        &[
+            figure(
+                "Draw motion, payload, tensions and residuals over time",
+                |at, _, _| of!(Estimate, at, found => Ok(plain(figures::of_estimate(found)))),
+            ),
+            page(
+                "Write a page with motion, payload, tensions, residuals and alarms",
+                |at| of!(Estimate, at, found => pages::estimate::page(found, at.call.to_owned())),
+            ),
+        ],
+    ),
+    (
         "design",
         &[
             robot_file(

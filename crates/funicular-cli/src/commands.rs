@@ -8,6 +8,7 @@ mod check;
 mod clearance;
 mod compare;
 mod design;
+mod estimate;
 mod frf;
 mod gradient;
 mod gust;

@@ -6,6 +6,7 @@
 
 pub mod calibrate;
 pub mod design;
+pub mod estimate;
 pub(crate) mod figure;
 pub mod identify;
 pub mod live;

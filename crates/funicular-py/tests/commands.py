@@ -95,7 +95,7 @@ def call(line: str) -> tuple[str, list[str], dict[str, Any], dict[str, Any]]:
         elif word in OUTPUT:
             if word not in SWITCHES:
                 next(rest)
-        elif word in SWITCHES:
+        elif word in SWITCHES and (command, word) != ("estimate", "--log"):
             keywords[key] = True
         elif word == "--set":
             path, _, text = next(rest).partition("=")

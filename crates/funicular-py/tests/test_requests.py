@@ -47,6 +47,7 @@ LENGTHS_OVER_TIME = """t_s,unstrained_length_1_m,unstrained_length_2_m,unstraine
 0.5,6.862,6.566,6.755,6.664,6.801,6.604
 1,6.863,6.565,6.756,6.663,6.801,6.604
 """
+ESTIMATED = "docs/estimation/robot.toml --log docs/estimation/run.csv"
 MACHINE = "docs/calibration/machine.toml --readings docs/calibration/belts.csv"
 MORE = [
     "funicular schema --of request",
@@ -85,6 +86,9 @@ MORE = [
     "funicular calibrate robots/ipanema2.toml --readings docs/tutorials/ipanema-lengths.csv --static-model spring --tension-range-n 200:2000",
     f"funicular calibrate {MACHINE} --propose 1 --grid x=1:3:3 --propose-by determinant --min-tension-n 5 --max-tension-n 50 --tension-rule closest --target-tension-n 20",
     f"funicular calibrate {MACHINE} --length-std-m 0.0005 --propose 1 --poses waypoints.csv --propose-for anchors --wanted-std-m 0.05",
+    f"funicular estimate {ESTIMATED} --every-s 0.5 --inertial-unit-m 0.1,0,0.5 --tracked-point-m 0,0,1 --near-pose 0,0,1.5 --false-alarms-per-hour 1 --length-std-m 1e-5 --tension-std-n 4",
+    f"funicular estimate {ESTIMATED} --every-s 1 --cable-angle-std-rad 0.002 --gyroscope-std-rad-s 0.003 --accelerometer-std-m-s2 0.05 --tracker-std-m 0.002 --payload-kg 1 --payload-std-kg 0.5",
+    f"funicular estimate {ESTIMATED} --every-s 1 --first-moment-std-kg-m 0.05 --force-std-n 2 --moment-std-n-m 0.4 --force-time-s 2 --offset-std-m 0.002 --tension-bias-std-n 6 --friction 0.01",
     f"funicular calibrate {MACHINE} --accuracy-poses waypoints.csv --propose 1 --grid x=1:3:3 --propose-for tool",
     f"funicular compare {ROBOT} --below-hz 2",
     f"funicular compare robots/cogiro.toml --below-hz 6 {TENSIONS} --platform --platform-share 0.6 --tolerance 0.05",
@@ -349,7 +353,7 @@ def test_a_command_line_and_a_call_are_one_request(line: str, executable: str) -
 # Commands whose results are compared; the others make pages, files or rows, which have their own tests.
 COMPUTED = (
     *("check", "parameters", "statics", "stiffness", "modes", "frf", "compare", "gradient", "payload", "loads", "speeds", "winches", "trajectory", "simulate", "clearance", "workspace", "prove", "pose-error", "cable"),
-    *("settle", "gust", "reduce", "identify", "calibrate", "uncertainty"),
+    *("settle", "gust", "reduce", "identify", "calibrate", "estimate", "uncertainty"),
 )
 
 
@@ -385,7 +389,7 @@ def test_a_call_and_a_request_have_the_results_of_the_program(line: str, executa
     if command == "uncertainty":
         assert robot.uncertainty(**keywords).details == theirs
         return
-    if command in ("pose-error", "payload", "loads", "speeds", "winches", "trajectory", "simulate", "clearance", "workspace", "prove", "calibrate"):
+    if command in ("pose-error", "payload", "loads", "speeds", "winches", "trajectory", "simulate", "clearance", "workspace", "prove", "calibrate", "estimate"):
         method = getattr(robot, command.replace("-", "_"))
         assert plain(method(**keywords)) == theirs
         return

@@ -13,6 +13,7 @@ pub mod check;
 pub mod clearance;
 pub mod compare;
 pub mod design;
+pub mod estimate;
 mod fields;
 pub mod frf;
 pub mod gradient;

@@ -6,6 +6,7 @@
 
 mod calibrate;
 mod design;
+mod estimate;
 mod files;
 mod given;
 mod gradient;
@@ -32,6 +33,7 @@ mod workspace;
 
 pub use calibrate::{CalibrateRequest, PriorValue};
 pub use design::{ChangeValue, DesignRequest, OfferedRope};
+pub use estimate::EstimateRequest;
 pub use files::{ExportRequest, ImportRequest, NewRequest, SchemaRequest, TABLE_TOLERANCE_M};
 pub use given::{check_given, convert_units};
 pub(crate) use given::{check_scenario, read};
@@ -181,6 +183,7 @@ commands! {
     Reduce(ReduceRequest) "reduce" Needed robot;
     Identify(IdentifyRequest) "identify" Needed robot;
     Calibrate(CalibrateRequest) "calibrate" Needed robot;
+    Estimate(EstimateRequest) "estimate" Needed robot;
     Design(DesignRequest) "design" Needed robot;
     Map(MapRequest) "map" Needed robot;
     Sweep(SweepRequest) "sweep" Needed robot;

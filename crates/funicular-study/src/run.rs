@@ -8,6 +8,7 @@ use crate::analyses::{
     clearance::{self, Clearances},
     compare::{self, Compared},
     design::{self, Designed},
+    estimate::{self, Estimated},
     frf,
     gradient::{self, GradientTable},
     gust::{self, Gusty},
@@ -167,6 +168,7 @@ answers! {
     Reduce(ReducedForm): of => reduce::run(robot()?, of, watch)?, at at_rest => reduce::about(at_rest, of, watch)?;
     Identify(Box<Identified>): of => Box::new(identify::run(of, watch)?);
     Calibrate(Box<Calibrated>): of => Box::new(calibrate::run(of, watch)?);
+    Estimate(Box<Estimated>): of => Box::new(estimate::run(&robot()?, of, watch)?);
     Workspace(Box<Workspace>): of => Box::new(workspace::run(robot()?, of, watch)?);
     Prove(Box<Proved>): of => Box::new(prove::run(robot()?, of, watch)?);
     Design(Box<Designed>): of => Box::new(design::run(of, watch)?);

@@ -55,6 +55,7 @@ pub mod compare;
 pub mod control_loop;
 pub mod drive;
 pub mod dynamics;
+pub mod estimation;
 pub mod gradient;
 pub mod gust;
 pub mod length_table;

@@ -54,6 +54,8 @@ fn shortest() -> Vec<Vec<String>> {
     }
     let [machine, readings] = ["machine.toml", "belts.csv"].map(|file| project("docs/calibration/") + file);
     lines.push(line(&["calibrate", &machine, "--readings", &readings]));
+    let [held, log] = ["robot.toml", "run.csv"].map(|file| project("docs/estimation/") + file);
+    lines.push(line(&["estimate", &held, "--log", &log]));
     lines.push(line(&["new"]));
     lines.push(line(&["import", &imported]));
     lines

@@ -7,6 +7,7 @@ mod clearance;
 mod compare;
 mod defaults;
 mod design;
+mod estimate;
 mod export;
 mod figures;
 mod files;

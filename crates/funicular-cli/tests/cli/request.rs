@@ -159,7 +159,9 @@ fn the_request_of_every_command_runs_again() {
     let machine = super::project("docs/calibration/machine.toml");
     let release = super::project("docs/simulation/release.toml");
     let belts = super::project("docs/calibration/belts.csv");
-    let lines: [(&[&str], &[&str]); 13] = [
+    let [run, machine_at_rest] =
+        ["run.csv", "robot.toml"].map(|name| super::project(&format!("docs/estimation/{name}")));
+    let lines: [(&[&str], &[&str]); 14] = [
         (&["reduce", "ROBOT", "--below-hz", "1.3", "--input", "fz", "--output", "z", "--order", "4"], &[]),
         (&["reduce", "ROBOT", "--below-hz", "1.3", "--form", "second-order"], &[]),
         (&["payload", &cogiro, "--pose", "1,2,1.5"], &[]),
@@ -169,6 +171,7 @@ fn the_request_of_every_command_runs_again() {
             &[],
         ),
         (&["calibrate", &machine, "--readings", &belts, "--propose", "1", "--grid", "x=1:4:4"], &[]),
+        (&["estimate", &machine_at_rest, "--log", &run, "--every-s", "0.5"], &[]),
         (
             &["simulate", "ROBOT", "--mass-kg", "12.5", "--scenario", &release, "--for", "0.05", "--point", "a=0,0,1"],
             &[],

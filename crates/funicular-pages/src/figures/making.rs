@@ -6,7 +6,8 @@ use super::drawing::{BLACK, Stroke};
 use super::space::{RobotShape, Space};
 use super::style::{self, GREY, ModelStyle, Symbol};
 use super::{
-    Figure, FigureContent, bars, calibration, gusts, motions, pairs, proved, sections, settling, simulated, winches,
+    Figure, FigureContent, bars, calibration, estimated, gusts, motions, pairs, proved, sections, settling, simulated,
+    winches,
 };
 use crate::figure_style::{MODE_TICKS, ModeTick, rgb};
 use anyhow::{Result, bail};
@@ -20,6 +21,7 @@ use funicular_study::Watch;
 use funicular_study::analyses::calibrate::Calibrated;
 use funicular_study::analyses::clearance::Clearances;
 use funicular_study::analyses::compare::Compared;
+use funicular_study::analyses::estimate::Estimated;
 use funicular_study::analyses::frf;
 use funicular_study::analyses::gust::Gusty;
 use funicular_study::analyses::loads::Loads;
@@ -69,6 +71,11 @@ pub fn of_proof(found: &Proved) -> Result<Figure> {
 /// Makes the figure of a calibration that has been computed before.
 pub fn of_calibration(found: &Calibrated) -> Figure {
     Figure(FigureContent::Chart(calibration::chart(found)))
+}
+
+/// Makes the figure of an estimate that has been computed before.
+pub fn of_estimate(found: &Estimated) -> Figure {
+    Figure(FigureContent::Chart(estimated::chart(found)))
 }
 
 /// Makes the figure of a simulation that has been computed before.

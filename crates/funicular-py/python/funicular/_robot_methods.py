@@ -22,6 +22,7 @@ from funicular._uncertainty import Uncertainty, uncertainty as deviations_of
 from funicular.results import (
     CalibrateResults,
     ClearanceResults,
+    EstimateResults,
     LoadsResults,
     PayloadResults,
     PoseErrorResults,
@@ -525,6 +526,35 @@ def calibrate(of: Any, given: Given) -> CalibrateResults:
     if given.get("prior") is not None:
         given = {**given, **keywords("calibrate", {"prior": given["prior"]}, of.cable_names)}
     return _results.of_answered(CalibrateResults, of._answer("calibrate", given))
+
+
+@declared(Robot, "estimate", positional=("log",), files=True)
+def estimate(of: Any, given: Given) -> EstimateResults:
+    """Estimates pose, velocity, payload and tensions over time from the log of a machine, each with its deviation, and alarms.
+
+    Parameters
+    ----------
+    log
+        One row per time: `t_s`, `length_NAME_m` of every cable, and optionally `tension_anchor_NAME_n`, `gyroscope_x_rad_s`,
+        `accelerometer_x_m_s2`, `tracker_x_m` and more, as a mapping, a data frame or a CSV file.
+
+    Returns
+    -------
+    The keys of the program's JSON: `fit` and `not_determined` as sentences, `alarms`, `sensors`, `cable_errors`, and `rows`
+    over time.
+
+    Raises
+    ------
+    InputError
+        A column, a time or a value is wrong, or the lengths of a cable are missing.
+    NoSolutionError
+        The lengths have no equilibrium.
+
+    References
+    ----------
+    docs/theory.md, equations (97r) to (97za).
+    """
+    return _results.of_answered(EstimateResults, of._answer("estimate", given))
 
 
 @declared(Robot, "design", positional=("change",), without=("lengths_m", "hold_lengths_of_pose"), others=_AS_BOTH, files=True)

@@ -883,6 +883,111 @@ class ChosenValue(Row):
     """Chosen value."""
 
 
+class EstimateAlarm(Row):
+    """Alarm of a test."""
+
+    cable: str | None
+    """Cable with the fault."""
+    fault: str
+    """Fault: `slip`, `load-cell`, `payload`, `force`, `cut`, `stuck`, `undecided`, or `restart`."""
+    size: float | None
+    """Size of the fault: slip [m], step of a load cell [N], payload [kg], force along z [N]."""
+    size_std: float | None
+    """Standard deviation of the size."""
+    t_s: float
+    """Time of the log [s]."""
+    text: str
+    """Sentence about the alarm."""
+
+
+class CableErrors(Row):
+    """Constant errors of the sensors of one cable at the end of the log."""
+
+    cable: str
+    """Cable."""
+    offset_m: float
+    """Length less its reading [m]."""
+    offset_std_m: float
+    """Standard deviation of the offset [m]."""
+    residual_ratio: float | None
+    """Root mean square of the residuals of its load cell, in their standard deviations."""
+    tension_bias_n: float | None
+    """Constant error of the load cell [N].
+
+    Absent without readings."""
+    tension_bias_std_n: float | None
+    """Standard deviation of this error [N]."""
+
+
+class EstimateRow(Row):
+    """Estimated state at one time. Lists have a number per cable. Deviations are absent where the readings do not fit
+    their stated noise."""
+
+    angular_velocity_rad_s: NDArray[np.float64]
+    """Angular velocity of the platform [rad/s]."""
+    angular_velocity_std_rad_s: NDArray[np.float64] | None
+    """Standard deviation of the angular velocity [rad/s]."""
+    force_n: NDArray[np.float64]
+    """External force besides the loads of the file [N]."""
+    force_std_n: NDArray[np.float64] | None
+    """Standard deviation of the external force [N]."""
+    is_trusted: bool
+    """True if the readings of the last half second fit their stated noise."""
+    payload_center_m: NDArray[np.float64] | None
+    """Centre of mass of the payload, platform frame [m].
+
+    Absent while payload or first moment are too uncertain."""
+    payload_kg: float
+    """Payload beyond the platform of the file [kg]."""
+    payload_std_kg: float | None
+    """Standard deviation of the payload [kg]."""
+    position_m: NDArray[np.float64]
+    """Position of the platform origin [m]."""
+    position_std_m: NDArray[np.float64] | None
+    """Standard deviation of the position [m]."""
+    quaternion_wxyz: NDArray[np.float64]
+    """Orientation as a quaternion w, x, y, z."""
+    residuals: NDArray[np.float64]
+    """Reading of the load cell of each cable less the expected one, in its standard deviations."""
+    rings: bool
+    """True while the platform vibrates: payload and its centre are then read from means of tensions alone."""
+    roll_pitch_yaw_deg: NDArray[np.float64]
+    """Roll, pitch, yaw of the platform [deg]."""
+    rotation_std_deg: NDArray[np.float64] | None
+    """Standard deviation of small turns about the world's axes [deg]."""
+    slack: list[str]
+    """State of each cable: `slack`, `taut`, or `unknown`."""
+    t_s: float
+    """Time of the log [s]."""
+    tensions_n: NDArray[np.float64]
+    """Tension of each cable at the anchor or drum [N]."""
+    tensions_std_n: NDArray[np.float64] | None
+    """Standard deviation of the tension of each cable [N]."""
+    velocity_m_s: NDArray[np.float64]
+    """Velocity of the platform origin [m/s]."""
+    velocity_std_m_s: NDArray[np.float64] | None
+    """Standard deviation of the velocity [m/s]."""
+
+
+class SensorFit(Row):
+    """Readings of one kind of sensor beside their stated noise."""
+
+    band: NDArray[np.float64]
+    """Band that holds the mean square with 95 % if noise and model are true."""
+    outliers: int
+    """Readings left out as outliers."""
+    readings: int
+    """Number of readings."""
+    sensor: str
+    """Sensor."""
+    squares: float
+    """Squared residuals by their covariance, per reading.
+
+    One if noise and model are true."""
+    text: str
+    """Sentence about the residuals."""
+
+
 class GradientParameter(Row):
     """Number of the robot file."""
 
@@ -2955,6 +3060,38 @@ class DesignResults(Results):
     }
 
 
+class EstimateResults(Results):
+    """Results of `estimate`."""
+
+    alarms: list[EstimateAlarm]
+    """Alarms in the order of their times."""
+    cable_errors: list[CableErrors]
+    """Cable errors."""
+    cables: list[str]
+    """Names of the cables, in the order of all lists."""
+    fit: str
+    """Sentence on the fit of the readings."""
+    log_rows: int
+    """Number of rows of the log."""
+    not_determined: list[str]
+    """Sentences on numbers that these sensors do not determine."""
+    robot: str | None
+    """Name of the robot; absent if there are several."""
+    rows: list[EstimateRow]
+    """Rows."""
+    sensors: list[SensorFit]
+    """Sensors."""
+    warnings: list[str]
+    """Sentences that the user should know before trusting the numbers."""
+
+    _PARTS: ClassVar[dict[str, type[Row]]] = {
+        "alarms": EstimateAlarm,
+        "cable_errors": CableErrors,
+        "rows": EstimateRow,
+        "sensors": SensorFit,
+    }
+
+
 class GradientResults(Results):
     """Results of `gradient`."""
 
@@ -3839,6 +3976,7 @@ OF_COMMANDS.update(
         "clearance": ClearanceResults,
         "compare": CompareResults,
         "design": DesignResults,
+        "estimate": EstimateResults,
         "gradient": GradientResults,
         "gust": GustResults,
         "identify": IdentifyResults,

@@ -17,6 +17,7 @@ mod derivatives;
 mod drive;
 mod dynamic_stiffness;
 mod dynamics;
+mod estimation;
 mod gust;
 mod length_table;
 mod level_set;
