@@ -1,10 +1,13 @@
 //! Files that commands write besides their result: one table, from which the program has its options, Python its
 //! keywords and a request in JSON its `write_files`.
 
+mod made;
 mod opened;
 mod rows;
 mod wanted;
 
+pub(crate) use made::Made;
+use made::{Drawn, plain};
 pub use opened::{Opened, Written, told};
 use rows::{
     certificate, certificate_of, drawn, figure, file, lengths, page, proved_of, proved_surface, robot_file, surface_of,
@@ -12,13 +15,13 @@ use rows::{
 };
 pub use wanted::{FILES, Wanted, schema, take_wanted, wanted_to_value};
 
-use crate::destination::{Bytes, Content, Destination};
+use crate::destination::{Content, Destination};
 use crate::matrices;
 use anyhow::{Result, anyhow, bail};
 use funicular_files::endings::{self, Kind};
 use funicular_files::{Guard, SweepFile};
 use funicular_formats::uff_writing::{frf_file, modes_file};
-use funicular_pages::figures::{self, Figure, RequestFigure};
+use funicular_pages::figures;
 use funicular_pages::pages;
 use funicular_pages::pages::plot::SweepFigureChoice;
 use funicular_pages::pages::summary::Summary;
@@ -115,40 +118,6 @@ impl FigureOptions {
 
 /// Keys of a request that are given, as JSON.
 pub type Given = Map<String, Value>;
-
-/// Content of a file, ready to be written.
-pub(crate) struct Made {
-    pub(crate) bytes: Bytes,
-    /// Sentences about the file that the user should know.
-    pub(crate) warnings: Vec<String>,
-    /// Notes for the user.
-    pub(crate) notes: Vec<String>,
-    /// Size of the content in words.
-    pub(crate) size: Option<String>,
-}
-
-impl From<Vec<u8>> for Made {
-    fn from(bytes: Vec<u8>) -> Self {
-        Self { bytes: Bytes::File(bytes), warnings: Vec::new(), notes: Vec::new(), size: None }
-    }
-}
-
-/// Figure with sentences about it.
-struct Drawn {
-    figure: Figure,
-    warnings: Vec<String>,
-    notes: Vec<String>,
-}
-
-fn plain(figure: Figure) -> Drawn {
-    Drawn { figure, warnings: Vec::new(), notes: Vec::new() }
-}
-
-impl From<RequestFigure> for Drawn {
-    fn from(RequestFigure { figure, warnings }: RequestFigure) -> Self {
-        Self { figure, warnings, notes: Vec::new() }
-    }
-}
 
 /// Size of a page in words.
 pub(crate) fn size_of_page(bytes: usize) -> String {

@@ -295,3 +295,13 @@ unstrained_length_m = 5.0
     }
     assert!(number(&last["payload_kg"]).abs() < 0.1 && last["rotation_std_deg"][0] == 0.0, "{last}");
 }
+
+#[test]
+fn a_log_that_does_not_fit_says_so_first_and_names_the_sensor() {
+    // The tracked point is 1 m above the origin; without it the tracker contradicts everything.
+    let told = found(&log_text(), &PRIORS[..6]);
+    let fit = told["fit"].as_str().unwrap();
+    assert!(fit.starts_with("the log does not fit this robot: in ") && fit.contains("those of the tracker"), "{fit}");
+    let right = found(&log_text(), &PRIORS);
+    assert!(!right["fit"].as_str().unwrap().contains("does not fit"), "{right}");
+}

@@ -141,10 +141,27 @@ fn fit(sensors: &[SensorFit], run: &LogRun, log: &EstimateLog) -> String {
     if sensors.is_empty() {
         return "there is nothing but lengths: they and the load give the pose, and nothing tests it".to_owned();
     }
+    if 2 * run.mistrusted > log.count() {
+        return misfit(sensors, run, log);
+    }
     let large: Vec<&str> = sensors.iter().filter(|of| of.squares > of.band[1]).map(|of| of.sensor).collect();
     if large.is_empty() {
         return "all readings fit their stated noise".to_owned();
     }
-    let most = if 2 * run.mistrusted > log.count() { ", in most rows" } else { "" };
-    format!("larger residuals than the stated noise allows{most}: {}", large.join(", "))
+    format!("larger residuals than the stated noise allows: {}", large.join(", "))
+}
+
+/// Sentence on a log most of whose rows do not fit, with the sensor that fits least.
+fn misfit(sensors: &[SensorFit], run: &LogRun, log: &EstimateLog) -> String {
+    let worst = sensors.iter().max_by(|a, b| (a.squares / a.band[1]).total_cmp(&(b.squares / b.band[1])));
+    let of_worst = worst.map_or_else(String::new, |of| {
+        format!(", most of all those of the {} (mean square {} instead of 1)", of.sensor, significant(of.squares, 3))
+    });
+    format!(
+        "the log does not fit this robot: in {} of {} rows the readings are far beyond their stated noise{of_worst}; \
+         the numbers and alarms below mean little. Check the places of the sensors on the platform (tracked point, \
+         inertial unit), their axes and units, and the robot file",
+        run.mistrusted,
+        log.count()
+    )
 }
