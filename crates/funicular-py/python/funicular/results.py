@@ -947,8 +947,10 @@ class EstimateRow(Row):
     """Standard deviation of the position [m]."""
     quaternion_wxyz: NDArray[np.float64]
     """Orientation as a quaternion w, x, y, z."""
-    residuals: NDArray[np.float64]
-    """Reading of the load cell of each cable less the expected one, in its standard deviations."""
+    residuals: NDArray[np.float64] | None
+    """Reading of the load cell of each cable less the expected one, in its standard deviations.
+
+    Absent at a time without a reading of every load cell."""
     rings: bool
     """True while the platform vibrates: payload and its centre are then read from means of tensions alone."""
     roll_pitch_yaw_deg: NDArray[np.float64]
