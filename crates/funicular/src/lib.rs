@@ -57,6 +57,7 @@ pub mod drive;
 pub mod dynamics;
 pub mod gradient;
 pub mod gust;
+pub mod histories;
 pub mod length_table;
 pub mod level_set;
 pub mod math;

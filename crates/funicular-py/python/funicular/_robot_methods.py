@@ -445,7 +445,7 @@ def identify(of: Any, given: Given) -> Identified:
         The robot has no equilibrium at any start.
     """
     state = {key: given.pop(key) for key in list(given) if key in STATE}
-    given["experiments"] = with_state(given["experiments"], keywords("identify", state, of.cable_names))
+    given["experiments"] = with_state(given.get("experiments", []), keywords("identify", state, of.cable_names))
     return identified(of.request("identify", **given))
 
 

@@ -335,7 +335,7 @@ fn history_keys() -> Vec<Key> {
     vec![
         entry("name", Kind::Text, false),
         entry("time_s", Kind::PerCable(Range::Finite), true),
-        entry("channels", Kind::Data(shape::objects), true),
+        entry("channels", Kind::Data(super::shape::objects), true),
     ]
 }
 

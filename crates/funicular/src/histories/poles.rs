@@ -5,10 +5,10 @@ use std::f64::consts::TAU;
 use thiserror::Error;
 
 /// Minimum number of samples of a history.
-pub const MIN_SAMPLES: usize = 40;
+const MIN_SAMPLES: usize = 40;
 
 /// Maximum number of channels of a history.
-pub const MAX_CHANNELS: usize = 60;
+const MAX_CHANNELS: usize = 60;
 
 /// Samples that do not make a history.
 #[derive(Debug, Clone, PartialEq, Error)]
