@@ -536,8 +536,8 @@ class CheckedPose(Row):
 
 
 class CheckedRequired(Row):
-    """Loads that the robot has to bear in addition to the dead load, and velocities that its winches have to give. What
-    is not required is absent."""
+    """Loads that the robot has to bear in addition to the dead load, and velocities that its winches have to give. A
+    load that is not required is absent."""
 
     acceleration_m_s2: NDArray[np.float64] | None
     """Acceleration [m/s²]."""

@@ -17,8 +17,8 @@ const MAX_SEARCHES: usize = 8;
 /// Relative gain of an exchange of attachments that is more than rounding.
 const MIN_GAIN: f64 = 1e-6;
 
-/// Largest number of rounds of exchanges, far more than a robot has pairs that gain; the goal gains in every round, so
-/// that they end by themselves.
+/// Largest number of rounds of exchanges, which bounds the time: the goal gains in every round, and rounds end by
+/// themselves where none gains.
 const MAX_ROUNDS: usize = 50;
 
 /// Keys of a material that belong to the section of its rope.
