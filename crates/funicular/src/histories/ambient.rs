@@ -19,7 +19,7 @@ const MAX_PAIRS: usize = 20;
 /// Step of the jackknife. The pipeline is smooth, and the error of its differences is proportional to the step.
 const STEP: f64 = 1e-4;
 
-/// Number of orders in a row in which a stable pole is found.
+/// Number of orders in a row, of which every second one may lack it, in which a stable pole is found.
 const STABLE_ORDERS: usize = 5;
 
 /// Differences of a stable pole from one order to the next: frequency and damping ratio, relative, and MAC.
@@ -109,6 +109,15 @@ impl SubspacePipeline {
         Some(DMat::from_fn(rows * channels, order.min(places.len() - channels), column))
     }
 
+    /// Observability matrices of covariances that are moved towards those of each block.
+    fn moved(&self, mean: &[DMat], of_blocks: &[Vec<DMat>], order: usize) -> Option<Vec<DMat>> {
+        let of_block = |block: &Vec<DMat>| {
+            let moved: Vec<DMat> = mean.iter().zip(block).map(|(mean, own)| mean + (own - mean) * STEP).collect();
+            self.observability(&moved, order)
+        };
+        of_blocks.iter().map(of_block).collect()
+    }
+
     fn poles(&self, observability: &DMat, order: usize) -> Vec<RawPole> {
         poles_of(&observability.columns(0, order).into(), self.channels, self.step)
     }
@@ -135,30 +144,42 @@ pub fn identify(samples: &Samples, options: AmbientOptions) -> Result<Ambient, S
         (0..blocks).map(|block| covariances(samples, block * size, size, 2 * rows, stride)).collect();
     let mean = covariances(samples, 0, samples.count(), 2 * rows, stride);
 
-    // Orders, and the one that is taken.
+    // Orders that may be taken.
     let highest = (2 * MAX_PAIRS).max(options.order.unwrap_or(0)).min((rows - 1) * channels);
     let whole = pipeline.observability(&mean, highest).ok_or(SamplesError::NoPole)?;
     let highest = whole.ncols();
     let orders: Vec<(usize, Vec<RawPole>)> =
         (1..=highest / 2).map(|pairs| (2 * pairs, pipeline.poles(&whole, 2 * pairs))).collect();
     let (diagram, stable) = stabilisation(&orders);
-    let (order, mut chosen) = match options.order {
-        Some(order) => {
-            let order = order.min(highest);
-            (order, usable(pipeline.poles(&whole, order)))
-        }
-        None => stable_order(&orders, &stable).ok_or(SamplesError::NoPole)?,
+    let mut candidates = match options.order {
+        Some(order) => vec![(order.min(highest), usable(pipeline.poles(&whole, order.min(highest))))],
+        None => stable_orders(&orders, &stable),
     };
     let is_harmonic = |pole: &RawPole| frequency_and_damping(pole.eigenvalue)[1] < HARMONIC;
-    let harmonics: Vec<f64> =
-        chosen.iter().filter(|pole| is_harmonic(pole)).map(|pole| frequency_and_damping(pole.eigenvalue)[0]).collect();
-    chosen.retain(|pole| !is_harmonic(pole));
-    if chosen.is_empty() {
-        return Err(SamplesError::NoPole);
+    let mut harmonics = Vec::new();
+    if let Some((_, poles)) = candidates.last() {
+        harmonics.extend(poles.iter().filter(|pole| is_harmonic(pole)).map(|of| frequency_and_damping(of.eigenvalue)[0]));
     }
+    candidates.iter_mut().for_each(|(_, poles)| poles.retain(|pole| !is_harmonic(pole)));
 
-    let found = jackknife(&pipeline, (&of_blocks, &mean), order, &chosen).ok_or(SamplesError::NoPole)?;
+    // Of these the least one with the most determined poles.
+    let moved = pipeline.moved(&mean, &of_blocks, highest).ok_or(SamplesError::NoPole)?;
+    let mut best: Option<(usize, PoleSet)> = None;
+    for (order, poles) in candidates {
+        let Some(found) = jackknife(&pipeline, &moved, order, &poles) else { continue };
+        let determined: Vec<usize> = (0..poles.len()).filter(|k| is_determined(&found.poles[*k])).collect();
+        if determined.len() > best.as_ref().map_or(0, |(_, most)| most.poles.len()) {
+            best = Some((order, found.chosen(&determined)));
+        }
+    }
+    let (order, found) = best.ok_or(SamplesError::NoPole)?;
     Ok(Ambient { found, order, blocks, stride, diagram, harmonics_hz: harmonics, duration: samples.duration() })
+}
+
+/// True if the frequency of a pole is better known than half the width of its peak. A vibration is known to a quarter
+/// of it in the least record of which the damping ratio is told; a pole that the noise has made is known to more than it.
+fn is_determined(pole: &IdentifiedPole) -> bool {
+    pole.frequency_std_hz < pole.damping_ratio * pole.frequency_hz
 }
 
 /// Number of samples between two covariances: the record is sampled faster than its vibrations need.
@@ -217,11 +238,14 @@ fn stabilisation(orders: &[(usize, Vec<RawPole>)]) -> (Vec<DiagramPole>, Vec<Raw
     let mut stable: Vec<RawPole> = Vec::new();
     for (index, (order, poles)) in orders.iter().enumerate() {
         let poles = usable(poles.clone());
-        let before = index.checked_sub(1).map(|i| usable(orders[i].1.clone())).unwrap_or_default();
+        // One order may lack the pole, where another one lies over it.
+        let before: Vec<(RawPole, usize)> = (index.saturating_sub(2)..index)
+            .flat_map(|i| usable(orders[i].1.clone()).into_iter().zip(lengths[i].clone()))
+            .collect();
         let mut own = Vec::with_capacity(poles.len());
         for pole in &poles {
-            let kin = before.iter().enumerate().filter(|(_, other)| is_same(other, pole));
-            let longest = kin.map(|(k, _)| lengths[index - 1][k]).max().unwrap_or(0);
+            let kin = before.iter().filter(|(other, _)| is_same(other, pole));
+            let longest = kin.map(|(_, length)| *length).max().unwrap_or(0);
             own.push(longest + 1);
             let [frequency_hz, damping_ratio] = frequency_and_damping(pole.eigenvalue);
             let is_stable = longest + 1 >= STABLE_ORDERS;
@@ -242,11 +266,8 @@ fn is_near(a: &RawPole, b: &RawPole) -> bool {
     (f - other).abs() < SAME_FREQUENCY.max(zeta) * f && mac(&a.shape, &b.shape) > 0.8
 }
 
-/// Least order that has all stable poles, with these poles.
-fn stable_order(orders: &[(usize, Vec<RawPole>)], stable: &[RawPole]) -> Option<(usize, Vec<RawPole>)> {
-    if stable.is_empty() {
-        return None;
-    }
+/// Orders that have more of the stable poles than all lower ones, with these poles.
+fn stable_orders(orders: &[(usize, Vec<RawPole>)], stable: &[RawPole]) -> Vec<(usize, Vec<RawPole>)> {
     let in_order = |poles: &Vec<RawPole>| -> Vec<RawPole> {
         let poles = usable(poles.clone());
         let mut found: Vec<RawPole> = Vec::new();
@@ -257,19 +278,17 @@ fn stable_order(orders: &[(usize, Vec<RawPole>)], stable: &[RawPole]) -> Option<
                 found.push(best.clone());
             }
         }
+        found.sort_by(|a, b| a.eigenvalue.norm().total_cmp(&b.eigenvalue.norm()));
         found
     };
-    let all = orders.iter().map(|(order, poles)| (*order, in_order(poles)));
-    // The first of the orders with the most of them.
-    let mut best: Option<(usize, Vec<RawPole>)> = None;
-    for (order, found) in all {
-        if best.as_ref().is_none_or(|(_, most)| found.len() > most.len()) {
-            best = Some((order, found));
+    let mut growing: Vec<(usize, Vec<RawPole>)> = Vec::new();
+    for (order, poles) in orders {
+        let found = in_order(poles);
+        if found.len() > growing.last().map_or(0, |(_, most)| most.len()) {
+            growing.push((*order, found));
         }
     }
-    let (order, mut found) = best?;
-    found.sort_by(|a, b| a.eigenvalue.norm().total_cmp(&b.eigenvalue.norm()));
-    Some((order, found))
+    growing
 }
 
 /// Numbers of poles: frequency, damping ratio, and the real and imaginary parts of the shape, 1 in its largest channel.
@@ -278,13 +297,8 @@ fn numbers(pole: &RawPole, largest: usize) -> Vec<f64> {
     frequency_and_damping(pole.eigenvalue).into_iter().chain(shape.flat_map(|value| [value.re, value.im])).collect()
 }
 
-/// Poles with their covariance: the whole pipeline is run with covariances that are moved towards those of each block.
-fn jackknife(
-    pipeline: &SubspacePipeline,
-    (of_blocks, mean): (&[Vec<DMat>], &[DMat]),
-    order: usize,
-    poles: &[RawPole],
-) -> Option<PoleSet> {
+/// Poles with their covariance, from the observability matrices that were moved towards each block.
+fn jackknife(pipeline: &SubspacePipeline, moved: &[DMat], order: usize, poles: &[RawPole]) -> Option<PoleSet> {
     let largest: Vec<usize> = poles
         .iter()
         .map(|pole| {
@@ -294,11 +308,10 @@ fn jackknife(
         .collect();
     let here: Vec<f64> = poles.iter().zip(&largest).flat_map(|(pole, c)| numbers(pole, *c)).collect();
 
-    let count = of_blocks.len() as f64;
+    let count = moved.len() as f64;
     let mut sum = DMat::zeros(here.len(), here.len());
-    for block in of_blocks {
-        let moved: Vec<DMat> = mean.iter().zip(block).map(|(mean, own)| mean + (own - mean) * STEP).collect();
-        let found = pipeline.poles(&pipeline.observability(&moved, order)?, order);
+    for block in moved {
+        let found = pipeline.poles(block, order);
         let mut there = Vec::with_capacity(here.len());
         for (pole, c) in poles.iter().zip(&largest) {
             let distance = |other: &&RawPole| (other.eigenvalue - pole.eigenvalue).norm();

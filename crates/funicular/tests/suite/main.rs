@@ -18,6 +18,7 @@ mod drive;
 mod dynamic_stiffness;
 mod dynamics;
 mod gust;
+mod histories;
 mod length_table;
 mod level_set;
 mod library;
