@@ -1,4 +1,5 @@
-//! Measured responses, natural frequencies and time histories as plain data, and the accuracy of measurements that state none.
+//! Measured responses, natural frequencies and time histories as plain data, and the accuracy of measurements that
+//! state none.
 
 use serde::{Deserialize, Serialize};
 

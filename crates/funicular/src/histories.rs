@@ -1,7 +1,7 @@
 //! Poles of measured time histories: frequencies, damping ratios and shapes with their covariance. Knows no robot.
 //!
 //! A free decay is fitted by damped sinusoids with variable projection ([`decay`]), a record under unknown broad-band
-//! excitation by its covariances ([`ambient`]). docs/theory.md, section 18e, has the equations.
+//! excitation by its covariances ([`ambient`]). docs/theory.md, section 18g, has the equations.
 
 pub mod ambient;
 pub mod decay;

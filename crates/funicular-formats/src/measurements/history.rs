@@ -105,9 +105,9 @@ fn is_at_point(output: &str) -> bool {
 
 /// Signal and factor of a column.
 fn sensor_column(path: &str, at: usize, name: &str, given: Option<&ResponseName>) -> Result<SensorColumn> {
-    let found = SENSOR_UNITS.iter().find_map(|(ending, becomes, size)| {
-        Some((format!("{}{becomes}", name.strip_suffix(ending)?), *size))
-    });
+    let found = SENSOR_UNITS
+        .iter()
+        .find_map(|(ending, becomes, size)| Some((format!("{}{becomes}", name.strip_suffix(ending)?), *size)));
     let (name, factor) = found.unwrap_or_else(|| (name.to_owned(), 1.0));
     if let Some(given) = given {
         let output = Output::parse(&given.output)

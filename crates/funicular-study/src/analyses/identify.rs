@@ -451,7 +451,9 @@ fn is_noise_given(request: &IdentifyRequest) -> bool {
             (experiment.measured_lengths_m.is_some(), experiment.length_std_m),
         ];
         responses.iter().all(|response| response.std.is_some())
-            && frequencies.iter().all(|of| of.std_hz.is_some() && (of.damping_ratio.is_none() || of.damping_std.is_some()))
+            && frequencies
+                .iter()
+                .all(|of| of.std_hz.is_some() && of.damping_ratio.is_some() == of.damping_std.is_some())
             && statics.iter().all(|(is_measured, deviation)| !is_measured || deviation.is_some())
     })
 }
@@ -602,10 +604,14 @@ impl<'a> FittedValue<'a> {
 
 impl Tabled for Identified {
     fn tables() -> Vec<(&'static str, Vec<Column>)> {
-        vec![("", FittedValue::columns().described())]
+        let poles = ("without `--fit`: frequencies of time histories", PoleRow::columns().described());
+        vec![("fitted values", FittedValue::columns().described()), poles]
     }
 
     fn table(&self) -> ResultTable<'_> {
+        if self.values.is_empty() {
+            return ResultTable::new(PoleRow::columns(), self.histories.iter().flat_map(|history| &history.poles));
+        }
         ResultTable::new(FittedValue::columns(), FittedValue::all(self))
     }
 }

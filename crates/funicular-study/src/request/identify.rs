@@ -23,8 +23,8 @@ declared! {
     /// Values of the robot file that fit measurements best, with their deviations.
     ///
     /// Measurements are frequency responses, natural frequencies with damping ratios, time histories of sensors, poses,
-    /// tensions and lengths, in one or several states. The result says how sure each value is, and which combinations the measurements do not
-    /// determine. docs/identification.md explains files, priors and the result.
+    /// tensions and lengths, in one or several states. The result says how sure each value is, and which combinations
+    /// the measurements do not determine. docs/identification.md explains files, priors and the result.
     pub struct IdentifyRequest {
         /// Robot file.
         robot: RobotText = RobotText::default() => (Data(shape::robot)).required();

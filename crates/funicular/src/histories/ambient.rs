@@ -158,7 +158,8 @@ pub fn identify(samples: &Samples, options: AmbientOptions) -> Result<Ambient, S
     let is_harmonic = |pole: &RawPole| frequency_and_damping(pole.eigenvalue)[1] < HARMONIC;
     let mut harmonics = Vec::new();
     if let Some((_, poles)) = candidates.last() {
-        harmonics.extend(poles.iter().filter(|pole| is_harmonic(pole)).map(|of| frequency_and_damping(of.eigenvalue)[0]));
+        harmonics
+            .extend(poles.iter().filter(|pole| is_harmonic(pole)).map(|of| frequency_and_damping(of.eigenvalue)[0]));
     }
     candidates.iter_mut().for_each(|(_, poles)| poles.retain(|pole| !is_harmonic(pole)));
 

@@ -178,7 +178,9 @@ fn fitted(
     for subspace in subspaces {
         let candidates = candidates(samples, subspace, 2 * count + SPARE_ORDERS);
         let Some(start) = fit.strongest(&candidates, count) else { continue };
-        if start.len() == 2 * count && let Some(chi2) = total(&fit, &start) {
+        if start.len() == 2 * count
+            && let Some(chi2) = total(&fit, &start)
+        {
             starts.push((chi2, start));
         }
     }
@@ -245,8 +247,7 @@ fn correlation(rest: &DMat) -> f64 {
     let of = |c: usize, lag: usize| {
         let column = rest.column(c);
         let product = column.rows(lag, count - lag).dot(&column.rows(0, count - lag));
-        (product / column.norm_squared().max(f64::MIN_POSITIVE)).powi(2) * (count as f64).powi(2)
-            / (count - lag) as f64
+        (product / column.norm_squared().max(f64::MIN_POSITIVE)).powi(2) * (count as f64).powi(2) / (count - lag) as f64
     };
     let sum: f64 = (0..rest.ncols()).flat_map(|c| (1..=lags).map(move |lag| (c, lag))).map(|(c, lag)| of(c, lag)).sum();
     sum / (rest.ncols() * lags) as f64

@@ -186,7 +186,8 @@ impl<'a> SinusoidFit<'a> {
     ) -> (Vec<Complex>, Vec<f64>) {
         let channels = self.noise.len();
         // Re(a e^{iωt}) = A cos ωt + B sin ωt with a = A − iB.
-        let amplitude = |c: usize| Complex::new(projected.amplitudes[(2 * k, c)], -projected.amplitudes[(2 * k + 1, c)]);
+        let amplitude =
+            |c: usize| Complex::new(projected.amplitudes[(2 * k, c)], -projected.amplitudes[(2 * k + 1, c)]);
         let change = |c: usize, j: usize| Complex::new(changes[c][(2 * k, j)], -changes[c][(2 * k + 1, j)]);
         let seen = |c: &usize| amplitude(*c).norm() / self.noise[*c];
         let best = (0..channels).max_by(|a, b| seen(a).total_cmp(&seen(b))).unwrap_or_default();
@@ -200,9 +201,8 @@ impl<'a> SinusoidFit<'a> {
                 deviations.push(0.0);
                 continue;
             }
-            let by_poles: Vec<Complex> = (0..covariance.nrows())
-                .map(|j| (change(c, j) - value * change(best, j)) / amplitude(best))
-                .collect();
+            let by_poles: Vec<Complex> =
+                (0..covariance.nrows()).map(|j| (change(c, j) - value * change(best, j)) / amplitude(best)).collect();
             let mut variance = own * (self.noise[c].powi(2) + value.norm_sqr() * self.noise[best].powi(2))
                 / amplitude(best).norm_sqr();
             for (i, a) in by_poles.iter().enumerate() {

@@ -3,7 +3,7 @@
 mod readings;
 
 use crate::random::Draw;
-use funicular::histories::ambient::{self, Ambient, AmbientOptions};
+use funicular::histories::ambient::{self, AmbientOptions};
 use funicular::histories::{IdentifiedPole, Samples, decay, mac};
 use funicular::math::Complex;
 use std::f64::consts::TAU;
@@ -63,8 +63,7 @@ fn decaying(vibrations: &[Vibration], noise: f64, (count, step): (usize, f64), d
 fn driven(vibrations: &[Vibration], (count, step): (usize, f64), draw: &mut Draw) -> Samples {
     let mut channels = vec![Vec::with_capacity(count); 3];
     // Each has the deviations 1 and ω of its displacement and velocity.
-    let mut states: Vec<[f64; 2]> =
-        vibrations.iter().map(|of| [normal(draw), TAU * of.hz * normal(draw)]).collect();
+    let mut states: Vec<[f64; 2]> = vibrations.iter().map(|of| [normal(draw), TAU * of.hz * normal(draw)]).collect();
     for _ in 0..count {
         for (c, channel) in channels.iter_mut().enumerate() {
             let sum: f64 = vibrations.iter().zip(&states).map(|(of, state)| of.shape[c] * state[0]).sum();
@@ -194,25 +193,11 @@ fn intervals_of_ambient_records_hold_the_truth() {
     for _ in 0..DRAWN {
         let samples = driven(&WIND, (4000, 0.03), &mut draw);
         let found = ambient::identify(&samples, AmbientOptions::default()).unwrap();
-        for (truth, coverage) in WIND.iter().zip(&mut coverages) {
-            coverage.add(nearest(&found, truth), truth, STUDENT_29);
+        assert_eq!(found.found.poles.len(), 3, "{:?}", found.found.poles);
+        for ((pole, truth), coverage) in found.found.poles.iter().zip(&WIND).zip(&mut coverages) {
+            coverage.add(pole, truth, STUDENT_29);
         }
     }
     check(&coverages, DRAWN);
     assert!(coverages.iter().map(|of| of.wrong).sum::<usize>() < 3 * DRAWN / 20);
-}
-
-fn nearest<'a>(found: &'a Ambient, truth: &Vibration) -> &'a IdentifiedPole {
-    let distance = |pole: &&IdentifiedPole| (pole.frequency_hz - truth.hz).abs();
-    found.found.poles.iter().min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap()
-}
-#[test]
-fn diag() {
-    let mut draw = Draw(30);
-    for _ in 0..100 {
-        let samples = driven(&WIND, (4000, 0.03), &mut draw);
-        let found = ambient::identify(&samples, AmbientOptions::default()).unwrap();
-        let l: Vec<String> = found.found.poles.iter().map(|p| format!("{:.3}±{:.3}/{:.4}±{:.4}", p.frequency_hz, p.frequency_std_hz, p.damping_ratio, p.damping_std)).collect();
-        println!("D {} s{} h{:?} {}", found.order, found.stride, found.harmonics_hz, l.join(" "));
-    }
 }

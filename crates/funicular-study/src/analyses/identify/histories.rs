@@ -4,13 +4,14 @@ use super::Identified;
 use crate::columns::{Columns, column, parts};
 use crate::measurements::{MeasuredFrequency, MeasuredHistory};
 use crate::names::{HistoryKind, Named};
+use crate::quantiles::student_95;
 use crate::request::{self, IdentifyRequest};
 use crate::rows::rows;
 use crate::text::{counted, significant};
 use anyhow::{Result, anyhow, bail};
 use funicular::histories::ambient::{self, Ambient, AmbientOptions};
 use funicular::histories::decay::{self, Decay, HalvesOfPole};
-use funicular::histories::{IdentifiedPole, Samples, quality};
+use funicular::histories::{IdentifiedPole, PoleSet, Samples, quality};
 use funicular::math::DMat;
 
 /// Jitter of the times beyond which they are not even.
@@ -73,11 +74,17 @@ rows! {
     /// Natural frequency that was found in a time history.
     #[derive(Debug, Clone)]
     pub struct PoleRow {
+        /// Name of the history.
+        pub history: String = hidden;
         pub frequency_hz: f64;
         pub std_hz: f64;
+        /// Interval that holds the frequency with 95 % [Hz].
+        pub interval_95_hz: Option<[f64; 2]>;
         /// Damping ratio; absent if the record is too short for it.
         pub damping_ratio: Option<f64>;
         pub damping_std: Option<f64>;
+        /// Interval that holds the damping ratio with 95 %.
+        pub damping_interval_95: Option<[f64; 2]>;
         /// True if the pole is fitted like a measured natural frequency.
         pub is_vibration: bool;
         /// Real parts of the shape at the sensors; 1 at the one that sees it best.
@@ -109,13 +116,18 @@ rows! {
 }
 
 impl PoleRow {
-    fn of(pole: &IdentifiedPole, duration: f64) -> Self {
+    /// Pole with intervals by a factor of its deviations.
+    fn of(pole: &IdentifiedPole, factor: Option<f64>, history: &HistoryRow) -> Self {
+        let interval = |value: f64, std: f64| factor.map(|factor| [value - factor * std, value + factor * std]);
         let is_vibration = (0.0..MAX_DAMPING).contains(&pole.damping_ratio)
             && pole.damping_ratio > 0.0
-            && pole.frequency_hz * duration > MIN_PERIODS;
+            && pole.frequency_hz * history.duration_s > MIN_PERIODS;
         Self {
+            history: history.name.clone(),
             frequency_hz: pole.frequency_hz,
             std_hz: pole.frequency_std_hz,
+            interval_95_hz: interval(pole.frequency_hz, pole.frequency_std_hz),
+            damping_interval_95: interval(pole.damping_ratio, pole.damping_std),
             damping_ratio: Some(pole.damping_ratio),
             damping_std: Some(pole.damping_std),
             is_vibration,
@@ -154,8 +166,12 @@ impl PoleRow {
     /// Columns of the poles.
     pub fn columns() -> Columns<Self> {
         Columns::new([
-            column("frequency_hz", "Hz", "natural frequency", |of: &Self| of.frequency_hz)
-                .shown("frequency", "Hz", |of, style| style.significant(of.frequency_hz, 6)),
+            column("history", "", "name of the time history", |of: &Self| of.history.clone()),
+            column("frequency_hz", "Hz", "natural frequency", |of: &Self| of.frequency_hz).shown(
+                "frequency",
+                "Hz",
+                |of, style| style.significant(of.frequency_hz, 6),
+            ),
             column("std_hz", "Hz", "its standard deviation", |of: &Self| of.std_hz).significant("deviation", 2),
             column("damping_ratio", "1", "damping ratio; empty if the record is too short", |of: &Self| {
                 of.damping_ratio
@@ -210,9 +226,9 @@ impl HistoryRow {
         self.residual_correlation = Some(found.correlation);
         self.is_noise = Some(found.is_noise);
         self.covariance = listed(&found.found.covariance);
+        let factor = factor_95(&found.found);
         let poles = found.found.poles.iter().zip(&found.halves);
-        self.poles =
-            poles.map(|(pole, halves)| PoleRow::of(pole, self.duration_s).with_halves(halves.as_ref())).collect();
+        self.poles = poles.map(|(pole, halves)| PoleRow::of(pole, factor, self).with_halves(halves.as_ref())).collect();
         if !found.is_noise {
             self.warnings.push(format!(
                 "the residuals of {} are more than noise: the deviations were multiplied, and frequencies that are \
@@ -250,10 +266,11 @@ impl HistoryRow {
             .collect();
         for pole in &found.found.poles {
             let least = Ambient::least_duration(pole);
-            let mut row = PoleRow::of(pole, self.duration_s);
+            let mut row = PoleRow::of(pole, factor_95(&found.found), self);
             if self.duration_s < least {
                 row.damping_ratio = None;
                 row.damping_std = None;
+                row.damping_interval_95 = None;
                 self.warnings.push(format!(
                     "{} Hz has no damping ratio: {} s tell it to worse than 25 %, and {} s are needed",
                     significant(pole.frequency_hz, 5),
@@ -305,6 +322,12 @@ impl Identified {
             warnings,
         }
     }
+}
+
+/// Factor of the deviations whose intervals hold the truth with 95 %.
+fn factor_95(found: &PoleSet) -> Option<f64> {
+    // A known noise has infinitely many degrees, for which the conversion gives the largest number.
+    student_95(found.degrees as usize)
 }
 
 /// Rows of a matrix.
