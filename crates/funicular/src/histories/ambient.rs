@@ -136,8 +136,10 @@ pub fn identify(samples: &Samples, options: AmbientOptions) -> Result<Ambient, S
     let blocks = options.blocks.unwrap_or(BLOCKS).max(2);
     let stride = stride(samples, rows, blocks);
     let size = samples.count() / blocks;
-    if size < 2 * (2 * rows * stride) / 3 {
-        return Err(SamplesError::Few(samples.count()));
+    // Every block has a covariance at the longest lag.
+    if size <= 2 * rows * stride {
+        let least = blocks * (2 * rows * stride + 1);
+        return Err(SamplesError::Short { samples: samples.count(), blocks, least });
     }
     let pipeline = SubspacePipeline { rows, channels, step: samples.step() * stride as f64 };
     let of_blocks: Vec<Vec<DMat>> =
@@ -155,26 +157,40 @@ pub fn identify(samples: &Samples, options: AmbientOptions) -> Result<Ambient, S
         Some(order) => vec![(order.min(highest), usable(pipeline.poles(&whole, order.min(highest))))],
         None => stable_orders(&orders, &stable),
     };
-    let is_harmonic = |pole: &RawPole| frequency_and_damping(pole.eigenvalue)[1] < HARMONIC;
-    let mut harmonics = Vec::new();
-    if let Some((_, poles)) = candidates.last() {
-        harmonics
-            .extend(poles.iter().filter(|pole| is_harmonic(pole)).map(|of| frequency_and_damping(of.eigenvalue)[0]));
-    }
-    candidates.iter_mut().for_each(|(_, poles)| poles.retain(|pole| !is_harmonic(pole)));
+    let harmonics_hz = without_harmonics(&mut candidates);
 
-    // Of these the least one with the most determined poles.
     let moved = pipeline.moved(&mean, &of_blocks, highest).ok_or(SamplesError::NoPole)?;
+    let (order, found) = best_order(&pipeline, &moved, &candidates).ok_or(SamplesError::NoPole)?;
+    Ok(Ambient { found, order, blocks, stride, diagram, harmonics_hz, duration: samples.duration() })
+}
+
+/// Takes poles that hardly decay out of all orders; the frequencies of those of the highest one [Hz].
+fn without_harmonics(candidates: &mut [(usize, Vec<RawPole>)]) -> Vec<f64> {
+    let is_harmonic = |pole: &RawPole| frequency_and_damping(pole.eigenvalue)[1] < HARMONIC;
+    let highest = candidates.last().map_or(&[][..], |(_, poles)| poles);
+    let found = highest.iter().filter(|pole| is_harmonic(pole)).map(|pole| frequency_and_damping(pole.eigenvalue)[0]);
+    let found = found.collect();
+    for (_, poles) in candidates {
+        poles.retain(|pole| !is_harmonic(pole));
+    }
+    found
+}
+
+/// Least order with the most determined poles, with these poles.
+fn best_order(
+    pipeline: &SubspacePipeline,
+    moved: &[DMat],
+    candidates: &[(usize, Vec<RawPole>)],
+) -> Option<(usize, PoleSet)> {
     let mut best: Option<(usize, PoleSet)> = None;
     for (order, poles) in candidates {
-        let Some(found) = jackknife(&pipeline, &moved, order, &poles) else { continue };
+        let Some(found) = jackknife(pipeline, moved, *order, poles) else { continue };
         let determined: Vec<usize> = (0..poles.len()).filter(|k| is_determined(&found.poles[*k])).collect();
         if determined.len() > best.as_ref().map_or(0, |(_, most)| most.poles.len()) {
-            best = Some((order, found.chosen(&determined)));
+            best = Some((*order, found.chosen(&determined)));
         }
     }
-    let (order, found) = best.ok_or(SamplesError::NoPole)?;
-    Ok(Ambient { found, order, blocks, stride, diagram, harmonics_hz: harmonics, duration: samples.duration() })
+    best
 }
 
 /// True if the frequency of a pole is better known than half the width of its peak. A vibration is known to a quarter

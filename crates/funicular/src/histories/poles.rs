@@ -16,6 +16,16 @@ pub enum SamplesError {
     /// Too few samples.
     #[error("{0} samples are too few: at least {MIN_SAMPLES} are needed")]
     Few(usize),
+    /// Too few samples for blocks of time.
+    #[error("{samples} samples are too few for {blocks} blocks of time: at least {least} are needed")]
+    Short {
+        /// Number of samples.
+        samples: usize,
+        /// Number of blocks.
+        blocks: usize,
+        /// Least number of samples.
+        least: usize,
+    },
     /// No channel, or too many.
     #[error("{0} channels: 1 to {MAX_CHANNELS} are possible")]
     Channels(usize),
