@@ -117,24 +117,29 @@ fn histories(found: &Identified) -> String {
     text
 }
 
+/// Table of the fitted values, and how well they fit.
+fn values(found: &Identified) -> String {
+    format!(
+        "{}: {} from {}\n\n{}\n\nχ² = {} for {} of freedom, χ²/n = {}: {}.\n{} tried.\n",
+        found.robot,
+        counted(found.values.len(), "value"),
+        counted(found.residuals, "residual"),
+        Table::of(&FittedValue::columns(), FittedValue::all(found)),
+        significant(found.chi2, 4),
+        counted(found.degrees_of_freedom, "degree"),
+        significant(found.chi2_per_degree, 3),
+        found.verdict,
+        counted(found.starts.len(), "start"),
+    )
+}
+
 impl Printed for Identified {
     fn text(&self) -> String {
         if self.values.is_empty() {
             return format!("{}\n\n{}", self.robot, histories(self));
         }
         let mut text = histories(self);
-        text += &format!(
-            "{}: {} from {}\n\n{}\n\nχ² = {} for {} of freedom, χ²/n = {}: {}.\n{} tried.\n",
-            self.robot,
-            counted(self.values.len(), "value"),
-            counted(self.residuals, "residual"),
-            Table::of(&FittedValue::columns(), FittedValue::all(self)),
-            significant(self.chi2, 4),
-            counted(self.degrees_of_freedom, "degree"),
-            significant(self.chi2_per_degree, 3),
-            self.verdict,
-            counted(self.starts.len(), "start"),
-        );
+        text += &values(self);
         text += &assignment(self);
         text += &profiles(self.values.iter().filter_map(|row| {
             let profile = row.profile.as_ref()?;

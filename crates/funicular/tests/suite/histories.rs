@@ -61,7 +61,7 @@ fn decaying(vibrations: &[Vibration], noise: f64, (count, step): (usize, f64), d
 /// Displacements of vibrations that independent white noises drive, of which every step is exact, with noise of the
 /// sensors of 5 %.
 fn driven(vibrations: &[Vibration], (count, step): (usize, f64), draw: &mut Draw) -> Samples {
-    let mut channels = vec![Vec::with_capacity(count); 3];
+    let mut channels = vec![Vec::new(); 3];
     // Each has the deviations 1 and ω of its displacement and velocity.
     let mut states: Vec<[f64; 2]> = vibrations.iter().map(|of| [normal(draw), TAU * of.hz * normal(draw)]).collect();
     for _ in 0..count {
@@ -136,7 +136,6 @@ impl Coverage {
 fn check(coverages: &[Coverage], drawn: usize) {
     let mut all = Coverage::default();
     for of in coverages {
-        println!("{}", of.told());
         assert_eq!(of.tried, drawn);
         all.tried += of.tried;
         all.frequencies += of.frequencies;

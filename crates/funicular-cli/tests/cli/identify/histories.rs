@@ -3,6 +3,7 @@
 use crate::{json, number, project, run, stderr, stdout, succeed};
 use serde_json::Value;
 use std::f64::consts::TAU;
+use std::fmt::Write as _;
 use std::fs;
 
 /// Table of a decay of 2 Hz with a damping ratio of 1 %, sampled at 40 Hz, with pseudo-random noise; `change` alters
@@ -13,7 +14,7 @@ fn table(column: &str, change: impl Fn(usize, f64, f64) -> (f64, f64)) -> String
         let t = 0.025 * k as f64;
         let noise = 2e-3 * (1e4 * (k as f64 + 0.5).sin()).sin();
         let (t, value) = change(k, t, (-0.01 * TAU * 2.0 * t).exp() * (TAU * 2.0 * t).cos() + noise);
-        text += &format!("{t},{value}\n");
+        let _ = writeln!(text, "{t},{value}");
     }
     text
 }

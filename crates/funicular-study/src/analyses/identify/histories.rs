@@ -349,7 +349,7 @@ pub(super) fn with_frequencies(request: &IdentifyRequest) -> Result<(IdentifyReq
                 "" => format!("history {} of experiment {}", k + 1, number + 1),
                 name => name.to_owned(),
             };
-            let row = found(history, name, &experiment.name, request)?;
+            let row = found(history, &name, &experiment.name, request)?;
             let vibrations = row.poles.iter().filter(|pole| pole.is_vibration);
             experiment.frequencies.extend(vibrations.map(PoleRow::measured));
             rows.push(row);
@@ -359,11 +359,11 @@ pub(super) fn with_frequencies(request: &IdentifyRequest) -> Result<(IdentifyReq
 }
 
 /// Natural frequencies of a history.
-fn found(given: &MeasuredHistory, name: String, experiment: &str, request: &IdentifyRequest) -> Result<HistoryRow> {
+fn found(given: &MeasuredHistory, name: &str, experiment: &str, request: &IdentifyRequest) -> Result<HistoryRow> {
     let at = |reason: &dyn std::fmt::Display| anyhow!("{name}: {reason}");
     let samples = samples(given, request).map_err(|error| at(&error))?;
     let kind = request.history_kind;
-    let mut row = HistoryRow::of(name.clone(), experiment, kind, &samples, given);
+    let mut row = HistoryRow::of(name.to_owned(), experiment, kind, &samples, given);
     check_readings(&mut row, &samples, given);
     match kind {
         HistoryKind::Decay => {
