@@ -162,12 +162,13 @@ OF_REQUEST = {"starts", "from_hz", "to_hz", "response_noise", "frequency_noise",
 OF_REQUEST |= {"profile", "tension_rule", "target_tension_n", "min_tension_n", "max_tension_n"}
 OF_REQUEST |= {"propose", "grid", "poses", "propose_measuring", "propose_payloads_kg", "propose_modes", "propose_for", "propose_by", "wanted_percent"}
 OF_REQUEST |= {"cable_model", "assembly", "in_plane_only", "winches"}
+OF_REQUEST |= {"history_kind", "history_from_s", "history_to_s", "history_poles"}
 
 
 def identification(keywords: dict[str, Any]) -> dict[str, Any]:
     """Keywords of a request of `identify` with one experiment."""
     fit: dict[str, dict[str, Any]] = {}
-    for text in keywords.pop("fit"):
+    for text in keywords.pop("fit", []):
         path, _, bounds = text.partition("=")
         low, high = map(float, bounds.split(":")) if bounds else (None, None)
         fit[path] = {"path": path, "minimum": low, "maximum": high}

@@ -302,6 +302,16 @@ named! {
 }
 
 named! {
+    /// Kind of a measured time history.
+    #[derive(Default)]
+    enum HistoryKind, "kind of time histories" {
+        #[default]
+        Decay "decay", "Free decay after a push, a release or a stop";
+        Ambient "ambient", "Record under wind or other broad-band excitation that is not measured";
+    }
+}
+
+named! {
     /// Form of a reduced model.
     #[derive(Default)]
     enum ModelForm, "form" {

@@ -462,9 +462,15 @@ fn requests() -> Vec<Value> {
                             "measured_pose": [0.1, 0.2, 0.3, 1.0, 2.0, 3.0], "measured_tensions_n": [1.0, 0.1 + 0.2],
                             "tension_std_n": 0.5, "measured_lengths_m": [6.9, 6.8], "length_std_m": 1e-3,
                             "frequencies": [
-                                { "frequency_hz": 1.2, "damping_ratio": 0.01, "std_hz": 0.1, "weight": 2.0,
-                                    "label": "1" },
+                                { "frequency_hz": 1.2, "damping_ratio": 0.01, "damping_std": 0.001, "std_hz": 0.1,
+                                    "weight": 2.0, "label": "1" },
                             ],
+                            "histories": [{
+                                "name": "push", "time_s": [0.0, 0.1], "channels": [{
+                                    "name": "a", "output": "az", "output_point_m": [0.0, 0.1, 0.0],
+                                    "values": [0.5, 0.4], "std": 0.01,
+                                }],
+                            }],
                             "responses": [{
                                 "name": "a1", "input": "fz", "input_point_m": [0.1, 0.0, 0.0], "output": "az",
                                 "output_point_m": [0.0, 0.1, 0.0], "frequency_hz": [1.0, 2.0], "real": [0.1, -0.0],
@@ -473,8 +479,8 @@ fn requests() -> Vec<Value> {
                         }),
                     ])],
                     "from_hz": 0.5, "to_hz": 9.5, "starts": 3, "response_noise": 0.05, "frequency_noise": 0.02,
-                    "damping_noise": 0.2,
-                    "rigid_cables": true,
+                    "damping_noise": 0.2, "history_kind": "ambient", "history_from_s": 0.5, "history_to_s": 60.0,
+                    "history_poles": 3, "rigid_cables": true,
                 }),
             ],
         ),

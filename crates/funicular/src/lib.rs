@@ -58,6 +58,7 @@ pub mod dynamics;
 pub mod estimation;
 pub mod gradient;
 pub mod gust;
+pub mod histories;
 pub mod length_table;
 pub mod level_set;
 pub mod math;

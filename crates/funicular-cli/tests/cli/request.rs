@@ -161,11 +161,13 @@ fn the_request_of_every_command_runs_again() {
     let belts = super::project("docs/calibration/belts.csv");
     let [run, machine_at_rest] =
         ["run.csv", "robot.toml"].map(|name| super::project(&format!("docs/estimation/{name}")));
-    let lines: [(&[&str], &[&str]); 14] = [
+    let decay = super::project("docs/identification/hall-decay.csv");
+    let lines: [(&[&str], &[&str]); 15] = [
         (&["reduce", "ROBOT", "--below-hz", "1.3", "--input", "fz", "--output", "z", "--order", "4"], &[]),
         (&["reduce", "ROBOT", "--below-hz", "1.3", "--form", "second-order"], &[]),
         (&["payload", &cogiro, "--pose", "1,2,1.5"], &[]),
         (&["identify", &hall, "--hold-lengths-of-pose", "--measured", &modes, "--fit", "platform.mass_kg"], &[]),
+        (&["identify", &hall, "--measured", &decay, "--history-from-s", "0.5", "--history-poles", "1"], &[]),
         (
             &["design", &cogiro, "--pose", "0,0,1.5", "--change", "cables.1.anchor_m.z=±0.1", "--max-iterations", "1"],
             &[],

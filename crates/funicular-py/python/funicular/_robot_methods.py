@@ -469,9 +469,10 @@ def identify(of: Any, given: Given) -> Identified:
     fit
         Values to identify: a list of paths, or a mapping from paths to None, to bounds (minimum, maximum), or to a
         mapping with `minimum`, `maximum`, `prior` and `prior_std`. A vector without a component stands for all its
-        numbers, and * for every name, as in `materials.*.mass_kg_per_m`.
+        numbers, and * for every name, as in `materials.*.mass_kg_per_m`. Without values, the natural frequencies of
+        time histories are found alone: `details["histories"]`.
     experiments
-        One mapping per state of the robot, or a single one: `responses` and `frequencies` as
+        One mapping per state of the robot, or a single one: `responses`, `frequencies` and `histories` as
         `funicular.read_measurements` returns them, `measured_pose`, `measured_tensions_n`, `measured_lengths_m`
         with their deviations, `cables` with the names of those that were mounted, `payload_kg` with its
         `payload_center_m`, and the keys of the state.
@@ -487,7 +488,7 @@ def identify(of: Any, given: Given) -> Identified:
         The robot has no equilibrium at any start.
     """
     state = {key: given.pop(key) for key in list(given) if key in STATE}
-    given["experiments"] = with_state(given["experiments"], keywords("identify", state, of.cable_names))
+    given["experiments"] = with_state(given.get("experiments", []), keywords("identify", state, of.cable_names))
     return identified(of.request("identify", **given))
 
 

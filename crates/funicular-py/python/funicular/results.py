@@ -1152,6 +1152,94 @@ class FrequencyRow(Row):
     """Number of the mode in the ascending list, from 1."""
 
 
+class DiagramRow(Row):
+    """Pole of the stabilisation diagram of an ambient record."""
+
+    damping_ratio: float
+    """Damping ratio."""
+    frequency_hz: float
+    """Frequency [Hz]."""
+    is_stable: bool
+    """True if it has been found in five orders in a row."""
+    order: int
+    """Order of the system."""
+
+
+class PoleRow(Row):
+    """Natural frequency that was found in a time history."""
+
+    damping_interval_95: NDArray[np.float64] | None
+    """Interval that holds the damping ratio with 95 %."""
+    damping_ratio: float | None
+    """Damping ratio; absent if the record is too short for it."""
+    damping_std: float | None
+    """Damping std."""
+    difference_of_halves: float | None
+    """Largest difference of both halves, in deviations."""
+    frequency_hz: float
+    """Frequency [Hz]."""
+    halves_damping_ratio: NDArray[np.float64] | None
+    """Damping ratios in both halves."""
+    halves_hz: NDArray[np.float64] | None
+    """Frequencies in the first and the second half of a decay [Hz]."""
+    interval_95_hz: NDArray[np.float64] | None
+    """Interval that holds the frequency with 95 % [Hz]."""
+    is_vibration: bool
+    """True if the pole is fitted like a measured natural frequency."""
+    shape_imag: NDArray[np.float64]
+    """Imaginary parts of the shape."""
+    shape_real: NDArray[np.float64]
+    """Real parts of the shape at the sensors; 1 at the one that sees it best."""
+    shape_std: NDArray[np.float64]
+    """Standard deviations √E|δ|² of the shape."""
+    std_hz: float
+    """Std [Hz]."""
+
+
+class HistoryRow(Row):
+    """Time history with what was found in it."""
+
+    channels: list[str]
+    """Sensors, in the order of the shapes."""
+    checks: list[str]
+    """Findings about the readings."""
+    chi2_per_degree: float | None
+    """χ² per degree of freedom of a decay; 1 by itself where no noise was given."""
+    covariance: NDArray[np.float64]
+    """Covariance of frequency [Hz] and damping ratio of each pole, in this order."""
+    diagram: list[DiagramRow] | None
+    """Stabilisation diagram of an ambient record."""
+    duration_s: float
+    """Duration [s]."""
+    experiment: str
+    """Experiment."""
+    is_noise: bool | None
+    """False if the residuals of a decay are more than noise."""
+    kind: str
+    """`decay` or `ambient`."""
+    name: str
+    """Name."""
+    noise: NDArray[np.float64] | None
+    """Standard deviations of the noise of the sensors of a decay, in the SI unit of each."""
+    order: int | None
+    """Order of the system of an ambient record."""
+    poles: list[PoleRow]
+    """Natural frequencies, ascending."""
+    residual_correlation: float | None
+    """Mean square of the correlations of the residuals of a decay, times the number of samples: 1 for noise."""
+    sample_rate_hz: float
+    """Sample rate [Hz]."""
+    samples: int
+    """Samples."""
+    warnings: list[str] | None
+    """Sentences on what limits the result."""
+
+    _PARTS: ClassVar[dict[str, type[Row]]] = {
+        "diagram": DiagramRow,
+        "poles": PoleRow,
+    }
+
+
 class ProposedMeasurement(Row):
     """Measurement to make next."""
 
@@ -1572,7 +1660,7 @@ class Robustness(Row):
 class Shaping(Row):
     """Shaper and what it does."""
 
-    history_without: list[HistoryRow]
+    history_without: list[SettleResultsHistoryRow]
     """Motion from the end of the command without it."""
     impulses: list[ImpulseRow]
     """Impulses."""
@@ -1591,7 +1679,7 @@ class Shaping(Row):
     """Time from which on the sum of all amplitudes without the shaper is within the tolerance; absent if it never is [s]."""
 
     _PARTS: ClassVar[dict[str, type[Row]]] = {
-        "history_without": HistoryRow,
+        "history_without": SettleResultsHistoryRow,
         "impulses": ImpulseRow,
         "robustness": Robustness,
     }
@@ -3205,6 +3293,8 @@ class IdentifyResults(Results):
     """Root mean square of the relative differences of all natural frequencies."""
     frequency_rms_before: float | None
     """Root mean square before the fit, with the same modes as partners."""
+    histories: list[HistoryRow] | None
+    """Time histories with the natural frequencies that were found in them."""
     measurements_needed: int | None
     """Least number of proposed measurements that reaches the wanted deviation; absent if none was wanted or no number
     does."""
@@ -3236,6 +3326,7 @@ class IdentifyResults(Results):
     _PARTS: ClassVar[dict[str, type[Row]]] = {
         "assignment": ModeAssignment,
         "frequencies": FrequencyRow,
+        "histories": HistoryRow,
         "proposals": ProposedMeasurement,
         "responses": FittedResponse,
         "starts": StartRow,
@@ -3480,14 +3571,14 @@ class SettleResults(Results):
     """True if a count proves that every mode has its damped mode."""
     duration_s: float | None
     """Time from its start to its end, with the shaper [s]."""
-    during: list[HistoryRow] | None
+    during: list[SettleResultsHistoryRow] | None
     """Motion while the command runs, at negative times."""
     held_exact_m: NDArray[np.float64] | None
     """Displacement between the equilibria with the wrench and without it; absent if there is none with it, and with ideal
     cables [m]."""
     held_m: NDArray[np.float64] | None
     """Displacement of the point under the wrench, linear, world axes [m]."""
-    history: list[HistoryRow]
+    history: list[SettleResultsHistoryRow]
     """Motion from the release or the end of the command on."""
     history_up_to_hz: float | None
     """Frequency up to which modes are in the history; absent if all are [Hz]."""
@@ -3533,8 +3624,8 @@ class SettleResults(Results):
     """Winches in vibration; absent if they are as in the robot file."""
 
     _PARTS: ClassVar[dict[str, type[Row]]] = {
-        "during": HistoryRow,
-        "history": HistoryRow,
+        "during": SettleResultsHistoryRow,
+        "history": SettleResultsHistoryRow,
         "lengths": LengthsRow,
         "lowest_tension": LowestTension,
         "modes": SettlingMode,

@@ -154,6 +154,8 @@ fn of_data(name: &str, value: &Value) -> KeyCheck {
         "covariance" => objects(value, &covariance_keys()),
         "responses" => objects(value, &response_keys()),
         "frequencies" => objects(value, &frequency_keys()),
+        "histories" => objects(value, &history_keys()),
+        "channels" => objects(value, &channel_keys()),
         "from_csv" => object(value, "a mapping with `path` and `text`", |given| keys_of_object(&file(), &[], given)),
         "files" => objects(value, &file()),
         "parts" | "cables" => of_kind(&Kind::Texts, value),
@@ -337,11 +339,30 @@ fn response_keys() -> Vec<Key> {
     ]
 }
 
+fn history_keys() -> Vec<Key> {
+    vec![
+        entry("name", Kind::Text, false),
+        entry("time_s", Kind::PerCable(Range::Finite), true),
+        entry("channels", Kind::Data(super::shape::objects), true),
+    ]
+}
+
+fn channel_keys() -> Vec<Key> {
+    vec![
+        entry("name", Kind::Text, true),
+        entry("output", Kind::Text, false),
+        entry("output_point_m", Kind::Vector, false),
+        entry("values", Kind::PerCable(Range::Finite), true),
+        entry("std", Kind::Number(Range::Positive), false),
+    ]
+}
+
 fn frequency_keys() -> Vec<Key> {
     let number = |name, required| entry(name, Kind::Number(Range::Finite), required);
     vec![
         number("frequency_hz", true),
         number("damping_ratio", false),
+        number("damping_std", false),
         number("std_hz", false),
         number("weight", false),
         entry("label", Kind::Text, false),

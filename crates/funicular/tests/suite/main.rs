@@ -19,6 +19,7 @@ mod dynamic_stiffness;
 mod dynamics;
 mod estimation;
 mod gust;
+mod histories;
 mod length_table;
 mod level_set;
 mod library;
