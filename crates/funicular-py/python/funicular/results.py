@@ -1554,7 +1554,7 @@ class BoxRow(Row):
     """Verdict: inside, outside or undecided."""
 
 
-class HistoryRow(Row):
+class SettleResultsHistoryRow(Row):
     """Displacement of the point at one time from where the lengths of this time hold it at rest, and the bound of its
     distance."""
 
