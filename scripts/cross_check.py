@@ -24,7 +24,7 @@ import numpy as np
 import pyuff
 import vtk
 import yourdfpy
-from fmpy import fmi2
+from fmpy import fmi2, fmi3
 from pydrake.multibody.parsing import Parser
 from pydrake.multibody.plant import MultibodyPlant
 from pydrake.multibody.tree import ForceElementIndex
@@ -759,6 +759,95 @@ def check_fmu(robot, folder, table):
         table.row(robot.name, "FMPy, model exchange", f"a step of {of['name']} by default settings / maximum", off, 0.01)
 
 
+# Motion that a unit repeats: a push, and a winch that runs.
+UNIT_MOTION = """
+[[push]]
+at_s = 0.02
+duration_s = 0.1
+force_n = [0.0, 4.0, 3.0]
+point_m = [0.0, 0.0, 0.0]
+
+[[lengths]]
+at_s = 0.0
+duration_s = 0.15
+change_m = {"1" = -0.01}
+"""
+
+
+def check_motion_unit(robot, folder, table):
+    """Compares units of the robot in motion, which FMPy runs, with `simulate` within its stated error."""
+    scenario = folder / "unit.toml"
+    scenario.write_text(UNIT_MOTION)
+    run = ["--scenario", str(scenario), "--duration-s", "0.2", "--sample-time-s", "0.001", "--format", "json"]
+    told = json.loads(robot.run("simulate", *run))
+    bounds = {row["column"]: row["largest"] for row in told["errors"]}
+    rows, cables = told["rows"], told["cables"]
+    histories = []
+    for form, version in (("fmu", fmi2), ("fmu3", fmi3)):
+        path = folder / f"motion-{form}.fmu"
+        robot.export(form, path)
+        description = fmpy.read_model_description(str(path), validate=True)
+        variables = {of.name: of for of in description.modelVariables}
+        units = {"m": "_m", "m/s": "_m_s", "N": "_n", "N.m": "_n_m", "rad/s": "_rad_s", "J": "_j"}
+        astray = [of for of in variables.values() if not of.name.endswith(units.get(of.unit, ""))]
+        table.row(robot.name, f"FMPy, {form}", "names whose unit is another one", len(astray), 0)
+
+        slave = version.FMU2Slave if version is fmi2 else version.FMU3Slave
+        identifier = description.coSimulation.modelIdentifier
+        unit = slave(guid=description.guid, unzipDirectory=fmpy.extract(str(path)), modelIdentifier=identifier)
+        unit.instantiate()
+        if version is fmi2:
+            unit.setupExperiment(startTime=0.0)
+            get, put = unit.getReal, unit.setReal
+            keep, take, forget = unit.getFMUstate, unit.setFMUstate, unit.freeFMUstate
+            pack, unpack = unit.serializeFMUstate, unit.deSerializeFMUstate
+        else:
+            get, put = unit.getFloat64, unit.setFloat64
+            keep, take, forget = unit.getFMUState, unit.setFMUState, unit.freeFMUState
+            pack, unpack = unit.serializeFMUState, unit.deserializeFMUState
+        unit.enterInitializationMode()
+        unit.exitInitializationMode()
+        place = ["x_m", "y_m", "z_m"]
+        wanted = [*place, *(f"tension_platform_{cable}_n" for cable in cables)]
+        outputs = [variables[name].valueReference for name in wanted]
+
+        def advance(k):
+            now = rows[k]
+            is_pushed = 0.02 - 1e-9 < rows[k - 1]["t_s"] < 0.12 - 1e-9
+            given = {"force_y_n": 4.0 * is_pushed, "force_z_n": 3.0 * is_pushed}
+            given |= {"length_1_m": now["unstrained_lengths_m"][0], "length_rate_1_m_s": now["length_rates_m_s"][0]}
+            put([variables[name].valueReference for name in given], list(given.values()))
+            unit.doStep(currentCommunicationPoint=rows[k - 1]["t_s"], communicationStepSize=now["t_s"] - rows[k - 1]["t_s"])
+            return get(outputs)
+
+        history = [get(outputs)]
+        kept = None
+        for k in range(1, len(rows)):
+            if k == 100:
+                kept = keep()
+            history.append(advance(k))
+        history = np.array(history)
+        off = np.abs(history[:, :3] - np.array([row["position_m"] for row in rows])).max()
+        table.row(robot.name, f"FMPy, {form}", "places against simulate / its stated error", off / bounds["position_m"], 1)
+        worst = 0.0
+        for i, cable in enumerate(cables):
+            theirs = np.array([row["tensions_platform_n"][i] for row in rows])
+            worst = max(worst, np.abs(history[:, 3 + i] - theirs).max() / bounds[f"tension_platform_{cable}_n"])
+        table.row(robot.name, f"FMPy, {form}", "tensions against simulate / their stated errors", worst, 1)
+
+        # A state that was kept goes on with the same bits, also by its bytes.
+        again = unpack(pack(kept))
+        for state in (kept, again):
+            take(state)
+            repeated = np.array([advance(k) for k in range(100, 120)])
+            table.row(robot.name, f"FMPy, {form}", "outputs after a return to a state", np.abs(repeated - history[100:120]).max(), 0)
+            forget(state)
+        unit.terminate()
+        unit.freeInstance()
+        histories.append(history)
+    table.row(robot.name, "FMPy", "outputs of versions 2.0 and 3.0", np.abs(histories[0] - histories[1]).max(), 0)
+
+
 def check_vtk(robot, folder, table):
     """Compares the file read by VTK with the results of funicular."""
     path = folder / "vtk.vtp"
@@ -838,6 +927,7 @@ def main():
             check_links(robot, folder, table)
             if robot.name in UNITS:
                 check_fmu(robot, folder, table)
+                check_motion_unit(robot, folder, table)
             check_vtk(robot, folder, table)
             if robot.components:
                 check_uff(robot, folder, table)

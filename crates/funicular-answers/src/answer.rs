@@ -1,9 +1,11 @@
 //! Run of a request with results, whatever its command: on several threads where the work has parts, with rows or
 //! samples in a file that survives interruptions.
 
+use crate::outputs::clock;
 use anyhow::{Context, Result, bail};
 use funicular::robot::Robot;
-use funicular_files::{Begin, UncertaintyOutcome, UncertaintyRun, WorkspaceOutcome, WorkspaceRun};
+use funicular_files::{Begin, ProofRun, UncertaintyOutcome, UncertaintyRun, WorkspaceOutcome, WorkspaceRun};
+use funicular_study::analyses::prove::{ProofStudy, Proved};
 use funicular_study::analyses::simulate::{self, BegunRun, RowKeeper};
 use funicular_study::analyses::uncertainty::UncertaintyStudy;
 use funicular_study::analyses::workspace::{FoundSoFar, WorkspaceStudy};
@@ -61,6 +63,7 @@ pub fn run(request: &Request, robot: Option<Robot>, how: Running<'_>) -> Result<
             }
             workspace(&study, how)
         }
+        Request::Prove(of) => prove(&ProofStudy::new(of_robot(robot)?, of)?, how),
         Request::Uncertainty(of) => uncertainty(&UncertaintyStudy::new(of)?, how),
         Request::Simulate(of) => {
             let robot = of_robot(robot)?;
@@ -81,13 +84,33 @@ fn workspace(study: &WorkspaceStudy, mut how: Running<'_>) -> Result<Answer> {
         how.watch.note(&so_far.note());
         how.report(done, total, "positions");
     };
-    let found = match (WorkspaceRun { threads, cancel }).run(study, &mut report)? {
+    let mut found = match (WorkspaceRun { threads, cancel }).run(study, &mut report)? {
         WorkspaceOutcome::Found(found) => found,
         WorkspaceOutcome::Stopped(so_far) => return Err(Stopped(so_far.stopped()).into()),
     };
+    if let Some(proof) = study.proof() {
+        found.proof = Some(proved(proof, &mut how)?);
+    }
     let is_stopped = cancel.load(Ordering::Relaxed);
     let stopped = is_stopped.then(|| Stopped("stopped: the result is what was found until then".to_owned()).into());
     Ok(Answer { results: Results::Workspace(found), stopped })
+}
+
+/// Proof on several threads; what was found until a stop is kept.
+fn proved(study: &ProofStudy, how: &mut Running<'_>) -> Result<Proved> {
+    let (threads, cancel, elapsed) = (how.threads, how.cancel, clock());
+    let run = ProofRun { threads, cancel, elapsed: &elapsed };
+    run.run(study, &mut |done, total, so_far| {
+        how.watch.note(so_far);
+        how.report(done, total, "boxes");
+    })
+}
+
+fn prove(study: &ProofStudy, mut how: Running<'_>) -> Result<Answer> {
+    let found = proved(study, &mut how)?;
+    let stopped =
+        found.is_stopped().then(|| Stopped("stopped: the result is what was proved until then".to_owned()).into());
+    Ok(Answer { results: Results::Prove(Box::new(found)), stopped })
 }
 
 fn uncertainty(study: &UncertaintyStudy, mut how: Running<'_>) -> Result<Answer> {

@@ -6,6 +6,8 @@ use anyhow::{Result, bail};
 use funicular_files::SweepFile;
 use funicular_files::endings::Kind;
 use funicular_formats::export::{self, ExportFormat};
+use funicular_formats::fmu::IDENTIFIER;
+use funicular_formats::fmu::robot_unit::{self, FmiVersion, RobotUnit};
 use funicular_formats::{import, new_robot};
 use funicular_pages::pages;
 use funicular_pages::pages::summary::Summary;
@@ -92,6 +94,7 @@ fn of_export(of: &ExportRequest) -> Form {
         ExportFormat::Vtk => ("curves and polygons of VTK", &[Kind::Vtp]),
         ExportFormat::C => ("C source", &[Kind::C]),
         ExportFormat::Json => ("a table of lengths in JSON", &[Kind::Json]),
+        ExportFormat::Fmu | ExportFormat::Fmu3 => ("a Functional Mock-up Unit", &[Kind::Fmu]),
     };
     Form { name: "the exported robot", in_words, kinds, is_new: false }
 }
@@ -107,8 +110,10 @@ pub fn default_path(request: &Request) -> Option<PathBuf> {
 
 /// File that a command has made.
 pub struct Document {
-    /// Content.
+    /// Content as text; empty for bytes.
     pub text: String,
+    /// Content that is no text.
+    pub bytes: Option<Vec<u8>>,
     /// Size in words, of pages.
     pub size: Option<String>,
     /// Sentences that the user should know before using it.
@@ -140,7 +145,8 @@ fn schema_of(of: &SchemaRequest) -> Result<String> {
 /// # Errors
 /// The errors of the command, and a command that has results.
 pub fn make(request: &Request, call: &str, words: Words, watch: &mut dyn Watch) -> Result<Document> {
-    let text = |text: String, warnings: Vec<String>| Document { text, size: None, warnings, notes: Vec::new() };
+    let text =
+        |text: String, warnings: Vec<String>| Document { text, bytes: None, size: None, warnings, notes: Vec::new() };
     let page =
         |html: String, warnings: Vec<String>| Document { size: Some(size_of_page(html.len())), ..text(html, warnings) };
     Ok(match request {
@@ -154,6 +160,10 @@ pub fn make(request: &Request, call: &str, words: Words, watch: &mut dyn Watch) 
             let import::Imported { text: made, assumed, lost } = import::run(of, words)?;
             let assumed = assumed.iter().map(|fact| format!("assumed: {fact}"));
             text(made, assumed.chain(lost.iter().map(|fact| format!("not carried over: {fact}"))).collect())
+        }
+        Request::Export(of) if of.to.is_unit() => {
+            let (bytes, warnings) = unit(of)?;
+            Document { bytes: Some(bytes), ..text(String::new(), warnings) }
         }
         Request::Export(of) => {
             let made = export::of_request(of.robot.read()?.robot, of)?;
@@ -177,4 +187,18 @@ pub fn make(request: &Request, call: &str, words: Words, watch: &mut dyn Watch) 
         }
         other => bail!("the result of `{}` is no file of its own", other.command()),
     })
+}
+
+/// Functional Mock-up Unit with the robot in motion, and its caveats.
+///
+/// # Errors
+/// A request that no unit can hold, no equilibrium, or no library of this machine.
+pub fn unit(of: &ExportRequest) -> Result<(Vec<u8>, Vec<String>)> {
+    export::refuse(of)?;
+    let is_fmi3 = of.to == ExportFormat::Fmu3;
+    let version = if is_fmi3 { FmiVersion::Three } else { FmiVersion::Two };
+    let RobotUnit { description, source, robot, warnings } = robot_unit::of_request(of, version)?;
+    let resources = [("robot.toml", robot.as_bytes())];
+    let bytes = funicular_files::fmu::pack_with_c_library(IDENTIFIER, &description, &source, &resources, is_fmi3)?;
+    Ok((bytes, warnings))
 }

@@ -11,7 +11,7 @@ use funicular::robot::Robot;
 use funicular_files::Guard;
 use funicular_formats::import::{self, SourceFile};
 use funicular_study::TableFault;
-use funicular_study::analyses::{calibrate, gust, settle, simulate, trajectory};
+use funicular_study::analyses::{calibrate, estimate, gust, settle, simulate, trajectory};
 use funicular_study::request::{Change, GappedColumns, InputFile, NumberColumns, Reader, Scenario};
 use serde_json::Value;
 use std::cell::RefCell;
@@ -76,7 +76,10 @@ impl FileKey<'_> {
             }
             Reader::GappedColumns => {
                 let robot = robot()?;
-                let check = |columns: &GappedColumns| calibrate::check_readings(columns, robot);
+                let check = |columns: &GappedColumns| match (self.command, self.key) {
+                    ("estimate", "log") => estimate::check_log(columns, robot),
+                    _ => calibrate::check_readings(columns, robot),
+                };
                 serde_json::to_value(tables::read_with_gaps(path, role, check)?)?
             }
             Reader::Records => serde_json::to_value(tables::read_records(path, role)?)?,

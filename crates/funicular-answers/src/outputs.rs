@@ -1,21 +1,27 @@
 //! Files that commands write besides their result: one table, from which the program has its options, Python its
 //! keywords and a request in JSON its `write_files`.
 
+mod made;
 mod opened;
 mod rows;
 mod wanted;
 
+pub(crate) use made::Made;
+use made::{Drawn, plain};
 pub use opened::{Opened, Written, told};
-use rows::{drawn, figure, file, lengths, page, robot_file, surface_of, universal_file};
+use rows::{
+    certificate, certificate_of, drawn, figure, file, lengths, page, proved_of, proved_surface, robot_file, surface_of,
+    universal_file,
+};
 pub use wanted::{FILES, Wanted, schema, take_wanted, wanted_to_value};
 
-use crate::destination::{Bytes, Content, Destination};
+use crate::destination::{Content, Destination};
 use crate::matrices;
 use anyhow::{Result, anyhow, bail};
 use funicular_files::endings::{self, Kind};
 use funicular_files::{Guard, SweepFile};
 use funicular_formats::uff_writing::{frf_file, modes_file};
-use funicular_pages::figures::{self, Figure, RequestFigure};
+use funicular_pages::figures;
 use funicular_pages::pages;
 use funicular_pages::pages::plot::SweepFigureChoice;
 use funicular_pages::pages::summary::Summary;
@@ -112,40 +118,6 @@ impl FigureOptions {
 
 /// Keys of a request that are given, as JSON.
 pub type Given = Map<String, Value>;
-
-/// Content of a file, ready to be written.
-pub(crate) struct Made {
-    pub(crate) bytes: Bytes,
-    /// Sentences about the file that the user should know.
-    pub(crate) warnings: Vec<String>,
-    /// Notes for the user.
-    pub(crate) notes: Vec<String>,
-    /// Size of the content in words.
-    pub(crate) size: Option<String>,
-}
-
-impl From<Vec<u8>> for Made {
-    fn from(bytes: Vec<u8>) -> Self {
-        Self { bytes: Bytes::File(bytes), warnings: Vec::new(), notes: Vec::new(), size: None }
-    }
-}
-
-/// Figure with sentences about it.
-struct Drawn {
-    figure: Figure,
-    warnings: Vec<String>,
-    notes: Vec<String>,
-}
-
-fn plain(figure: Figure) -> Drawn {
-    Drawn { figure, warnings: Vec::new(), notes: Vec::new() }
-}
-
-impl From<RequestFigure> for Drawn {
-    fn from(RequestFigure { figure, warnings }: RequestFigure) -> Self {
-        Self { figure, warnings, notes: Vec::new() }
-    }
-}
 
 /// Size of a page in words.
 pub(crate) fn size_of_page(bytes: usize) -> String {
@@ -429,10 +401,37 @@ static OUTPUTS: &[(&str, &[Output])] = &[
                 "Write the robot file with the calibrated anchors and attachments",
                 |at, _| of!(Calibrate, at, found => Ok(found.robot_file.clone().into_bytes().into())),
             ),
+            file(
+                "calibrated_covariance",
+                "Write the covariance of the calibrated anchors, attachments, pulleys and offsets (as unstrained \
+                 lengths), for `uncertainty`; a scale and factors are left out",
+                ["the covariance", "CSV"],
+                &[Kind::Csv],
+                Make::Bytes(|at, _| {
+                    of!(Calibrate, at, found => match found.covariance[..] {
+                        [] => bail!("the readings do not tell a covariance: they leave numbers, or their own \
+                                     deviation, undetermined"),
+                        _ => Ok(as_csv(found.covariance_table())?.into()),
+                    })
+                }),
+            ),
             page(
                 "Write a page with the anchors and their ellipses, the residuals, rows that can be clicked away and \
                  the proposed poses",
                 |at| of!(Calibrate, at, found => pages::calibrate::page(found, at.call.to_owned())),
+            ),
+        ],
+    ),
+    (
+        "estimate",
+        &[
+            figure(
+                "Draw motion, payload, tensions and residuals over time",
+                |at, _, _| of!(Estimate, at, found => Ok(plain(figures::of_estimate(found)))),
+            ),
+            page(
+                "Write a page with motion, payload, tensions, residuals and alarms",
+                |at| of!(Estimate, at, found => pages::estimate::page(found, at.call.to_owned())),
             ),
         ],
     ),
@@ -472,6 +471,32 @@ static OUTPUTS: &[(&str, &[Output])] = &[
                 "Write a page with the surface in space, the volumes and the sections",
                 |at| of!(Workspace, at, found => pages::workspace::page(found, at.call.to_owned())),
             ),
+            Output {
+                needs: Some("prove"),
+                ..proved_surface(|at, kind| of!(Workspace, at, found => proved_of(found.proof.as_ref(), kind)))
+            },
+            Output {
+                needs: Some("prove"),
+                ..certificate(|at, _| of!(Workspace, at, found => certificate_of(found.proof.as_ref())))
+            },
+        ],
+    ),
+    (
+        "prove",
+        &[
+            figure(
+                "Draw a section with what is proved inside, outside and neither",
+                |at, _, _| of!(Prove, at, found => Ok(plain(figures::of_proof(found)?))),
+            ),
+            Output {
+                by_ending: true,
+                ..proved_surface(|at, kind| of!(Prove, at, found => proved_of(Some(&**found), kind)))
+            },
+            page(
+                "Write a page that says what is proved and what is not, with the three sets",
+                |at| of!(Prove, at, found => pages::prove::page(found, at.call.to_owned())),
+            ),
+            certificate(|at, _| of!(Prove, at, found => certificate_of(Some(&**found)))),
         ],
     ),
     (

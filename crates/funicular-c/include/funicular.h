@@ -1,10 +1,10 @@
-/* Statics of cable-driven parallel robots with sagging cables inside a control loop. C99 and later, C++.
+/* Cable-driven parallel robots with sagging cables: statics inside a control loop, motion step by step. C99, C++.
  *
  * SI units; every name has its unit. World axes. Cables in the order of the robot file. Lengths are unstrained lengths
  * from the attachment on the platform to the drum (to the anchor without one): what a winch has to pay out.
  *
- * Memory. The caller owns all memory but that of models. fn_inverse, fn_forward, fn_wrench, fn_warm_up and fn_reset
- * reserve none, take no lock, print nothing, and every iteration in them has a largest number of steps.
+ * Memory. The caller owns all memory but that of models and simulations. fn_inverse, fn_forward, fn_wrench, fn_warm_up
+ * and fn_reset reserve none, take no lock, print nothing, and every iteration in them has a largest number of steps.
  * The others are for set-up.
  *
  * Threads. A model is read only: many loops may use it. A loop serves one thread at a time; a second one gets FN_BUSY.
@@ -53,9 +53,14 @@ extern "C" {
 #define FN_TOO_SLACK (-16)      /* a cable cannot have this tension at this pose */
 #define FN_NOT_FOUND (-17)      /* no result in the largest number of steps, and none to hold */
 #define FN_NO_START (-18)       /* lengths to pose need a pose to start from */
+#define FN_NO_REST (-19)        /* no equilibrium to begin a simulation at: the message says why */
+#define FN_REFUSED (-20)        /* an input, an interval or an event of a simulation: the message says why */
+#define FN_FAILED (-21)         /* no step of a simulation can follow the motion */
+#define FN_BAD_STATE (-22)      /* a saved state is damaged, or belongs to another simulation */
 
 typedef struct fn_model fn_model; /* robot, read only */
 typedef struct fn_loop fn_loop;   /* state of one loop, in memory of the caller */
+typedef struct fn_sim fn_sim;     /* robot in motion, which advances step by step */
 
 /* Motion of the platform, and external load on it besides the load of the robot file. */
 typedef struct fn_pose_input {
@@ -168,6 +173,39 @@ int32_t fn_forward_cold(fn_loop *loop, const double *length_m, uint32_t cables, 
 /* Tensions at the drums to the external load on the platform: what fn_inverse would have to be given for them. */
 int32_t fn_wrench(fn_loop *loop, const fn_pose_input *input, const double *tension_drum_n, uint32_t cables,
                   fn_wrench_result *result);
+
+/* Simulation step by step. It reserves memory, and its time has no bound; one thread at a time, a second one gets
+ * FN_BUSY. With a negative status the simulation is as before. A message (may be NULL) says why. */
+
+/* Robot of the text of a robot file, at rest. Elements of each rope and their degree, and the error of a position that a
+ * step may have; 0 for the usual ones (3, 8, 1e-7). The start has the unstrained lengths length_m, for which the search
+ * begins at the pose x, y, z [m], quaternion w, x, y, z; both NULL for the state of the robot file. */
+int32_t fn_sim_new(const char *toml, size_t bytes, uint32_t elements, uint32_t degree, double tolerance_m,
+                   const double *length_m, uint32_t cables, const double *pose, fn_sim **sim, char *message,
+                   size_t message_bytes);
+int32_t fn_sim_free(fn_sim *sim); /* NULL is fine */
+
+/* Inputs and outputs have names, and numbers from 0: first the inputs, then the outputs. */
+int32_t fn_sim_signals(fn_sim *sim, uint32_t *inputs, uint32_t *outputs);
+int32_t fn_sim_signal_name(fn_sim *sim, uint32_t signal, char *name, size_t name_bytes, char *unit, size_t unit_bytes);
+int32_t fn_sim_find(fn_sim *sim, const char *name, uint32_t *signal); /* FN_REFUSED: none has this name */
+/* Inputs count for the whole next step: lengths and anchors are those at its end, forces act from its beginning on. */
+int32_t fn_sim_set(fn_sim *sim, const uint32_t *signals, const double *values, size_t count);
+int32_t fn_sim_get(fn_sim *sim, const uint32_t *signals, double *values, size_t count);
+int32_t fn_sim_time(fn_sim *sim, double *time_s);
+
+/* Advances by 1e-6 to 1 s. */
+int32_t fn_sim_step(fn_sim *sim, double interval_s, char *message, size_t message_bytes);
+
+/* Events at the present time. The point of a payload is x, y, z in the platform frame; NULL for the centre of mass. */
+int32_t fn_sim_cut(fn_sim *sim, uint32_t cable, char *message, size_t message_bytes);
+int32_t fn_sim_release(fn_sim *sim, double mass_kg, const double *point_m, char *message, size_t message_bytes);
+int32_t fn_sim_pick(fn_sim *sim, double mass_kg, const double *point_m, char *message, size_t message_bytes);
+
+/* State with the inputs, in memory of the caller, for the same robot, start and settings: it goes on with the same bits.
+ * FN_BAD_MEMORY: too small; `bytes` then has the size that is needed. */
+int32_t fn_sim_save(fn_sim *sim, void *memory, size_t *bytes);
+int32_t fn_sim_restore(fn_sim *sim, const void *memory, size_t bytes);
 
 #ifdef __cplusplus
 }

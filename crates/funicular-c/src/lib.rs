@@ -1,4 +1,4 @@
-//! C library: statics of a cable-driven parallel robot inside a control loop.
+//! C library: statics of a cable-driven parallel robot inside a control loop, and its motion in time step by step.
 //!
 //! `include/funicular.h` documents the functions for their callers. Here, every exported function checks the addresses
 //! that it gets, copies the input, calls safe code of [`funicular::control_loop`], and writes the results if there are
@@ -11,8 +11,10 @@ mod handles;
 pub mod layout;
 mod loop_calls;
 mod model_calls;
+mod sim_calls;
 pub mod status;
 
 pub use handles::{Loop, Model};
 pub use loop_calls::*;
 pub use model_calls::*;
+pub use sim_calls::*;

@@ -534,8 +534,12 @@ fn the_headers_say_what_the_library_has() {
         assert_eq!(given, number.to_string(), "{line}");
     }
 
-    let sources =
-        [include_str!("../src/model_calls.rs"), include_str!("../src/loop_calls.rs"), include_str!("../src/flat.rs")];
+    let sources = [
+        include_str!("../src/model_calls.rs"),
+        include_str!("../src/loop_calls.rs"),
+        include_str!("../src/sim_calls.rs"),
+        include_str!("../src/flat.rs"),
+    ];
     let mut exported: Vec<&str> = sources
         .iter()
         .flat_map(|source| source.split("extern \"C\" fn ").skip(1))

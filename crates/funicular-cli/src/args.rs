@@ -206,7 +206,7 @@ fn with_files(name: &str, command: Command) -> Command {
         "identify" => IdentifyArgs::augment_args(command),
         "reduce" => ReduceArgs::augment_args(command),
         "uncertainty" => ThreadArgs::augment_args(stored(SampleArgs::augment_args(command), "samples_file")),
-        "workspace" => ThreadArgs::augment_args(command),
+        "workspace" | "prove" => ThreadArgs::augment_args(command),
         "simulate" => stored(command, "output_file").mut_arg("duration_s", |arg| arg.visible_alias("for")),
         "export" => command.mut_arg("duration_s", |arg| arg.visible_alias("for")),
         _ => command,

@@ -14,6 +14,8 @@ pub enum Kind {
     Latex,
     /// JSON.
     Json,
+    /// Lines of JSON.
+    JsonLines,
     /// Table of comma-separated values.
     Csv,
     /// Rows of a sweep with units, robot and plan.
@@ -82,7 +84,7 @@ const ENDINGS: [(&[&str], Kind); 42] = [
     (&["fmu"], Kind::Fmu),
     (&["c", "h"], Kind::C),
     (&["partial", "writing"], Kind::Other("rows of an unfinished sweep")),
-    (&["jsonl", "ndjson"], Kind::Other("lines of JSON")),
+    (&["jsonl", "ndjson"], Kind::JsonLines),
     (&["tsv", "tab"], Kind::Other("a table of tab-separated values")),
     (&["xls", "xlsx", "xlsm", "xlsb", "ods"], Kind::Other("a spreadsheet")),
     (&["arrow", "arrows", "feather", "ipc"], Kind::Other("an Arrow file")),
@@ -121,6 +123,7 @@ impl Kind {
             Self::Markdown => "Markdown",
             Self::Latex => "LaTeX",
             Self::Json => "JSON",
+            Self::JsonLines => "lines of JSON",
             Self::Csv => "CSV",
             Self::Parquet => "a Parquet file",
             Self::Vti => "an image of VTK",

@@ -24,6 +24,7 @@ mod parquet;
 #[cfg(not(feature = "parquet"))]
 #[path = "without_parquet.rs"]
 mod parquet;
+mod proof;
 mod reader;
 mod resumable_writer;
 #[cfg(feature = "parquet")]
@@ -40,6 +41,7 @@ pub use crc32fast::Hasher as Checksum;
 pub use guard::Guard;
 pub use merge::merge;
 pub use mesh_files::beside;
+pub use proof::ProofRun;
 pub use reader::SweepFile;
 pub use resumable_writer::{Begin, Job, Opened};
 #[cfg(feature = "arrow")]

@@ -94,6 +94,7 @@ pub fn run(at_rest: &AtRest, request: &request::ExportRequest) -> Result<Exporte
         ExportFormat::Urdf => links::urdf(at_rest, given, &mut warnings)?,
         ExportFormat::Vtk => vtk::poly_data(at_rest, segments, modes_below_hz, &mut warnings)?,
         ExportFormat::C | ExportFormat::Json => unreachable!("a table of lengths is no file of one equilibrium"),
+        ExportFormat::Fmu | ExportFormat::Fmu3 => bail!("a unit of {} is no text: write it to a file", to.program()),
     };
     warnings.extend(at_rest.warnings(None));
     Ok(Exported { text, warnings })

@@ -7,6 +7,8 @@
 //! # References
 //! Functional Mock-up Interface for Model Exchange and Co-Simulation 2.0.4, <https://fmi-standard.org>.
 
+pub mod robot_unit;
+
 use crate::export::xml_text::{in_comment, names};
 use anyhow::{Result, bail};
 use askama::Template;
@@ -195,15 +197,20 @@ fn sparse(name: &'static str, matrix: &DMat) -> SparseMatrix {
 /// Mark of the unit, which description and library share: a hash of its numbers and names, so that equal models give
 /// equal files.
 fn guid(of: &UnitModel, matrices: &[&DMat]) -> String {
-    // FNV-1a with 64 bits, from two starts.
-    const PRIME: u64 = 0x0000_0100_0000_01b3;
-    const STARTS: [u64; 2] = [0xcbf2_9ce4_8422_2325, 0x8422_2325_cbf2_9ce4];
-
     let mut bytes: Vec<u8> = of.robot.bytes().collect();
     for (name, unit) in of.inputs.iter().chain(&of.outputs) {
         bytes.extend([name.as_bytes(), &[0], unit.as_bytes(), &[0]].concat());
     }
     bytes.extend(matrices.iter().flat_map(|matrix| matrix.iter().flat_map(|value| value.to_le_bytes())));
+    mark(&bytes)
+}
+
+/// Mark of bytes in the form of a GUID.
+fn mark(bytes: &[u8]) -> String {
+    // FNV-1a with 64 bits, from two starts.
+    const PRIME: u64 = 0x0000_0100_0000_01b3;
+    const STARTS: [u64; 2] = [0xcbf2_9ce4_8422_2325, 0x8422_2325_cbf2_9ce4];
+
     let [a, b] =
         STARTS.map(|start| bytes.iter().fold(start, |hash, byte| (hash ^ u64::from(*byte)).wrapping_mul(PRIME)));
     format!(

@@ -1,4 +1,4 @@
-//! Files of measured responses and natural frequencies, as plain data.
+//! Files of measured responses, natural frequencies and time histories, as plain data.
 //!
 //! Readers take bytes and never touch a disk. A file that is cut off or damaged gives an error with its line, and no
 //! reader reserves memory for a count that the file declares.
@@ -6,6 +6,7 @@
 mod convert;
 mod csv;
 mod given_signals;
+mod history;
 pub mod uff;
 mod uff_numbers;
 mod unit_label;
@@ -16,7 +17,7 @@ pub(crate) use convert::responses_of_uff;
 pub use csv::{CsvContent, ResponseName, read_csv};
 
 use anyhow::{Result, bail};
-use funicular_study::measurements::{MeasuredFrequency, MeasuredResponse};
+use funicular_study::measurements::{MeasuredFrequency, MeasuredHistory, MeasuredResponse};
 use serde::{Deserialize, Serialize};
 
 /// Maximum size of a file of measurements [bytes]: a thousand responses of ten thousand lines.
@@ -60,6 +61,9 @@ pub struct Measured {
     /// Natural frequencies.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub frequencies: Vec<MeasuredFrequency>,
+    /// Time histories.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub histories: Vec<MeasuredHistory>,
     /// Sentences on what was left out.
     #[serde(skip)]
     pub notes: Vec<String>,
@@ -98,6 +102,9 @@ pub fn read(path: &str, bytes: &[u8], options: &FileOptions) -> Result<Measured>
             Ok(match read_csv(path, bytes, &options.responses, points)? {
                 CsvContent::Responses(responses) => Measured { responses, ..Measured::default() },
                 CsvContent::Frequencies(frequencies) => Measured { frequencies, ..Measured::default() },
+                CsvContent::History((history, notes)) => {
+                    Measured { histories: vec![history], notes, ..Measured::default() }
+                }
             })
         }
         _ => bail!("{path}: measurements are read from .uff and .unv (Universal File) and from .csv"),

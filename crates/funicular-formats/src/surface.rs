@@ -1,6 +1,7 @@
 //! Surfaces of workspaces as files of other programs: STL, PLY and VTK.
 
 use anyhow::Result;
+use funicular::proof::FaceMesh;
 use funicular_study::analyses::workspace::Workspace;
 use quick_xml::Writer;
 use quick_xml::events::{BytesDecl, BytesEnd, BytesStart, BytesText, Event};
@@ -34,14 +35,38 @@ impl SurfaceFormat {
 /// # Errors
 /// None that the memory does not give.
 pub fn of_workspace(found: &Workspace, format: SurfaceFormat) -> Result<Vec<u8>> {
-    match format {
-        SurfaceFormat::Stl => stl(found),
-        SurfaceFormat::Ply => Ok(ply(found).into_bytes()),
-        SurfaceFormat::Vtp => vtp(found),
+    let Workspace { vertices_m, triangles, triangles_of_surface, .. } = found;
+    Surface { vertices_m, triangles, before_cut: *triangles_of_surface }.written(format)
+}
+
+/// Closed surface: vertices, triangles by their numbers, and the number of triangles before those on a box.
+struct Surface<'a> {
+    vertices_m: &'a [[f64; 3]],
+    triangles: &'a [[usize; 3]],
+    before_cut: usize,
+}
+
+impl Surface<'_> {
+    fn written(&self, format: SurfaceFormat) -> Result<Vec<u8>> {
+        match format {
+            SurfaceFormat::Stl => stl(self),
+            SurfaceFormat::Ply => Ok(ply(self).into_bytes()),
+            SurfaceFormat::Vtp => vtp(self),
+        }
     }
 }
 
-fn stl(found: &Workspace) -> Result<Vec<u8>> {
+/// Surface of what is proved inside, in a format.
+///
+/// # Errors
+/// None that the memory does not give.
+pub fn of_proof(mesh: &FaceMesh, format: SurfaceFormat) -> Result<Vec<u8>> {
+    let vertices: Vec<[f64; 3]> = mesh.vertices.iter().map(|vertex| (*vertex).into()).collect();
+    let surface = Surface { vertices_m: &vertices, triangles: &mesh.triangles, before_cut: usize::MAX };
+    surface.written(format)
+}
+
+fn stl(found: &Surface<'_>) -> Result<Vec<u8>> {
     let vertex = |i: usize| found.vertices_m[i].map(|coordinate| coordinate as f32);
     let triangles: Vec<stl_io::Triangle> = (found.triangles.iter())
         .map(|corners| {
@@ -66,23 +91,23 @@ fn normal([a, b, c]: [[f32; 3]; 3]) -> [f32; 3] {
     cross.map(|part| if length > 0.0 { (part / length) as f32 } else { 0.0 })
 }
 
-fn ply(found: &Workspace) -> String {
+fn ply(found: &Surface<'_>) -> String {
     let mut text = format!(
         "ply\nformat ascii 1.0\ncomment workspace in metres\nelement vertex {}\nproperty double x\nproperty double \
          y\nproperty double z\nelement face {}\nproperty list uchar int vertex_indices\nend_header\n",
         found.vertices_m.len(),
         found.triangles.len()
     );
-    for [x, y, z] in &found.vertices_m {
+    for [x, y, z] in found.vertices_m {
         let _ = writeln!(text, "{x} {y} {z}");
     }
-    for [a, b, c] in &found.triangles {
+    for [a, b, c] in found.triangles {
         let _ = writeln!(text, "3 {a} {b} {c}");
     }
     text
 }
 
-fn vtp(found: &Workspace) -> Result<Vec<u8>> {
+fn vtp(found: &Surface<'_>) -> Result<Vec<u8>> {
     let (vertices, triangles) = (found.vertices_m.len(), found.triangles.len());
     let mut out = Writer::new(Vec::new());
     out.write_event(Event::Decl(BytesDecl::new("1.0", Some("UTF-8"), None)))?;
@@ -94,7 +119,7 @@ fn vtp(found: &Workspace) -> Result<Vec<u8>> {
     out.write_event(Event::Start(BytesStart::new("Piece").with_attributes(counts)))?;
 
     out.write_event(Event::Start(BytesStart::new("CellData")))?;
-    let is_cut = |i: usize| u8::from(i >= found.triangles_of_surface);
+    let is_cut = |i: usize| u8::from(i >= found.before_cut);
     array(&mut out, ("UInt8", "cut", 1), (0..triangles).map(is_cut))?;
     out.write_event(Event::End(BytesEnd::new("CellData")))?;
 

@@ -13,6 +13,7 @@ pub(crate) mod chart;
 mod contour;
 pub(crate) mod drawing;
 pub(crate) mod drive;
+mod estimated;
 mod font;
 mod gusts;
 pub(crate) mod hull;
@@ -21,6 +22,7 @@ pub(crate) mod map;
 mod motions;
 mod pairs;
 pub(crate) mod pdf;
+pub(crate) mod proved;
 mod sections;
 mod settling;
 pub(crate) mod simulated;
@@ -32,8 +34,9 @@ pub(crate) mod view;
 mod winches;
 
 pub use making::{
-    RequestFigure, of_calibration, of_clearance, of_compare, of_decay, of_frf, of_gust, of_loads, of_modes, of_payload,
-    of_rest, of_sections, of_simulation, of_speeds, of_statics, of_trajectory, of_winches,
+    RequestFigure, of_calibration, of_clearance, of_compare, of_decay, of_estimate, of_frf, of_gust, of_loads,
+    of_modes, of_payload, of_proof, of_rest, of_sections, of_simulation, of_speeds, of_statics, of_trajectory,
+    of_winches,
 };
 pub use space::animation_of_simulation;
 

@@ -6,11 +6,13 @@
 
 pub mod calibrate;
 pub mod design;
+pub mod estimate;
 pub(crate) mod figure;
 pub mod identify;
 pub mod live;
 pub mod paper;
 pub mod plot;
+pub mod prove;
 pub mod report;
 pub mod settle;
 pub mod simulate;
@@ -25,6 +27,7 @@ use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD as BASE64;
 use flate2::Compression;
 use flate2::write::GzEncoder;
+use std::borrow::Cow;
 use std::io::Write as _;
 
 /// plotly.js, [`packed`] at build time.
@@ -35,7 +38,7 @@ pub(crate) struct Shell {
     /// Title of the page.
     pub(crate) title: String,
     /// Sections (id, name) for the list of contents.
-    pub(crate) contents: &'static [(&'static str, &'static str)],
+    pub(crate) contents: Cow<'static, [(&'static str, &'static str)]>,
     version: &'static str,
     style: &'static str,
     script: &'static str,
@@ -44,10 +47,10 @@ pub(crate) struct Shell {
 
 impl Shell {
     /// Shell of a page with this title and these sections.
-    pub(crate) fn new(title: String, contents: &'static [(&'static str, &'static str)]) -> Self {
+    pub(crate) fn new(title: String, contents: impl Into<Cow<'static, [(&'static str, &'static str)]>>) -> Self {
         Self {
             title,
-            contents,
+            contents: contents.into(),
             version: env!("CARGO_PKG_VERSION"),
             style: include_str!("../templates/page.css"),
             script: concat!(include_str!("../templates/space.js"), include_str!("../templates/page.js")),

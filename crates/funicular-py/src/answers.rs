@@ -127,6 +127,10 @@ pub(crate) fn text_of(py: Python<'_>, request: &str, call: String) -> PyResult<(
     let request = self::request(request)?;
     let made = interruptible_in_steps(py, move |watch| document::make(&request, &call, Words::Python, watch))?;
     let made = made.map_err(|error| errors::study(&error))?;
+    if made.bytes.is_some() {
+        let advice = "a unit for co-simulation is no text: write its file with `Equilibrium.export`";
+        return Err(errors::study(&anyhow::anyhow!(advice)));
+    }
     Ok((worded(&made.text, Words::Python), in_words(&made.warnings)))
 }
 

@@ -7,7 +7,8 @@ use crate::pose::PyPose;
 use funicular::math::Vec3;
 use funicular::robot::Robot;
 use funicular::simulation::{
-    CutAt, LengthAtEnd, RobotSample, SimulationEvent, SimulationSettings, StepError, StepInputs, SteppedSimulation,
+    AnchorAtEnd, CutAt, LengthAtEnd, RobotSample, SimulationEvent, SimulationSettings, StepError, StepInputs,
+    SteppedSimulation,
 };
 use funicular_study::at_rest::AtRest;
 use pyo3::prelude::*;
@@ -169,6 +170,12 @@ impl PySimulation {
     ///     Rate of the moment [N m/s]; zero if a moment is given without.
     /// wind_m_s
     ///     Mean velocity of the wind, world axes [m/s].
+    /// anchors_m
+    ///     Places of anchors at the end of the interval, world axes [m]: a dictionary from names of cables to x, y, z.
+    /// anchor_velocities_m_s
+    ///     Velocities of these anchors at the end [m/s]. Without them an anchor may move by a micrometre.
+    /// anchor_accelerations_m_s2
+    ///     Accelerations of these anchors at the end [m/s²]; without them the course is a cubic polynomial.
     ///
     /// Raises
     /// ------
@@ -177,7 +184,8 @@ impl PySimulation {
     /// NoSolutionError
     ///     The motion cannot be followed; the simulation is as it was.
     #[pyo3(signature = (dt_s, *, lengths_m=None, rates_m_s=None, accelerations_m_s2=None, force_n=None,
-        moment_n_m=None, force_rate_n_s=None, moment_rate_n_m_s=None, wind_m_s=None))]
+        moment_n_m=None, force_rate_n_s=None, moment_rate_n_m_s=None, wind_m_s=None, anchors_m=None,
+        anchor_velocities_m_s=None, anchor_accelerations_m_s2=None))]
     #[expect(clippy::too_many_arguments, reason = "keywords of Python")]
     fn step(
         &self,
@@ -191,10 +199,14 @@ impl PySimulation {
         force_rate_n_s: Option<Numbers>,
         moment_rate_n_m_s: Option<Numbers>,
         wind_m_s: Option<Numbers>,
+        anchors_m: Option<TextKeyed<'_>>,
+        anchor_velocities_m_s: Option<TextKeyed<'_>>,
+        anchor_accelerations_m_s2: Option<TextKeyed<'_>>,
     ) -> PyResult<()> {
         let interval = dt_s.value("dt_s")?;
         let mut inputs =
             StepInputs { lengths: self.commands(lengths_m, rates_m_s, accelerations_m_s2)?, ..StepInputs::default() };
+        inputs.anchors = self.anchors(anchors_m, anchor_velocities_m_s, anchor_accelerations_m_s2)?;
         inputs.wind_w = wind_m_s.map(|wind| wind.three("wind_m_s")).transpose()?.map(Vec3::from);
         let force = force_n.map(|of| of.three("force_n")).transpose()?.map(Vec3::from);
         let moment = moment_n_m.map(|of| of.three("moment_n_m")).transpose()?.map(Vec3::from);
@@ -454,6 +466,13 @@ impl PySimulation {
         self.per_cable(|cable| cable.length.rate)
     }
 
+    /// Places of the anchors, world axes [m]: a row per cable.
+    #[getter]
+    fn anchors_m(&self) -> PyResult<Vec<[f64; 3]>> {
+        let state = self.state()?;
+        Ok((0..self.names.len()).map(|cable| state.simulation.anchor_motion(cable)[0].into()).collect())
+    }
+
     /// Names of the cables that have been cut or have failed.
     #[getter]
     fn cut_cables(&self) -> PyResult<Vec<String>> {
@@ -463,7 +482,7 @@ impl PySimulation {
     }
 
     /// Energies at the present time and works since the start [J]: `kinetic`, `strain`, `potential`, `winches`,
-    /// `loads`, `dissipated`, `payloads`, `defect`.
+    /// `anchors`, `loads`, `dissipated`, `payloads`, `defect`.
     #[getter]
     fn energy_j<'py>(&self, py: Python<'py>) -> PyResult<TextKeyed<'py>> {
         let energy = self.state()?.now.energy;
@@ -473,6 +492,7 @@ impl PySimulation {
             ("strain", energy.strain),
             ("potential", energy.potential),
             ("winches", energy.winches),
+            ("anchors", energy.anchors),
             ("loads", energy.loads),
             ("dissipated", energy.dissipated),
             ("payloads", energy.payloads),
@@ -530,5 +550,43 @@ impl PySimulation {
             }
         };
         (0..self.names.len()).map(command).collect()
+    }
+
+    /// Places of anchors with their velocities and accelerations.
+    fn anchors(
+        &self,
+        places: Option<TextKeyed<'_>>,
+        velocities: Option<TextKeyed<'_>>,
+        accelerations: Option<TextKeyed<'_>>,
+    ) -> PyResult<Vec<Option<AnchorAtEnd>>> {
+        if places.is_none() && velocities.is_none() && accelerations.is_none() {
+            return Ok(Vec::new());
+        }
+        let read = |what: &str, of: Option<TextKeyed<'_>>| -> PyResult<Vec<Option<Vec3>>> {
+            let mut found = vec![None; self.names.len()];
+            let Some(of) = of else { return Ok(found) };
+            for (name, value) in of.0.iter() {
+                let name: String = name.extract()?;
+                let place = place_of(what, &name, &self.names)?;
+                found[place] = Some(Vec3::from(value.extract::<Numbers>()?.three(&format!("{what}[{name}]"))?));
+            }
+            Ok(found)
+        };
+        let places = read("anchors_m", places)?;
+        let velocities = read("anchor_velocities_m_s", velocities)?;
+        let accelerations = read("anchor_accelerations_m_s2", accelerations)?;
+        let anchor = |i: usize| match (places[i], velocities[i], accelerations[i]) {
+            (Some(place_w), velocity_w, acceleration_w) => {
+                Ok(Some(AnchorAtEnd { place_w, velocity_w, acceleration_w }))
+            }
+            (None, None, None) => Ok(None),
+            _ => {
+                let name = &self.names[i];
+                Err(errors::input(format!(
+                    "the anchor of cable \"{name}\" has a velocity or an acceleration without its place: give both"
+                )))
+            }
+        };
+        (0..self.names.len()).map(anchor).collect()
     }
 }

@@ -10,6 +10,7 @@ use crate::vibration::{PROMINENCE_DB, pairs};
 use funicular::math::DMat;
 use funicular::reduced_model::StateSpace;
 use funicular::robot::Robot;
+use funicular_answers::document;
 use funicular_files::endings::{self, Kind};
 use funicular_files::mat::{self, Value, Variable};
 use funicular_formats::export;
@@ -138,6 +139,12 @@ pub(crate) fn export(
     request: ExportRequest,
 ) -> PyResult<Vec<String>> {
     answers::try_file(path.clone())?;
+    if request.to.is_unit() {
+        let made = interruptible(py, move || document::unit(&request))?;
+        let (bytes, warnings) = made.map_err(|error| errors::study(&error))?;
+        answers::write_bytes(path, &bytes)?;
+        return Ok(in_words(&warnings));
+    }
     let at_rest = Arc::clone(&of.at_rest);
     let exported = interruptible(py, move || {
         export::refuse(&request)?;

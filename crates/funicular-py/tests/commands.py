@@ -13,12 +13,12 @@ import funicular
 
 # Options for the place and the form of a result, which do not change the computation.
 OUTPUT = {"--format", "-o", "--output-file", "--print-request", "--help", "--matrices", "--resume", "--discard", "--part", "--threads"}
-OUTPUT |= {"--figure-width-mm", "--font-size-pt", "--figure-mode", "--fitted", "--designed", "--calibrated", "--page", "--pdf", "--samples-file", "--lengths", "--surface", "--animation", "--figure", "--universal-file", "--quiet"}
+OUTPUT |= {"--figure-width-mm", "--font-size-pt", "--figure-mode", "--fitted", "--designed", "--calibrated", "--calibrated-covariance", "--page", "--pdf", "--proved", "--certificate", "--samples-file", "--lengths", "--surface", "--animation", "--figure", "--universal-file", "--quiet"}
 # Options without a value.
 SWITCHES = {
     *("--log", "--adaptive", "--all", "--in-plane-only", "--print-request", "--resume", "--discard"),
     *("--platform", "--hold-lengths-of-pose", "--friction-interval", "--rigid-cables", "--rope-inertia", "--fastest", "--once", "--hold-platform"),
-    *("--find-way", "--in-gusts", "--quiet", "--summary", "--reconnect"),
+    *("--find-way", "--in-gusts", "--quiet", "--summary", "--reconnect", "--prove"),
 }
 # Options that may be given several times.
 LISTS = {"reduce": {"--input", "--output"}, "gust": {"--output"}, "identify": {"--profile"}}
@@ -95,7 +95,7 @@ def call(line: str) -> tuple[str, list[str], dict[str, Any], dict[str, Any]]:
         elif word in OUTPUT:
             if word not in SWITCHES:
                 next(rest)
-        elif word in SWITCHES:
+        elif word in SWITCHES and (command, word) != ("estimate", "--log"):
             keywords[key] = True
         elif word == "--set":
             path, _, text = next(rest).partition("=")
@@ -117,8 +117,8 @@ def call(line: str) -> tuple[str, list[str], dict[str, Any], dict[str, Any]]:
             keywords[key] = tomllib.loads(Path(next(rest)).read_text())
         elif word == "--quantity":
             keywords["quantities"] = next(rest).split(",")
-        elif word in ("--offers", "--ropes"):
-            keywords[key] = read_offers(next(rest))
+        elif word in ("--offers", "--ropes") or (command, word) == ("uncertainty", "--covariance"):
+            keywords[key] = read_records(next(rest))
         elif word in ("--poses", "--via", "--accuracy-poses"):
             keywords[key] = read_poses(next(rest))
         elif command == "design" and word == "--change":
@@ -141,11 +141,11 @@ def call(line: str) -> tuple[str, list[str], dict[str, Any], dict[str, Any]]:
     return command, files, keywords, changes
 
 
-def read_offers(name: str) -> list[dict[str, Any]]:
-    """Winches or ropes on offer, as keywords; empty cells are left out."""
+def read_records(name: str) -> list[dict[str, Any]]:
+    """Rows of a table with texts and numbers, as keywords; empty cells are left out."""
     with Path(name).open(newline="") as file:
         rows = list(csv.DictReader(file))
-    return [{key: text if key == "name" else float(text) for key, text in row.items() if text} for row in rows]
+    return [{key: text if key in ("name", "first", "second") else float(text) for key, text in row.items() if text} for row in rows]
 
 
 def chosen(text: str) -> dict[str, Any]:
@@ -162,12 +162,13 @@ OF_REQUEST = {"starts", "from_hz", "to_hz", "response_noise", "frequency_noise",
 OF_REQUEST |= {"profile", "tension_rule", "target_tension_n", "min_tension_n", "max_tension_n"}
 OF_REQUEST |= {"propose", "grid", "poses", "propose_measuring", "propose_payloads_kg", "propose_modes", "propose_for", "propose_by", "wanted_percent"}
 OF_REQUEST |= {"cable_model", "assembly", "in_plane_only", "winches"}
+OF_REQUEST |= {"history_kind", "history_from_s", "history_to_s", "history_poles"}
 
 
 def identification(keywords: dict[str, Any]) -> dict[str, Any]:
     """Keywords of a request of `identify` with one experiment."""
     fit: dict[str, dict[str, Any]] = {}
-    for text in keywords.pop("fit"):
+    for text in keywords.pop("fit", []):
         path, _, bounds = text.partition("=")
         low, high = map(float, bounds.split(":")) if bounds else (None, None)
         fit[path] = {"path": path, "minimum": low, "maximum": high}

@@ -43,3 +43,14 @@ def test_unknown_paths_and_measurements_are_refused() -> None:
         robot.identify(["platform.weight_kg"], frequencies, hold_lengths_of_pose=True)
     with pytest.raises(funicular.InputError, match="no measurement"):
         robot.identify(["platform.mass_kg"], {}, hold_lengths_of_pose=True)
+
+
+def test_frequencies_of_a_time_history(program: Program) -> None:
+    decay = ROOT / "docs/identification/hall-decay.csv"
+    theirs = program("identify", ROBOT, "--measured", decay, "--history-poles", "1")
+    robot = funicular.Robot.from_file(ROBOT)
+    found = robot.identify([], funicular.read_measurements(decay), history_poles=1)
+    assert found.names == () and found.details["histories"] == theirs["histories"]
+    pole = found.details["histories"][0]["poles"][0]
+    low, high = pole["interval_95_hz"]
+    assert low < pole["frequency_hz"] < high and abs(pole["frequency_hz"] - 6.803) < 0.02

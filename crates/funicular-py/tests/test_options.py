@@ -38,9 +38,11 @@ COMMANDS: dict[str, tuple[str, list[Callable[..., Any]]]] = {
     "simulate": ("`robot.simulate(scenario, …)`", [Robot.simulate]),
     "clearance": ("`robot.clearance(…)`", [Robot.clearance]),
     "workspace": ("`robot.workspace(…)`", [Robot.workspace]),
+    "prove": ("`robot.prove(…)`", [Robot.prove]),
     "pose-error": ("`robot.pose_error(…)`", [Robot.pose_error]),
     "identify": ("`robot.identify(fit, experiments, …)`", [Robot.identify]),
     "calibrate": ("`robot.calibrate(readings, …)`", [Robot.calibrate]),
+    "estimate": ("`robot.estimate(log, …)`", [Robot.estimate]),
     "design": ("`robot.design(change, …)`", [Robot.design]),
     "cable": ("`robot.equilibrium(…).cable(…)`", [Robot.equilibrium, Equilibrium.cable]),
     "reduce": (

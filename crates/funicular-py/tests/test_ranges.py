@@ -20,6 +20,7 @@ BESIDE: dict[str, dict[str, Any]] = {
     "pose-error": {"mass_kg": (10, 20, 3)},
     "design": {"change": {"platform.mass_kg": [5, 20]}},
     "calibrate": {"readings": LENGTHS},
+    "estimate": {"log": {"t_s": [0.0, 0.01], **{name: values[:2] for name, values in LENGTHS.items()}}},
     "reduce": {"below_hz": 5},
     "identify": {"fit": [{"path": "platform.mass_kg"}], "experiments": [{"frequencies": [{"frequency_hz": 1.2}]}]},
 }
@@ -29,7 +30,7 @@ def numeric(command: str) -> list[str]:
     return [key["name"] for key in COMMANDS[command] if key["type"] == "SupportsFloat | SupportsIndex" and not key["required"]]
 
 
-@pytest.mark.parametrize("command", ["simulate", "trajectory", "pose-error", "statics", "modes", "settle", "gust", "loads", "design", "calibrate", "uncertainty", "workspace", "reduce", "frf", "identify"])
+@pytest.mark.parametrize("command", ["simulate", "trajectory", "pose-error", "statics", "modes", "settle", "gust", "loads", "design", "calibrate", "estimate", "uncertainty", "workspace", "prove", "reduce", "frf", "identify"])
 def test_a_number_out_of_its_range_is_refused_before_any_work(robot: funicular.Robot, command: str) -> None:
     tried = 0
     beside = BESIDE.get(command, {})

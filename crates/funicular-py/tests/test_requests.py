@@ -47,6 +47,7 @@ LENGTHS_OVER_TIME = """t_s,unstrained_length_1_m,unstrained_length_2_m,unstraine
 0.5,6.862,6.566,6.755,6.664,6.801,6.604
 1,6.863,6.565,6.756,6.663,6.801,6.604
 """
+ESTIMATED = "docs/estimation/robot.toml --log docs/estimation/run.csv"
 MACHINE = "docs/calibration/machine.toml --readings docs/calibration/belts.csv"
 MORE = [
     "funicular schema --of request",
@@ -85,6 +86,9 @@ MORE = [
     "funicular calibrate robots/ipanema2.toml --readings docs/tutorials/ipanema-lengths.csv --static-model spring --tension-range-n 200:2000",
     f"funicular calibrate {MACHINE} --propose 1 --grid x=1:3:3 --propose-by determinant --min-tension-n 5 --max-tension-n 50 --tension-rule closest --target-tension-n 20",
     f"funicular calibrate {MACHINE} --length-std-m 0.0005 --propose 1 --poses waypoints.csv --propose-for anchors --wanted-std-m 0.05",
+    f"funicular estimate {ESTIMATED} --every-s 0.5 --inertial-unit-m 0.1,0,0.5 --tracked-point-m 0,0,1 --near-pose 0,0,1.5 --false-alarms-per-hour 1 --length-std-m 1e-5 --tension-std-n 4",
+    f"funicular estimate {ESTIMATED} --every-s 1 --cable-angle-std-rad 0.002 --gyroscope-std-rad-s 0.003 --accelerometer-std-m-s2 0.05 --tracker-std-m 0.002 --payload-kg 1 --payload-std-kg 0.5",
+    f"funicular estimate {ESTIMATED} --every-s 1 --first-moment-std-kg-m 0.05 --force-std-n 2 --moment-std-n-m 0.4 --force-time-s 2 --offset-std-m 0.002 --tension-bias-std-n 6 --friction 0.01",
     f"funicular calibrate {MACHINE} --accuracy-poses waypoints.csv --propose 1 --grid x=1:3:3 --propose-for tool",
     f"funicular compare {ROBOT} --below-hz 2",
     f"funicular compare robots/cogiro.toml --below-hz 6 {TENSIONS} --platform --platform-share 0.6 --tolerance 0.05",
@@ -122,6 +126,10 @@ MORE = [
     "--center-m 0,0,1.5 --payload-center-m 0,0,-0.1",
     f"funicular workspace robots/cogiro.toml --step-m 3.5 --at-least first-platform-frequency=0.2 --max-tension-n 4000 {MODEL} "
     "--up-to-hz 50 --platform-share 0.6",
+    "funicular workspace robots/cogiro.toml --step-m 3 --prove --boxes 50 --max-tension-n 4000",
+    "funicular workspace robots/cogiro.toml --step-m 3 --prove --undecided 0.9 --time-s 100",
+    "funicular prove robots/cogiro.toml --pose 0,0,1.5 --within-m 2,1,0.5 --within-deg 0.5,0,1 --boxes 40 --max-tension-n 4000 --required-force-n 20,20,20",
+    "funicular prove robots/cogiro.toml --pose 0,0,1.5 --static-model spring --within-m 5,3,1 --undecided 0.5 --time-s 100",
     f"funicular workspace robots/cogiro-winches.toml --step-m 3.5 --at-least speed-factor=1 --max-tension-n 4000 {VELOCITIES}",
     f"funicular statics robots/cogiro.toml {TENSIONS} --hold-lengths-of-pose --mass-kg 250 --set platform.mass_kg=200",
     f"funicular stiffness robots/cogiro.toml {TENSIONS} --hold-lengths-of-pose --mass-kg 250",
@@ -149,6 +157,7 @@ MORE = [
     f"funicular uncertainty {ROBOT} --deviations platform.mass_kg=1% --of response --at-hz 0.8,1.2 --input fz --output az "
     "--input-point-m 0.1,0,0 --output-point-m 0,0.1,0",
     f"funicular uncertainty {ROBOT} --deviations platform.mass_kg=1% --method sampled --samples 20 --seed 3 {LENGTHS} {MODEL}",
+    "funicular uncertainty robots/cogiro.toml --covariance covariance.csv --grid x=0:1:2 --grid z=1.5 --of pose",
     f"funicular cable {ROBOT} --name 3 {RANGE}",
     f"funicular cable {ROBOT} --name 3 {RANGE} --log --pose 0,0,0.5 {STATE} --cable-model shallow-dynamic "
     "--in-plane-only --winches stuck",
@@ -260,6 +269,10 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     (tmp_path / "ropes.csv").write_text("name,axial_stiffness_n,mass_kg_per_m,diameter_m\nthin,300000,0.05,\nthick,900000,0.1,0.006\n")
     (tmp_path / "path.csv").write_text("t_s,x_m,y_m,z_m,yaw_deg\n0,0,0,1.5,0\n1,0.5,0.2,1.5,5\n2,1,0,1.6,10\n")
     (tmp_path / "winches.csv").write_text("name,tension_n,speed_m_s,power_w,rope_m\nsmall,800,1.2,900,\n7,3000,3,5000,60\n")
+    (tmp_path / "covariance.csv").write_text(
+        "first,second,covariance\ncables.1.anchor_m.x,cables.1.anchor_m.x,4e-6\ncables.1.anchor_m.x,cables.2.anchor_m.x,2e-6\n"
+        "cables.2.anchor_m.x,cables.2.anchor_m.x,4e-6\n"
+    )
     (tmp_path / "gusts.csv").write_text("frequency_hz,along_m2_s,lateral_m2_s,up_m2_s\n0.01,40,20,10\n0.1,8,6,4\n1,0.2,0.2,0.1\n")
     (tmp_path / "windy.toml").write_text(windy())
     (tmp_path / "response.csv").write_text("frequency_hz,a1_re,a1_im\n1,-5.16e-4,0\n2,-2.55e-3,0\n2.5,-7e-3,2e-4\n")
@@ -339,8 +352,8 @@ def test_a_command_line_and_a_call_are_one_request(line: str, executable: str) -
 
 # Commands whose results are compared; the others make pages, files or rows, which have their own tests.
 COMPUTED = (
-    *("check", "parameters", "statics", "stiffness", "modes", "frf", "compare", "gradient", "payload", "loads", "speeds", "winches", "trajectory", "simulate", "clearance", "workspace", "pose-error", "cable"),
-    *("settle", "gust", "reduce", "identify", "calibrate", "uncertainty"),
+    *("check", "parameters", "statics", "stiffness", "modes", "frf", "compare", "gradient", "payload", "loads", "speeds", "winches", "trajectory", "simulate", "clearance", "workspace", "prove", "pose-error", "cable"),
+    *("settle", "gust", "reduce", "identify", "calibrate", "estimate", "uncertainty"),
 )
 
 
@@ -376,7 +389,7 @@ def test_a_call_and_a_request_have_the_results_of_the_program(line: str, executa
     if command == "uncertainty":
         assert robot.uncertainty(**keywords).details == theirs
         return
-    if command in ("pose-error", "payload", "loads", "speeds", "winches", "trajectory", "simulate", "clearance", "workspace", "calibrate"):
+    if command in ("pose-error", "payload", "loads", "speeds", "winches", "trajectory", "simulate", "clearance", "workspace", "prove", "calibrate", "estimate"):
         method = getattr(robot, command.replace("-", "_"))
         assert plain(method(**keywords)) == theirs
         return

@@ -5,6 +5,7 @@
 //! `parameters`, `identify`, `calibrate`, `design` and `uncertainty` read the robot themselves, because they need the
 //! text of its file.
 
+mod anchor_table;
 pub mod cable;
 pub mod calibrate;
 mod candidate_poses;
@@ -12,6 +13,7 @@ pub mod check;
 pub mod clearance;
 pub mod compare;
 pub mod design;
+pub mod estimate;
 mod fields;
 pub mod frf;
 pub mod gradient;
@@ -23,6 +25,7 @@ pub mod parameters;
 pub mod payload;
 pub mod pose_error;
 mod profile;
+pub mod prove;
 pub mod reduce;
 mod result_groups;
 pub mod settle;

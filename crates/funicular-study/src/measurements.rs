@@ -1,4 +1,5 @@
-//! Measured responses and natural frequencies as plain data, and the accuracy of measurements that state none.
+//! Measured responses, natural frequencies and time histories as plain data, and the accuracy of measurements that
+//! state none.
 
 use serde::{Deserialize, Serialize};
 
@@ -39,6 +40,38 @@ pub struct MeasuredResponse {
     pub std: Option<Vec<f64>>,
 }
 
+/// Measured time history: readings of sensors at common times.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct MeasuredHistory {
+    /// Name in messages and tables.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub name: String,
+    /// Times [s], ascending.
+    pub time_s: Vec<f64>,
+    /// Sensors.
+    pub channels: Vec<MeasuredChannel>,
+}
+
+/// Readings of a sensor.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct MeasuredChannel {
+    /// Name in messages and tables.
+    pub name: String,
+    /// Signal that the sensor measures, as `az`; absent if it is none of the robot's.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub output: Option<String>,
+    /// Point where the sensor is, platform frame [m].
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub output_point_m: Option<[f64; 3]>,
+    /// Readings, one per time, in the SI unit of the signal.
+    pub values: Vec<f64>,
+    /// Standard deviation of the noise, where it is known.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub std: Option<f64>,
+}
+
 /// Measured natural frequency.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -48,6 +81,9 @@ pub struct MeasuredFrequency {
     /// Damping ratio.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub damping_ratio: Option<f64>,
+    /// Standard deviation of the damping ratio.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub damping_std: Option<f64>,
     /// Standard deviation of the frequency [Hz].
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub std_hz: Option<f64>,

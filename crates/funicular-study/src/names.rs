@@ -302,6 +302,16 @@ named! {
 }
 
 named! {
+    /// Kind of a measured time history.
+    #[derive(Default)]
+    enum HistoryKind, "kind of time histories" {
+        #[default]
+        Decay "decay", "Free decay after a push, a release or a stop";
+        Ambient "ambient", "Record under wind or other broad-band excitation that is not measured";
+    }
+}
+
+named! {
     /// Form of a reduced model.
     #[derive(Default)]
     enum ModelForm, "form" {
@@ -507,6 +517,8 @@ named! {
         Vtk "vtk", "VTK XML of polylines and polygons (.vtp), for ParaView";
         C "c", "Table of lengths over a box of poses as a C99 file, for firmware";
         Json "json", "Table of lengths over a box of poses in JSON, for firmware that reads its numbers";
+        Fmu "fmu", "Robot in motion as a Functional Mock-up Unit 2.0 for co-simulation";
+        Fmu3 "fmu3", "Robot in motion as a Functional Mock-up Unit 3.0 for co-simulation";
     }
 }
 
@@ -522,12 +534,19 @@ impl ExportFormat {
             Self::Vtk => "VTK",
             Self::C => "C",
             Self::Json => "JSON",
+            Self::Fmu => "FMI 2.0",
+            Self::Fmu3 => "FMI 3.0",
         }
     }
 
     /// True if the file is a table of lengths over a box of poses.
     pub fn is_length_table(self) -> bool {
         matches!(self, Self::C | Self::Json)
+    }
+
+    /// True if the file is a unit of co-simulation, which has the robot in motion.
+    pub fn is_unit(self) -> bool {
+        matches!(self, Self::Fmu | Self::Fmu3)
     }
 
     /// True if cables of the program are straight springs without mass, with the static model `spring`.

@@ -6,6 +6,7 @@
 
 mod calibrate;
 mod design;
+mod estimate;
 mod files;
 mod given;
 mod gradient;
@@ -17,6 +18,7 @@ mod library_words;
 mod loads;
 mod pages;
 mod parts;
+mod prove;
 mod shape;
 mod simulate;
 mod source_file;
@@ -31,6 +33,7 @@ mod workspace;
 
 pub use calibrate::{CalibrateRequest, PriorValue};
 pub use design::{ChangeValue, DesignRequest, OfferedRope};
+pub use estimate::EstimateRequest;
 pub use files::{ExportRequest, ImportRequest, NewRequest, SchemaRequest, TABLE_TOLERANCE_M};
 pub use given::{check_given, convert_units};
 pub(crate) use given::{check_scenario, read};
@@ -42,12 +45,13 @@ pub use loads::{LoadsRequest, Requirements};
 pub use pages::{LiveRequest, PaperRequest, ReportRequest, ValidateRequest};
 pub use parts::{
     Axis, Change, FrequencyRange, GappedColumns, ImportPlatform, ImportRopes, Load, MAX_HZ, Model, NumberColumns,
-    OneOrSeveral, Pose, ResponsePoints, ResponseRange, RobotText, State, Tensions, Terms,
+    OneOrSeveral, Places, Pose, ResponsePoints, ResponseRange, RobotText, State, Tensions, Terms,
 };
+pub use prove::{BOXES, Division, ProveRequest};
 pub use shape::schema;
 pub use simulate::{
-    CutEvent, LengthsEvent, PickEvent, PointValue, PushEvent, ReleaseEvent, SIMULATED_S, Scenario, SimulateRequest,
-    StopEvent,
+    AnchorEvent, CutEvent, LengthsEvent, PickEvent, PointValue, PushEvent, ReleaseEvent, SIMULATED_S, Scenario,
+    SimulateRequest, StopEvent,
 };
 pub use source_file::{MAX_BYTES, SourceFile};
 pub use speeds::{RequiredVelocities, SpeedsRequest};
@@ -57,7 +61,7 @@ pub use statics::{
 };
 pub use steps::{Steps, digits};
 pub use trajectory::{MotionOptions, TrajectoryRequest};
-pub use uncertainty::UncertaintyRequest;
+pub use uncertainty::{CovarianceEntry, UncertaintyRequest};
 
 pub(crate) use vibration::GUST_DURATION;
 pub use vibration::{
@@ -179,10 +183,12 @@ commands! {
     Reduce(ReduceRequest) "reduce" Needed robot;
     Identify(IdentifyRequest) "identify" Needed robot;
     Calibrate(CalibrateRequest) "calibrate" Needed robot;
+    Estimate(EstimateRequest) "estimate" Needed robot;
     Design(DesignRequest) "design" Needed robot;
     Map(MapRequest) "map" Needed robot;
     Sweep(SweepRequest) "sweep" Needed robot;
     Workspace(WorkspaceRequest) "workspace" Needed robot;
+    Prove(ProveRequest) "prove" Needed robot;
     Merge(MergeRequest) "merge" None;
     Plot(PlotRequest) "plot" None;
     Report(ReportRequest) "report" Embedded robot;

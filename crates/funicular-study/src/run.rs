@@ -8,6 +8,7 @@ use crate::analyses::{
     clearance::{self, Clearances},
     compare::{self, Compared},
     design::{self, Designed},
+    estimate::{self, Estimated},
     frf,
     gradient::{self, GradientTable},
     gust::{self, Gusty},
@@ -17,6 +18,7 @@ use crate::analyses::{
     parameters::{self, ParameterList},
     payload::{self, Payload},
     pose_error::{self, PoseErrors},
+    prove::{self, Proved},
     reduce::{self, ReducedForm},
     settle::{self, Settled},
     simulate::{self, Simulated},
@@ -166,7 +168,9 @@ answers! {
     Reduce(ReducedForm): of => reduce::run(robot()?, of, watch)?, at at_rest => reduce::about(at_rest, of, watch)?;
     Identify(Box<Identified>): of => Box::new(identify::run(of, watch)?);
     Calibrate(Box<Calibrated>): of => Box::new(calibrate::run(of, watch)?);
+    Estimate(Box<Estimated>): of => Box::new(estimate::run(&robot()?, of, watch)?);
     Workspace(Box<Workspace>): of => Box::new(workspace::run(robot()?, of, watch)?);
+    Prove(Box<Proved>): of => Box::new(prove::run(robot()?, of, watch)?);
     Design(Box<Designed>): of => Box::new(design::run(of, watch)?);
 }
 

@@ -6,7 +6,7 @@
 
 mod at_pose;
 mod described;
-mod digest;
+pub(crate) mod digest;
 mod error;
 mod evaluation;
 mod frequency;

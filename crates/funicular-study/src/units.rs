@@ -19,7 +19,7 @@ const fn unit(ending: &'static str, text: &'static str, form: &'static str) -> U
 }
 
 /// All units of names.
-static UNITS: [Unit; 37] = [
+static UNITS: [Unit; 38] = [
     unit("m", "m", "M"),
     unit("mm", "mm", "MM"),
     unit("m2", "m²", "M²"),
@@ -40,6 +40,7 @@ static UNITS: [Unit; 37] = [
     unit("per_rad", "1/rad", "1/RAD"),
     unit("kg", "kg", "KG"),
     unit("per_kg", "1/kg", "1/KG"),
+    unit("kg_m", "kg m", "KG·M"),
     unit("kg_per_m", "kg/m", "KG/M"),
     unit("kg_m2", "kg m²", "KG·M²"),
     unit("kg_m3", "kg/m³", "KG/M³"),

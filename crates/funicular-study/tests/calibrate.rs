@@ -278,3 +278,52 @@ fn rows_on_a_line_leave_mirror_images_and_the_warning_says_what_tells_them_apart
     // The image near the robot file is shown.
     assert!(found.values.iter().all(|value| (value.value - value.start).abs() < 0.1));
 }
+
+#[test]
+fn the_covariance_of_a_calibration_gives_uncertainty_the_accuracy_of_the_tool() {
+    // Anchors and offsets are strongly correlated here: with a wrong sign between them the deviations are several times
+    // as large.
+    let at = [[1.95, 1.47, 0.0, 0.0, 0.0, 0.0], [2.4, 1.1, 0.0, 0.0, 0.0, 0.0]];
+    let found = calibrated(
+        &readings(1e-4, &mut Draws(5)),
+        &json!({
+            "unknowns": ["anchors", "offsets"], "length_std_m": 1e-4, "accuracy_poses": at,
+            "prior": [{ "path": "offsets", "prior": 0.0, "prior_std": 2e-3 }],
+        }),
+    );
+    let tool = found.accuracy.as_ref().unwrap();
+    let covariance: Vec<Value> = found
+        .covariance
+        .iter()
+        .map(|row| json!({ "first": row.first, "second": row.second, "covariance": row.covariance }))
+        .collect();
+    assert!(found.covariance.iter().any(|row| row.second == "cables.4.unstrained_length_m"));
+    let deviations = |covariance: &[Value]| -> Vec<f64> {
+        let request = json!({
+            "command": "uncertainty", "robot": { "text": found.robot_file }, "of": ["pose"], "poses": at,
+            "covariance": covariance, "samples": 4000,
+        });
+        match run(&Request::from_json(&request.to_string()).unwrap(), &mut Silent).unwrap() {
+            Results::Uncertainty(found) => found.poses.iter().map(|pose| pose.position.unwrap().deviation_m).collect(),
+            _ => panic!("uncertainty was requested"),
+        }
+    };
+    let (ours, theirs) = (deviations(&covariance), &tool.poses);
+    for (deviation, row) in ours.iter().zip(theirs) {
+        // Elastic cables share what they contradict by EA/L, the tool by least squares; 4000 robots tell 1.1 %.
+        let ratio = deviation / row.deviation_m;
+        assert!((ratio - 1.0).abs() < 0.04, "{deviation} and {}", row.deviation_m);
+    }
+    let of_offsets = |row: &Value| row["second"].as_str().unwrap().contains("unstrained");
+    let turned: Vec<Value> = covariance
+        .iter()
+        .cloned()
+        .map(|mut row| {
+            let is_mixed = of_offsets(&row) && row["first"].as_str().unwrap().contains("anchor");
+            row["covariance"] = json!(if is_mixed { -1.0 } else { 1.0 } * row["covariance"].as_f64().unwrap());
+            row
+        })
+        .collect();
+    let wrong = deviations(&turned);
+    assert!(wrong[0] > 1.5 * ours[0], "{wrong:?} {ours:?}");
+}

@@ -370,3 +370,118 @@ fn a_loss_factor_deviates_by_both_ways() {
         assert!((sampled.deviation.unwrap() / linear.deviation.unwrap() - 1.0).abs() < 0.02, "{sampled:?}");
     }
 }
+
+/// Covariance of the anchors of all cables that move together: deviations along x and y with a correlation [m].
+fn moving_anchors(cables: usize, [x, y]: [f64; 2], correlation: f64) -> Value {
+    let numbers: Vec<(String, usize)> = (1..=cables)
+        .flat_map(|cable| [0, 1].map(|k| (format!("cables.{cable}.anchor_m.{}", ["x", "y"][k]), k)))
+        .collect();
+    let entry = |(first, i): &(String, usize), (second, j): &(String, usize)| {
+        let size = [x, y][*i] * [x, y][*j];
+        json!({ "first": first, "second": second, "covariance": if i == j { size } else { correlation * size } })
+    };
+    let entries = numbers.iter().enumerate().flat_map(|(n, first)| {
+        let entry = &entry;
+        numbers[n..].iter().map(move |second| entry(first, second))
+    });
+    Value::Array(entries.collect())
+}
+
+#[test]
+fn anchors_that_move_together_carry_the_platform_with_them() {
+    // Independent anchors would move it by less in most directions; together they translate the whole robot.
+    let deviations = [0.002, 0.001];
+    for (file, cables, pose) in [
+        (funicular_robots::YUAN2014_4MM.to_owned(), 6, json!([0.1, 0.0, 0.5, 0.0, 0.0, 0.0])),
+        (straight(), 6, json!([0.0, 0.0, 0.5, 0.0, 0.0, 0.0])),
+        (funicular_robots::COGIRO.to_owned(), 8, json!([1.0, 2.0, 1.5, 0.0, 0.0, 0.0])),
+    ] {
+        let found = uncertainty(
+            &file,
+            &json!({ "pose": pose, "covariance": moving_anchors(cables, deviations, 0.6), "of": ["pose"] }),
+        );
+        assert_eq!(found.inputs.len(), 2, "two combinations of {} numbers", 2 * cables);
+        let of = |name: &str| results(&found).iter().find(|result| result.name == name).unwrap().deviation.unwrap();
+        for (name, expected) in [("x", 0.002), ("y", 0.001), ("z", 0.0), ("rotation about z", 0.0)] {
+            // Sums of gradients to nine digits.
+            assert!((of(name) - expected).abs() < 1e-9, "{name}: {} and {expected}", of(name));
+        }
+
+        // The larger eigenvalue of [4, 1.2; 1.2, 1] mm².
+        let position = found.poses[0].position.unwrap();
+        let variance = 2.5 + (1.5_f64.powi(2) + 1.2_f64.powi(2)).sqrt();
+        assert!((1e3 * position.deviation_m - variance.sqrt()).abs() < 1e-6, "{position:?}");
+        let expected = [1.2, variance - 4.0].map(|part| part / 1.2_f64.hypot(variance - 4.0));
+        assert!((0..2).all(|k| (position.direction[k] - expected[k]).abs() < 1e-6), "{position:?}");
+    }
+}
+
+#[test]
+fn a_covariance_without_pairs_is_one_of_independent_deviations() {
+    let entry = |path: &str, deviation: f64| json!({ "first": path, "second": path, "covariance": deviation.powi(2) });
+    let (mass, anchor) = ("platform.mass_kg", "cables.3.anchor_m.z");
+    let at = json!({ "pose": [0.0, 0.0, 0.5, 0.0, 0.0, 0.0], "of": ["pose", "tensions"] });
+    let with = |more: Value| {
+        let mut all = at.clone();
+        all.as_object_mut().unwrap().extend(more.as_object().unwrap().clone());
+        uncertainty(funicular_robots::YUAN2014_4MM, &all)
+    };
+    let together = with(json!({ "covariance": [entry(mass, 0.5), entry(anchor, 0.001)] }));
+    let alone = with(json!({ "deviations": ["platform.mass_kg=0.5", "cables.3.anchor_m.z=0.001"] }));
+    for (a, b) in results(&together).iter().zip(results(&alone)) {
+        let (one, other) = (a.deviation.unwrap(), b.deviation.unwrap());
+        assert!((one - other).abs() <= 1e-12 * other, "{}: {one} and {other}", a.name);
+    }
+}
+
+#[test]
+fn covariances_that_no_numbers_have_are_refused_with_their_row() {
+    let row = |first: &str, second: &str, covariance: f64| -> Value {
+        json!({ "first": first, "second": second, "covariance": covariance })
+    };
+    let (x, y) = ("cables.1.anchor_m.x", "cables.1.anchor_m.y");
+    for (rows, part) in [
+        (json!([row(x, x, 1.0), row(y, y, 1.0), row(x, y, 1.1)]), "no random numbers have these covariances"),
+        (json!([row(x, x, 1.0), row(x, y, 0.1)]), "has no variance and still covariances"),
+        (json!([row(x, x, -1.0)]), "variance"),
+        (json!([row(x, x, 1.0), row(x, x, 2.0)]), "row 2"),
+        (json!([row(x, x, 1.0), row("cables.1.anchor_m.w", x, 0.0)]), "row 2: the robot has no number"),
+        (json!([row(x, x, 1e-6)]), "leave out one of them"),
+    ] {
+        let mut request = json!({
+            "command": "uncertainty", "robot": { "text": funicular_robots::YUAN2014_4MM }, "of": ["pose"],
+            "pose": [0.0, 0.0, 0.5, 0.0, 0.0, 0.0], "covariance": rows,
+        });
+        if part == "leave out one of them" {
+            request["deviations"] = json!(["cables.1.anchor_m.x=0.001"]);
+        }
+        let text = Request::from_json(&request.to_string())
+            .and_then(|request| run(&request, &mut Silent).map(drop))
+            .map_or_else(|error| error.to_string(), |()| "no error".to_owned());
+        assert!(text.contains(part), "{part}: {text}");
+    }
+}
+
+#[test]
+fn a_grid_is_the_list_of_its_poses() {
+    let common = json!({ "deviations": ["cables.*.anchor_m=0.002"], "of": ["pose"] });
+    let with = |more: Value| {
+        let mut all = common.clone();
+        all.as_object_mut().unwrap().extend(more.as_object().unwrap().clone());
+        uncertainty(funicular_robots::COGIRO, &all)
+    };
+    let grid = with(json!({
+        "pose": [0.0, 1.0, 1.5, 0.0, 0.0, 5.0],
+        "grid": [{ "axis": "x", "values": [-1.0, 2.0] }, { "axis": "z", "values": [1.0, 2.0] }],
+    }));
+    let rows = [[-1.0, 1.0], [-1.0, 2.0], [2.0, 1.0], [2.0, 2.0]].map(|[x, z]| [x, 1.0, z, 0.0, 0.0, 5.0]);
+    let list = with(json!({ "poses": rows }));
+    assert_eq!(grid.poses.len(), 4);
+    for (a, b) in grid.poses.iter().zip(&list.poses) {
+        for (one, other) in a.results.iter().zip(&b.results) {
+            let (one, other) = (one.deviation.unwrap(), other.deviation.unwrap());
+            assert!((one - other).abs() <= 1e-9 * other.abs().max(1e-6), "{one} and {other}");
+        }
+    }
+    assert!(grid.notes.iter().any(|note| note.starts_with("Position: from")), "{:?}", grid.notes);
+}

@@ -76,6 +76,7 @@ fn one_winch_for_every_cable_is_the_largest_of_all() {
     let single = winches(&json!({"grid": [], "pose": [3.0, 2.0, 1.5]})).unwrap();
     assert_eq!(single.poses, 1);
     assert!(single.winches[0].power_w <= every.power_w && single.winches[0].rope_m < every.rope_m);
+    assert!(found.sentence().ends_with(" m of rope") && !single.sentence().contains("of rope"));
 }
 
 #[test]

@@ -17,6 +17,7 @@ mod event;
 mod far_border;
 mod far_end;
 mod feed;
+mod moving_anchor;
 mod planned;
 mod resting;
 mod rope;
@@ -35,7 +36,7 @@ pub use event::{CutAt, EventFault, SimulationEvent};
 pub use planned::{CommandedLengths, without_payload};
 pub use rope::WoundLength;
 pub use run::{
-    CableSample, LengthAtEnd, RobotSample, Simulation, SlackCable, StepError, StepInputs, SteppedSimulation,
-    WrenchInput,
+    AnchorAtEnd, CableSample, LengthAtEnd, RobotSample, Simulation, SlackCable, StepError, StepInputs, StepSignal,
+    StepSignals, SteppedSimulation, WrenchInput,
 };
 pub use start::{ElementMesh, LossOfMode, RestFault, SimulationError, SimulationSettings};

@@ -62,7 +62,7 @@ mod tension_gain; // nearness to a singular pose
 pub use capacity::{
     LoadCapacity, LoadFactor, WrenchClosure, load_factor_bounds, load_factor_verdict_in_wind, wrench_closure,
 };
-pub(crate) use capacity::{LoadCoefficients, required_wrench, robots_under_required_loads};
+pub(crate) use capacity::{LoadCoefficients, required_vertices, required_wrench, robots_under_required_loads};
 pub use closed_form::closed_form_margin;
 pub use drag::{antisymmetric_fraction, drag_effect, drag_stiffness, stiffness_along_coordinates, tangent_with_drag};
 pub use energy::energy;

@@ -12,7 +12,9 @@ use crate::gradient::{GradientError, LengthRates};
 use crate::math::{Vec3, Vec6};
 use crate::path::PathPoint;
 use crate::robot::{Constraint, Robot, State};
-use crate::statics::{self, Equilibrium, Limit, StaticModel, StaticsError, TensionRange, TensionRule};
+use crate::statics::{
+    self, CableState, Equilibrium, Limit, StaticModel, StaticsError, TensionMargin, TensionRange, TensionRule,
+};
 use std::f64::consts::PI;
 
 /// Time over which differences stand for derivatives that do not exist in closed form [s]. Their error is a third of
@@ -76,6 +78,8 @@ pub struct InMotion {
     pub no_exact_rates: Option<GradientError>,
     /// Limit of its tension that each cable has reached.
     pub at_limit: Vec<Option<Limit>>,
+    /// Distances of the tensions of each cable from its minimum and from its maximum [N].
+    pub from_limits: Vec<[f64; 2]>,
 }
 
 impl<'a> AlongPath<'a> {
@@ -96,8 +100,12 @@ impl<'a> AlongPath<'a> {
             Ok(rates) => (self.rates(point, &rates), None),
             Err(reason) => (self.differences(point)?, Some(reason)),
         };
-        let at_limit = (0..equilibrium.cables.len()).map(|i| self.limit_of(&equilibrium, i)).collect();
-        Ok(InMotion { point: *point, equilibrium, length_rates, no_exact_rates, at_limit })
+        let margin =
+            |(i, cable): (usize, &CableState)| TensionRange::of(&self.loaded, i, &cable.chord_w()).margin(cable);
+        let margins: Vec<TensionMargin> = equilibrium.cables.iter().enumerate().map(margin).collect();
+        let at_limit = margins.iter().map(limit_of).collect();
+        let from_limits = margins.iter().map(|of| [of.min - of.range.minimum, of.range.maximum - of.max]).collect();
+        Ok(InMotion { point: *point, equilibrium, length_rates, no_exact_rates, at_limit, from_limits })
     }
 
     /// Robot with the loads of the motion at the last time.
@@ -188,18 +196,16 @@ impl<'a> AlongPath<'a> {
             forward
         })
     }
+}
 
-    /// Limit that the tension of a cable has reached.
-    fn limit_of(&self, equilibrium: &Equilibrium, i: usize) -> Option<Limit> {
-        let cable = &equilibrium.cables[i];
-        let margin = TensionRange::of(&self.loaded, i, &cable.chord_w()).margin(cable);
-        if margin.max >= margin.range.maximum * (1.0 - AT_LIMIT) {
-            Some(Limit::Maximum)
-        } else if margin.min <= margin.range.minimum * (1.0 + AT_LIMIT) {
-            Some(Limit::Minimum)
-        } else {
-            None
-        }
+/// Limit that the tensions of a cable have reached.
+fn limit_of(margin: &TensionMargin) -> Option<Limit> {
+    if margin.max >= margin.range.maximum * (1.0 - AT_LIMIT) {
+        Some(Limit::Maximum)
+    } else if margin.min <= margin.range.minimum * (1.0 + AT_LIMIT) {
+        Some(Limit::Minimum)
+    } else {
+        None
     }
 }
 

@@ -1,10 +1,11 @@
 //! Rows of the table of files, one function for each kind of file, and what their bytes need.
 
 use super::{Answered, Drawn, FigureOptions, Made, Make, Output, always};
-use anyhow::Result;
+use anyhow::{Result, bail};
 use funicular_files::endings::Kind;
 use funicular_formats::surface::{self, SurfaceFormat};
 use funicular_study::Watch;
+use funicular_study::analyses::prove::Proved;
 use funicular_study::analyses::workspace::Workspace;
 use funicular_study::text::counted;
 
@@ -69,13 +70,40 @@ pub(super) const fn lengths(about: &'static str, make: BytesOf) -> Output {
     file("lengths", about, ["the lengths", "CSV"], &[Kind::Csv], Make::Bytes(make))
 }
 
-/// Surface of a workspace in the format of its file.
-pub(super) fn surface_of(found: &Workspace, kind: Option<Kind>) -> Result<Made> {
-    let format = match kind {
+/// Surface of what is proved inside.
+pub(super) const fn proved_surface(make: BytesOf) -> Output {
+    let about = "Write the surface of what is proved inside [m] to FILE.stl, FILE.ply or FILE.vtp (ParaView)";
+    let kinds = &[Kind::Stl, Kind::Ply, Kind::Vtp];
+    Output { several: true, ..file("proved", about, ["the proved set", "a surface"], kinds, Make::Bytes(make)) }
+}
+
+/// Certificate of a proof.
+pub(super) const fn certificate(make: BytesOf) -> Output {
+    let about = "Write a certificate as lines of JSON, which scripts/check_certificate.py checks with rational numbers";
+    file("certificate", about, ["the certificate", "lines of JSON"], &[Kind::JsonLines], Make::Bytes(make))
+}
+
+pub(super) fn proved_of(found: Option<&Proved>, kind: Option<Kind>) -> Result<Made> {
+    let Some(found) = found else { bail!("nothing was proved: give ⟪prove⟫") };
+    let bytes = surface::of_proof(&found.surface, format_of(kind))?;
+    Ok(Made { size: Some(counted(found.surface.triangles.len(), "triangle")), ..bytes.into() })
+}
+
+pub(super) fn certificate_of(found: Option<&Proved>) -> Result<Made> {
+    let Some(found) = found else { bail!("nothing was proved: give ⟪prove⟫") };
+    Ok(found.certificate().into_bytes().into())
+}
+
+fn format_of(kind: Option<Kind>) -> SurfaceFormat {
+    match kind {
         Some(Kind::Stl) => SurfaceFormat::Stl,
         Some(Kind::Ply) => SurfaceFormat::Ply,
         _ => SurfaceFormat::Vtp,
-    };
-    let bytes = surface::of_workspace(found, format)?;
+    }
+}
+
+/// Surface of a workspace in the format of its file.
+pub(super) fn surface_of(found: &Workspace, kind: Option<Kind>) -> Result<Made> {
+    let bytes = surface::of_workspace(found, format_of(kind))?;
     Ok(Made { size: Some(counted(found.triangles.len(), "triangle")), ..bytes.into() })
 }

@@ -259,7 +259,7 @@ fn document(cli: &Cli, request: &Request, form: Form, asked: Asked, guard: &mut 
 
     let mut warnings = Vec::new();
     if let (Some(target), Some(made)) = (target, made) {
-        target.write(made.text.into_bytes(), made.size.as_deref())?;
+        target.write(made.bytes.unwrap_or_else(|| made.text.into_bytes()), made.size.as_deref())?;
         if target.is_file() {
             made.notes.iter().for_each(|note| errors::note(note));
         }

@@ -7,7 +7,7 @@ use crate::table::{Table, counted, significant};
 use anyhow::{Context, Result, bail};
 use funicular_answers::inputs::FilesRead;
 use funicular_formats::measurements::{self, FileOptions};
-use funicular_study::analyses::identify::{FittedValue, Identified, ProposedMeasurement, StaticRow};
+use funicular_study::analyses::identify::{FittedValue, Identified, PoleRow, ProposedMeasurement, StaticRow};
 use funicular_study::request::{Experiment, FitValue, IdentifyRequest, ResponsePoints};
 use serde_json::Value;
 use std::fmt::Write as _;
@@ -36,6 +36,7 @@ fn experiments(cli: &Cli, args: &IdentifyArgs, read: &mut FilesRead) -> Result<V
     }
     let is_measured = !own.responses.is_empty()
         || !own.frequencies.is_empty()
+        || !own.histories.is_empty()
         || own.measured_pose.is_some()
         || own.measured_tensions_n.is_some()
         || own.measured_lengths_m.is_some();
@@ -90,6 +91,7 @@ fn read_measured(path: &Path, args: &IdentifyArgs, points: ResponsePoints, to: &
     let found = measurements::read(&shown, &bytes, &options)?;
     to.responses.extend(found.responses);
     to.frequencies.extend(found.frequencies);
+    to.histories.extend(found.histories);
     Ok(found.notes)
 }
 
@@ -101,20 +103,43 @@ fn read_experiments(path: &Path) -> Result<Vec<Experiment>> {
     IdentifyRequest::experiments_from_json(&bytes).with_context(|| shown)
 }
 
+/// Natural frequencies of time histories, with what was found about the readings.
+fn histories(found: &Identified) -> String {
+    let mut text = String::new();
+    for history in &found.histories {
+        let _ = writeln!(text, "{}, {} of {} s:", history.name, history.kind, significant(history.duration_s, 4));
+        let _ = write!(text, "\n{}\n\n", Table::of(&PoleRow::columns(), &history.poles));
+        for check in &history.checks {
+            let _ = writeln!(text, "{check}.");
+        }
+        text.push('\n');
+    }
+    text
+}
+
+/// Table of the fitted values, and how well they fit.
+fn values(found: &Identified) -> String {
+    format!(
+        "{}: {} from {}\n\n{}\n\nχ² = {} for {} of freedom, χ²/n = {}: {}.\n{} tried.\n",
+        found.robot,
+        counted(found.values.len(), "value"),
+        counted(found.residuals, "residual"),
+        Table::of(&FittedValue::columns(), FittedValue::all(found)),
+        significant(found.chi2, 4),
+        counted(found.degrees_of_freedom, "degree"),
+        significant(found.chi2_per_degree, 3),
+        found.verdict,
+        counted(found.starts.len(), "start"),
+    )
+}
+
 impl Printed for Identified {
     fn text(&self) -> String {
-        let mut text = format!(
-            "{}: {} from {}\n\n{}\n\nχ² = {} for {} of freedom, χ²/n = {}: {}.\n{} tried.\n",
-            self.robot,
-            counted(self.values.len(), "value"),
-            counted(self.residuals, "residual"),
-            Table::of(&FittedValue::columns(), FittedValue::all(self)),
-            significant(self.chi2, 4),
-            counted(self.degrees_of_freedom, "degree"),
-            significant(self.chi2_per_degree, 3),
-            self.verdict,
-            counted(self.starts.len(), "start"),
-        );
+        if self.values.is_empty() {
+            return format!("{}\n\n{}", self.robot, histories(self));
+        }
+        let mut text = histories(self);
+        text += &values(self);
         text += &assignment(self);
         text += &profiles(self.values.iter().filter_map(|row| {
             let profile = row.profile.as_ref()?;

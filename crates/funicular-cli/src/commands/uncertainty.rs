@@ -54,6 +54,10 @@ fn pose_text(of: &Uncertainties, i: usize, pose: &PoseUncertainty) -> String {
     let columns = ResultAtPose::columns(&of.groups, pose.results.iter().any(|result| result.worst.is_some()));
     let _ = write!(out, "\n{}", Table::of(&columns, ResultAtPose::all(of, i, 1)));
 
+    if let Some(position) = &pose.position {
+        let _ = writeln!(out, "\nPosition: {}, the direction in which it deviates most.", position.told());
+    }
+
     // Each reason once.
     let mut reasons: Vec<&str> = Vec::new();
     for reason in pose.results.iter().filter_map(|result| result.sampling_reason.as_deref()) {

@@ -63,6 +63,9 @@ impl Printed for Workspace {
         if let Some(compared) = &self.compared {
             text += &compared_text(compared, "m³");
         }
+        if let Some(proof) = &self.proof {
+            let _ = write!(text, "\nProof in the box of the grid\n\n{}", proof.text());
+        }
         text
     }
 }

@@ -1,5 +1,6 @@
 //! `identify`, and Universal Files that `frf` and `modes` write.
 
+mod histories;
 mod universal_files;
 
 use super::{json, number, project, robot, run, stderr, succeed};

@@ -6,7 +6,7 @@ use super::{robot, run, run_with, stderr, stdout, succeed};
 #[expect(clippy::too_many_lines, reason = "a table")]
 fn command_lines() -> Vec<Vec<String>> {
     let cogiro = robot("cogiro.toml");
-    let lines: [&[&str]; 27] = [
+    let lines: [&[&str]; 28] = [
         &["check", &cogiro],
         &["parameters", &cogiro, "--set", "platform.center_of_mass_m.x=0.1"],
         &["statics", &cogiro, "--pose", "1,2,1.5", "--tension-rule", "middle", "--max-tension-n", "1200"],
@@ -119,6 +119,7 @@ fn command_lines() -> Vec<Vec<String>> {
             "0.2",
         ],
         &["workspace", &cogiro, "--step-m", "2", "--max-tension-n", "5000"],
+        &["prove", &cogiro, "--pose", "0,0,1.5", "--within-m", "2,1,0.5", "--within-deg", "0,0,1", "--boxes", "30"],
         &["export", "ROBOT", "--to", "vtk", "--segments", "3", "--modes-below-hz", "1"],
         &["new", "--cables", "6", "--motion", "rigid", "--box-m", "0.4,0.3,0.2", "--mass-kg", "20", "--rope", "7x7"],
         &["schema"],
@@ -158,16 +159,21 @@ fn the_request_of_every_command_runs_again() {
     let machine = super::project("docs/calibration/machine.toml");
     let release = super::project("docs/simulation/release.toml");
     let belts = super::project("docs/calibration/belts.csv");
-    let lines: [(&[&str], &[&str]); 13] = [
+    let [run, machine_at_rest] =
+        ["run.csv", "robot.toml"].map(|name| super::project(&format!("docs/estimation/{name}")));
+    let decay = super::project("docs/identification/hall-decay.csv");
+    let lines: [(&[&str], &[&str]); 15] = [
         (&["reduce", "ROBOT", "--below-hz", "1.3", "--input", "fz", "--output", "z", "--order", "4"], &[]),
         (&["reduce", "ROBOT", "--below-hz", "1.3", "--form", "second-order"], &[]),
         (&["payload", &cogiro, "--pose", "1,2,1.5"], &[]),
         (&["identify", &hall, "--hold-lengths-of-pose", "--measured", &modes, "--fit", "platform.mass_kg"], &[]),
+        (&["identify", &hall, "--measured", &decay, "--history-from-s", "0.5", "--history-poles", "1"], &[]),
         (
             &["design", &cogiro, "--pose", "0,0,1.5", "--change", "cables.1.anchor_m.z=±0.1", "--max-iterations", "1"],
             &[],
         ),
         (&["calibrate", &machine, "--readings", &belts, "--propose", "1", "--grid", "x=1:4:4"], &[]),
+        (&["estimate", &machine_at_rest, "--log", &run, "--every-s", "0.5"], &[]),
         (
             &["simulate", "ROBOT", "--mass-kg", "12.5", "--scenario", &release, "--for", "0.05", "--point", "a=0,0,1"],
             &[],

@@ -183,7 +183,7 @@ fn requests_that_make_no_sense_are_refused_with_the_reason() {
     let cogiro = robot("cogiro.toml");
     let few = robot("grab-3-cables.toml");
     for (arguments, expected) in [
-        (&["uncertainty", "ROBOT"][..], "no number deviates: give --deviations or --tolerances"),
+        (&["uncertainty", "ROBOT"][..], "no number deviates: give --deviations, --tolerances or --covariance"),
         (&["uncertainty", "ROBOT", "--deviations", "platform.mas_kg=1"], "did you mean `platform.mass_kg`?"),
         (
             &["uncertainty", "ROBOT", "--deviations", "platform.mass_kg"],

@@ -11,11 +11,13 @@ fn lines() -> Vec<(&'static str, Vec<String>)> {
     let cogiro = robot("cogiro.toml");
     let machine = project("docs/calibration/machine.toml");
     let belts = project("docs/calibration/belts.csv");
+    let [held, log] = ["robot.toml", "run.csv"].map(|name| project(&format!("docs/estimation/{name}")));
     let release = project("docs/simulation/release.toml");
     let camera = robot("stadium-camera.toml");
     let line = |command: &'static str, words: &str| {
         let words = words.replace("COGIRO", &cogiro).replace("MACHINE", &machine).replace("BELTS", &belts);
         let words = words.replace("RELEASE", &release).replace("CAMERA", &camera);
+        let words = words.replace("HELD", &held).replace("LOG", &log);
         (command, words.split_whitespace().map(str::to_owned).collect())
     };
     vec![
@@ -45,8 +47,10 @@ fn lines() -> Vec<(&'static str, Vec<String>)> {
         line("reduce", "ROBOT --below-hz 1.3 --input fz --output z --order 4"),
         line("identify", "ROBOT --fit platform.mass_kg --measured-tensions-n 17,36,40,15,50,52 --starts 1"),
         line("calibrate", "MACHINE --readings BELTS"),
+        line("estimate", "HELD --log LOG --every-s 0.5"),
         line("design", "COGIRO --pose 0,0,1.5 --change cables.1.anchor_m.z=±0.1 --max-iterations 1"),
-        line("workspace", "COGIRO --step-m 2 --max-tension-n 5000 --section z=1.5"),
+        line("workspace", "COGIRO --step-m 2 --max-tension-n 5000 --section z=1.5 --prove --boxes 100"),
+        line("prove", "COGIRO --pose 0,0,1.5 --within-m 5,3,1 --boxes 60"),
     ]
 }
 

@@ -39,7 +39,7 @@ pub(super) fn refuse(request: &ExportRequest) -> Result<()> {
     if !request.to.is_length_table() {
         let given = [
             ("within", !request.within.is_empty()),
-            ("tolerance_m", request.tolerance_m.is_some()),
+            ("tolerance_m", request.tolerance_m.is_some() && !request.to.is_unit()),
             ("prefix", request.prefix.is_some()),
         ];
         if let Some((key, _)) = given.iter().find(|(_, given)| *given) {

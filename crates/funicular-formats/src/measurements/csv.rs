@@ -1,10 +1,10 @@
 //! Tables of measured responses and of natural frequencies as CSV.
 //!
 //! Responses: `frequency_hz`, then for each response `NAME_re` and `NAME_im`, or `NAME_abs` and `NAME_phase_deg`, and,
-//! if known, `NAME_std`. Lists: `frequency_hz`, `damping_ratio`, `std_hz`, `weight`, `label`. Lines that begin with #
-//! are comments.
+//! if known, `NAME_std`. Lists: `frequency_hz`, `damping_ratio`, `damping_std`, `std_hz`, `weight`, `label`. Time
+//! histories begin with `t_s`. Lines that begin with # are comments.
 
-use super::{MeasuredFrequency, MeasuredResponse, check_size};
+use super::{MeasuredFrequency, MeasuredHistory, MeasuredResponse, check_size, history};
 use crate::csv_lines::CsvText;
 use anyhow::{Result, anyhow, bail};
 use funicular_study::text::clean;
@@ -30,13 +30,15 @@ pub enum CsvContent {
     Responses(Vec<MeasuredResponse>),
     /// Natural frequencies.
     Frequencies(Vec<MeasuredFrequency>),
+    /// Time history, with notes on what was left out.
+    History((MeasuredHistory, Vec<String>)),
 }
 
 /// Column of frequencies, in both kinds of tables.
 const FREQUENCY: &str = "frequency_hz";
 
 /// Other columns of a list.
-const LIST: [&str; 4] = ["damping_ratio", "std_hz", "weight", "label"];
+const LIST: [&str; 5] = ["damping_ratio", "std_hz", "weight", "label", "damping_std"];
 
 /// Maximum number of columns that a message names.
 const MAX_NAMED: usize = 8;
@@ -58,6 +60,9 @@ pub fn read_csv(
     check_size(path, bytes.len())?;
     let text = CsvText::open(path, bytes)?;
     let header = text.header.clone();
+    if history::is_history(&header) {
+        return Ok(CsvContent::History(history::read(path, text, names, output_point_m)?));
+    }
     if header.is_empty() {
         bail!("{path} is empty: give a header and one line per frequency");
     }
@@ -139,11 +144,12 @@ fn frequencies(
     }
 
     let place = |name: &str| header.iter().position(|column| column == name);
-    let [damping, std, weight, _] = LIST.map(place);
+    let [damping, std, weight, _, damping_std] = LIST.map(place);
     let get = |row: &[Option<f64>], at: Option<usize>| at.and_then(|at| row[at]);
     let frequencies = rows.iter().zip(labels).map(|(row, label)| MeasuredFrequency {
         frequency_hz: row[frequency].unwrap_or_default(),
         damping_ratio: get(row, damping),
+        damping_std: get(row, damping_std),
         std_hz: get(row, std),
         weight: get(row, weight),
         label,

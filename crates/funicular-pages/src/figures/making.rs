@@ -5,7 +5,10 @@ use super::chart::{Chart, Entry, Layer, Panel, Sample};
 use super::drawing::{BLACK, Stroke};
 use super::space::{RobotShape, Space};
 use super::style::{self, GREY, ModelStyle, Symbol};
-use super::{Figure, FigureContent, bars, calibration, gusts, motions, pairs, sections, settling, simulated, winches};
+use super::{
+    Figure, FigureContent, bars, calibration, estimated, gusts, motions, pairs, proved, sections, settling, simulated,
+    winches,
+};
 use crate::figure_style::{MODE_TICKS, ModeTick, rgb};
 use anyhow::{Result, bail};
 use funicular::cable::CableModel;
@@ -18,11 +21,13 @@ use funicular_study::Watch;
 use funicular_study::analyses::calibrate::Calibrated;
 use funicular_study::analyses::clearance::Clearances;
 use funicular_study::analyses::compare::Compared;
+use funicular_study::analyses::estimate::Estimated;
 use funicular_study::analyses::frf;
 use funicular_study::analyses::gust::Gusty;
 use funicular_study::analyses::loads::Loads;
 use funicular_study::analyses::modes::with_rigid_cables;
 use funicular_study::analyses::payload::Payload;
+use funicular_study::analyses::prove::Proved;
 use funicular_study::analyses::settle::Settled;
 use funicular_study::analyses::simulate::Simulated;
 use funicular_study::analyses::speeds::Speeds;
@@ -55,9 +60,22 @@ pub fn of_sections(found: &Workspace) -> Result<Figure> {
     Ok(Figure(FigureContent::Chart(sections::chart(found)?)))
 }
 
+/// Makes the figure of a proof: a section with the three sets.
+///
+/// # Errors
+/// A box without an area.
+pub fn of_proof(found: &Proved) -> Result<Figure> {
+    Ok(Figure(FigureContent::Chart(proved::chart(found)?)))
+}
+
 /// Makes the figure of a calibration that has been computed before.
 pub fn of_calibration(found: &Calibrated) -> Figure {
     Figure(FigureContent::Chart(calibration::chart(found)))
+}
+
+/// Makes the figure of an estimate that has been computed before.
+pub fn of_estimate(found: &Estimated) -> Figure {
+    Figure(FigureContent::Chart(estimated::chart(found)))
 }
 
 /// Makes the figure of a simulation that has been computed before.

@@ -5,7 +5,9 @@ use super::figure::{PageFigure, axis, colour, line, plain, points, with};
 use super::table::{PageTable, fixed, significant};
 use anyhow::Context as _;
 use askama::Template;
-use funicular_study::analyses::identify::{FittedResponse, FittedValue, Identified, Profile, StaticRow, ValueRow};
+use funicular_study::analyses::identify::{
+    FittedResponse, FittedValue, Identified, PoleRow, Profile, StaticRow, ValueRow,
+};
 use funicular_study::text;
 use serde_json::{Value, json};
 
@@ -17,8 +19,9 @@ const CONTENTS: &[(&str, &str)] =
 struct IdentifyPage<'a> {
     shell: Shell,
     found: &'a Identified,
-    values: PageTable,
+    values: Option<PageTable>,
     chi2: String,
+    histories: Option<PageTable>,
     responses: Vec<PageFigure>,
     frequencies: Option<(PageFigure, PageTable)>,
     /// Sentences on fits with other modes and to random frequencies.
@@ -37,13 +40,14 @@ pub fn page(found: &Identified, command_line: String) -> anyhow::Result<String> 
     let page = IdentifyPage {
         shell: Shell::new(format!("{}: values from measurements", found.robot), CONTENTS),
         found,
-        values: values(found),
+        values: (!found.values.is_empty()).then(|| values(found)),
         chi2: format!(
             "χ² = {} for {} of freedom, χ²/n = {}",
             significant(found.chi2, 4),
             funicular_study::text::counted(found.degrees_of_freedom, "degree"),
             significant(found.chi2_per_degree, 3)
         ),
+        histories: histories(found),
         responses: found.responses.iter().enumerate().map(|(i, response)| curves(i, response)).collect(),
         frequencies: (!found.frequencies.is_empty()).then(|| (differences(found), frequencies(found))),
         assignment: found.assignment.as_ref().map_or_else(Vec::new, |assignment| {
@@ -56,6 +60,14 @@ pub fn page(found: &Identified, command_line: String) -> anyhow::Result<String> 
         command_line,
     };
     page.render().context("the page could not be written as HTML")
+}
+
+/// Natural frequencies of time histories.
+fn histories(found: &Identified) -> Option<PageTable> {
+    let names: Vec<&str> = found.histories.iter().map(|history| history.name.as_str()).collect();
+    let caption = format!("Natural frequencies with standard deviations, from {}.", names.join(", "));
+    let rows = found.histories.iter().flat_map(|history| &history.poles);
+    (!names.is_empty()).then(|| PageTable::of("table-histories", caption, &PoleRow::columns(), rows))
 }
 
 fn values(found: &Identified) -> PageTable {

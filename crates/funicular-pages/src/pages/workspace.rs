@@ -10,11 +10,6 @@ use funicular_study::analyses::workspace::{PartOfWorkspace, SectionOfWorkspace, 
 use funicular_study::text::short;
 use serde_json::{Value, json};
 
-const CONTENTS: &[(&str, &str)] = &[("set", "Set"), ("volumes", "Volumes"), ("repeat", "How to repeat")];
-
-const WITH_SECTIONS: &[(&str, &str)] =
-    &[("set", "Set"), ("volumes", "Volumes"), ("sections", "Sections"), ("repeat", "How to repeat")];
-
 /// Colours of sections, repeated if there are more.
 const SECTION_COLOURS: [&str; 6] =
     [colour::BLUE, colour::VERMILION, colour::GREEN, colour::PURPLE, colour::ORANGE, colour::SKY];
@@ -31,6 +26,8 @@ struct WorkspacePage<'a> {
     pieces: PageTable,
     sections: Option<PageFigure>,
     areas: PageTable,
+    proof: Vec<String>,
+    proved: Option<PageTable>,
     command_line: String,
 }
 
@@ -40,7 +37,14 @@ struct WorkspacePage<'a> {
 /// A page that cannot be written.
 pub fn page(found: &Workspace, command_line: String) -> anyhow::Result<String> {
     let has_sections = found.sections.iter().any(|section| !section.polygons_m.is_empty());
-    let contents = if has_sections { WITH_SECTIONS } else { CONTENTS };
+    let contents = [
+        Some(("set", "Set")),
+        Some(("volumes", "Volumes")),
+        has_sections.then_some(("sections", "Sections")),
+        found.proof.as_ref().map(|_| ("proof", "Proof")),
+        Some(("repeat", "How to repeat")),
+    ];
+    let contents: Vec<(&str, &str)> = contents.into_iter().flatten().collect();
     let volume = found.volume();
     let page = WorkspacePage {
         shell: Shell::new(format!("{}: workspace", found.robot), contents),
@@ -67,6 +71,8 @@ pub fn page(found: &Workspace, command_line: String) -> anyhow::Result<String> {
         pieces: pieces(found),
         sections: has_sections.then(|| sections(found)),
         areas: areas(found),
+        proof: found.proof.as_ref().map(super::prove::sentences).unwrap_or_default(),
+        proved: found.proof.as_ref().map(super::prove::volumes),
         command_line,
     };
     page.render().context("the page could not be written as HTML")

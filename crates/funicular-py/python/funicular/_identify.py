@@ -77,6 +77,8 @@ class Identified(Answer):
         return Robot.from_toml(self.robot_file)
 
     def __repr__(self) -> str:
+        if not self.names:
+            return f"<Identified: {len(self.details['histories'])} time histories>"
         values = ", ".join(f"{name}={value:.6g}" for name, value in zip(self.names, self.x, strict=True))
         return f"<Identified: {values}; χ²/n = {self.chi2_per_degree:.3g}>"
 
@@ -110,7 +112,9 @@ def read_measurements(
     input_point_m: ArrayLike | None = None,
     output_point_m: ArrayLike | None = None,
 ) -> dict[str, Any]:
-    """Reads a file of measurements: a Universal File (.uff, .unv), or a table (.csv) of responses or of natural frequencies.
+    """Reads a file of measurements: a Universal File (.uff, .unv), or a table (.csv).
+
+    Tables have responses, natural frequencies, or time histories of sensors.
 
     Parameters
     ----------
@@ -126,7 +130,7 @@ def read_measurements(
 
     Returns
     -------
-    Experiment for `Robot.identify`: `{"responses": […]}` or `{"frequencies": […]}`.
+    Experiment for `Robot.identify`: `{"responses": […]}`, `{"frequencies": […]}` or `{"histories": […]}`.
 
     Raises
     ------

@@ -22,9 +22,11 @@ from funicular._uncertainty import Uncertainty, uncertainty as deviations_of
 from funicular.results import (
     CalibrateResults,
     ClearanceResults,
+    EstimateResults,
     LoadsResults,
     PayloadResults,
     PoseErrorResults,
+    ProveResults,
     SimulateResults,
     SpeedsResults,
     TrajectoryResults,
@@ -237,8 +239,8 @@ def simulate(
     Parameters
     ----------
     scenario
-        What happens: a mapping from `release`, `pick`, `lengths`, `tension`, `stop`, `push` and `cut` to lists of events,
-        each a mapping with the keys of docs/simulation.md. The `table` of an event of `lengths` may be a function of the
+        What happens: a mapping from `release`, `pick`, `lengths`, `tension`, `stop`, `push`, `anchor` and `cut` to lists
+        of events, each a mapping with the keys of docs/simulation.md. The `table` of an event of `lengths` or `anchor` may be a function of the
         time [s] from its beginning on, which returns a mapping from the columns of such a table to numbers; the event then
         needs its `duration_s`.
     point
@@ -283,14 +285,14 @@ _MAX_TABLE_S = 10_000
 
 def _tabled(scenario: Any) -> Any:
     """The scenario with tables in the place of functions of the time."""
-    if not isinstance(scenario, Mapping) or not isinstance(scenario.get("lengths"), (list, tuple)):
+    if not isinstance(scenario, Mapping):
         return scenario
 
-    def event(place: int, of: Any) -> Any:
+    def event(kind: str, place: int, of: Any) -> Any:
         if not isinstance(of, Mapping) or not callable(of.get("table")):
             return of
         function = of["table"]
-        name = f"scenario.lengths[{place}]"
+        name = f"scenario.{kind}[{place}]"
         rest = {key: value for key, value in of.items() if key not in ("table", "duration_s")}
         if of.get("duration_s") is None:
             raise InputError(f"`{name}`: a table that is a function needs `duration_s`")
@@ -317,7 +319,12 @@ def _tabled(scenario: Any) -> Any:
                 columns.setdefault(key, []).append(number(f'{called}({time:g})["{key}"]', value))
         return {**rest, "table": {"t_s": times, **columns}}
 
-    return {**scenario, "lengths": [event(k, of) for k, of in enumerate(scenario["lengths"])]}
+    tabled = {
+        kind: [event(kind, k, of) for k, of in enumerate(scenario[kind])]
+        for kind in ("lengths", "anchor")
+        if isinstance(scenario.get(kind), (list, tuple))
+    }
+    return {**scenario, **tabled}
 
 
 @declared(Robot, "clearance", positional=("pose", "static_model"), others=_AS_REST)
@@ -377,7 +384,7 @@ def workspace(
     Returns
     -------
     The keys of the program's JSON: `volumes` with the steps or the number of rays of each, `parts`, `holes`,
-    `touches`, `bounds_m`, `inner_box`, `sections`, `rays`, `compared`; `vertices_m` (n, 3) and `triangles` (m, 3) of the closed
+    `touches`, `bounds_m`, `inner_box`, `sections`, `rays`, `compared`, `proof`; `vertices_m` (n, 3) and `triangles` (m, 3) of the closed
     surface, whose first `triangles_of_surface` lie on the set and the others on the box of the grid.
 
     Raises
@@ -397,6 +404,41 @@ def workspace(
     if compare is not None:
         given = {**given, "compare": {"text": compare.to_toml()}}
     return _results.of_answered(WorkspaceResults, of._answer("workspace", given, threads=threads, progress=progress))
+
+
+@declared(Robot, "prove", positional=("pose", "within_m", "within_deg"), others=_AS_REST, files=True)
+def prove(
+    of: Any,
+    given: Given,
+    threads: SupportsIndex | None = None,
+    progress: Callable[[int, int], object] | None = None,
+) -> ProveResults:
+    """Proves that required loads are held within the tension limits at every pose of a box, not only at samples of it.
+
+    Parameters
+    ----------
+    threads
+        Number of threads of this process; one per processor if not given.
+    progress
+        Function that is called with the number of boxes that are done, and of the most that are wanted.
+
+    Returns
+    -------
+    The keys of the program's JSON: `verdict` with `margin_n` or `reason`, `inside`, `outside` and `undecided` in
+    `volume_unit`, `undecided_share`, `tried`, `end`, `worst`, and `boxes` with their verdicts.
+
+    Raises
+    ------
+    InputError
+        An argument is wrong, or the robot has something for which no bound over a box is derived; the message says which.
+    KeyboardInterrupt
+        Ctrl-C stopped the division; its attribute `partial_results` has the `Results` of what was proved until then.
+
+    References
+    ----------
+    docs/theory.md, section 10b.
+    """
+    return _results.of_answered(ProveResults, of._answer("prove", given, threads=threads, progress=progress))
 
 
 @declared(Robot, "pose-error", positional=("mass_kg",), others=_AS_REST)
@@ -427,9 +469,10 @@ def identify(of: Any, given: Given) -> Identified:
     fit
         Values to identify: a list of paths, or a mapping from paths to None, to bounds (minimum, maximum), or to a
         mapping with `minimum`, `maximum`, `prior` and `prior_std`. A vector without a component stands for all its
-        numbers, and * for every name, as in `materials.*.mass_kg_per_m`.
+        numbers, and * for every name, as in `materials.*.mass_kg_per_m`. Without values, the natural frequencies of
+        time histories are found alone: `details["histories"]`.
     experiments
-        One mapping per state of the robot, or a single one: `responses` and `frequencies` as
+        One mapping per state of the robot, or a single one: `responses`, `frequencies` and `histories` as
         `funicular.read_measurements` returns them, `measured_pose`, `measured_tensions_n`, `measured_lengths_m`
         with their deviations, `cables` with the names of those that were mounted, `payload_kg` with its
         `payload_center_m`, and the keys of the state.
@@ -445,7 +488,7 @@ def identify(of: Any, given: Given) -> Identified:
         The robot has no equilibrium at any start.
     """
     state = {key: given.pop(key) for key in list(given) if key in STATE}
-    given["experiments"] = with_state(given["experiments"], keywords("identify", state, of.cable_names))
+    given["experiments"] = with_state(given.get("experiments", []), keywords("identify", state, of.cable_names))
     return identified(of.request("identify", **given))
 
 
@@ -467,7 +510,8 @@ def calibrate(of: Any, given: Given) -> CalibrateResults:
     Returns
     -------
     The keys of the program's JSON: `fit` and `determined` as sentences, `is_determined`, `values` with deviations and
-    intervals, `anchors` with their covariance, `distances`, `rows`, `weak_combinations`, `walk`, `minima`, `proposals`, and `robot_file`.
+    intervals, `anchors` with their covariance, `distances`, `rows`, `weak_combinations`, `walk`, `minima`, `proposals`, `robot_file`
+    and `covariance`, which `Robot.uncertainty` takes.
 
     Raises
     ------
@@ -483,6 +527,35 @@ def calibrate(of: Any, given: Given) -> CalibrateResults:
     if given.get("prior") is not None:
         given = {**given, **keywords("calibrate", {"prior": given["prior"]}, of.cable_names)}
     return _results.of_answered(CalibrateResults, of._answer("calibrate", given))
+
+
+@declared(Robot, "estimate", positional=("log",), files=True)
+def estimate(of: Any, given: Given) -> EstimateResults:
+    """Estimates pose, velocity, payload and tensions over time from the log of a machine, each with its deviation, and alarms.
+
+    Parameters
+    ----------
+    log
+        One row per time: `t_s`, `length_NAME_m` of every cable, and optionally `tension_anchor_NAME_n`, `gyroscope_x_rad_s`,
+        `accelerometer_x_m_s2`, `tracker_x_m` and more, as a mapping, a data frame or a CSV file.
+
+    Returns
+    -------
+    The keys of the program's JSON: `fit` and `not_determined` as sentences, `alarms`, `sensors`, `cable_errors`, and `rows`
+    over time.
+
+    Raises
+    ------
+    InputError
+        A column, a time or a value is wrong, or the lengths of a cable are missing.
+    NoSolutionError
+        The lengths have no equilibrium.
+
+    References
+    ----------
+    docs/theory.md, equations (97r) to (97za).
+    """
+    return _results.of_answered(EstimateResults, of._answer("estimate", given))
 
 
 @declared(Robot, "design", positional=("change",), without=("lengths_m", "hold_lengths_of_pose"), others=_AS_BOTH, files=True)
@@ -547,6 +620,9 @@ def uncertainty(
         for any key. Each entry is a group with a share of its own.
     tolerances
         Tolerances of numbers that are anywhere within ± their tolerance, in the same form.
+    covariance
+        Numbers that deviate together: a list of mappings with `first`, `second` (paths) and `covariance`, as the key
+        `covariance` of the results of `calibrate`.
     poses
         Several poses, (n, 3) or (n, 6): x, y, z [m], roll, pitch, yaw [degrees].
     at_hz

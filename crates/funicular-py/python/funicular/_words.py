@@ -11,7 +11,7 @@ Hold = Literal["lengths", "pose", "rule"]
 Per = Literal["unit", "percent", "tolerance"]
 Method = Literal["automatic", "linear", "sampled"]
 Goal = Literal["first-frequency", "platform", "stiffness-min", "rope-length", "rope-mass", "load-factor", "clearance", "winch-tension", "winch-speed", "winch-torque", "winch-power", "workspace"]
-ExportFormat = Literal["opensees", "moordyn", "mujoco", "sdf", "urdf", "vtk", "c", "json"]
+ExportFormat = Literal["opensees", "moordyn", "mujoco", "sdf", "urdf", "vtk", "c", "json", "fmu", "fmu3"]
 Result = Literal[
     "pose",
     "lengths",

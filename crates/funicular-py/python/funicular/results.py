@@ -117,6 +117,17 @@ class AnchorRow(Row):
     """One deviation along the weakest combination [m]."""
 
 
+class CovarianceRow(Row):
+    """Entry of the covariance of calibrated numbers."""
+
+    covariance: float
+    """covariance, in the product of their units."""
+    first: str
+    """path of the first number in the robot file."""
+    second: str
+    """path of the second number; that of the first for its variance."""
+
+
 class DistanceRow(Row):
     """Distance between two anchors, which no frame changes."""
 
@@ -872,6 +883,113 @@ class ChosenValue(Row):
     """Chosen value."""
 
 
+class EstimateAlarm(Row):
+    """Alarm of a test."""
+
+    cable: str | None
+    """Cable with the fault."""
+    fault: str
+    """Fault: `slip`, `load-cell`, `payload`, `force`, `cut`, `stuck`, `undecided`, or `restart`."""
+    size: float | None
+    """Size of the fault: slip [m], step of a load cell [N], payload [kg], force along z [N]."""
+    size_std: float | None
+    """Standard deviation of the size."""
+    t_s: float
+    """Time of the log [s]."""
+    text: str
+    """Sentence about the alarm."""
+
+
+class CableErrors(Row):
+    """Constant errors of the sensors of one cable at the end of the log."""
+
+    cable: str
+    """Cable."""
+    offset_m: float
+    """Length less its reading [m]."""
+    offset_std_m: float
+    """Standard deviation of the offset [m]."""
+    residual_ratio: float | None
+    """Root mean square of the residuals of its load cell, in their standard deviations."""
+    tension_bias_n: float | None
+    """Constant error of the load cell [N].
+
+    Absent without readings."""
+    tension_bias_std_n: float | None
+    """Standard deviation of this error [N]."""
+
+
+class EstimateRow(Row):
+    """Estimated state at one time. Lists have a number per cable. Deviations are absent where the readings do not fit
+    their stated noise."""
+
+    angular_velocity_rad_s: NDArray[np.float64]
+    """Angular velocity of the platform [rad/s]."""
+    angular_velocity_std_rad_s: NDArray[np.float64] | None
+    """Standard deviation of the angular velocity [rad/s]."""
+    force_n: NDArray[np.float64]
+    """External force besides the loads of the file [N]."""
+    force_std_n: NDArray[np.float64] | None
+    """Standard deviation of the external force [N]."""
+    is_trusted: bool
+    """True if the readings of the last half second fit their stated noise."""
+    payload_center_m: NDArray[np.float64] | None
+    """Centre of mass of the payload, platform frame [m].
+
+    Absent while payload or first moment are too uncertain."""
+    payload_kg: float
+    """Payload beyond the platform of the file [kg]."""
+    payload_std_kg: float | None
+    """Standard deviation of the payload [kg]."""
+    position_m: NDArray[np.float64]
+    """Position of the platform origin [m]."""
+    position_std_m: NDArray[np.float64] | None
+    """Standard deviation of the position [m]."""
+    quaternion_wxyz: NDArray[np.float64]
+    """Orientation as a quaternion w, x, y, z."""
+    residuals: NDArray[np.float64] | None
+    """Reading of the load cell of each cable less the expected one, in its standard deviations.
+
+    Absent at a time without a reading of every load cell."""
+    rings: bool
+    """True while the platform vibrates: payload and its centre are then read from means of tensions alone."""
+    roll_pitch_yaw_deg: NDArray[np.float64]
+    """Roll, pitch, yaw of the platform [deg]."""
+    rotation_std_deg: NDArray[np.float64] | None
+    """Standard deviation of small turns about the world's axes [deg]."""
+    slack: list[str]
+    """State of each cable: `slack`, `taut`, or `unknown`."""
+    t_s: float
+    """Time of the log [s]."""
+    tensions_n: NDArray[np.float64]
+    """Tension of each cable at the anchor or drum [N]."""
+    tensions_std_n: NDArray[np.float64] | None
+    """Standard deviation of the tension of each cable [N]."""
+    velocity_m_s: NDArray[np.float64]
+    """Velocity of the platform origin [m/s]."""
+    velocity_std_m_s: NDArray[np.float64] | None
+    """Standard deviation of the velocity [m/s]."""
+
+
+class SensorFit(Row):
+    """Readings of one kind of sensor beside their stated noise."""
+
+    band: NDArray[np.float64]
+    """Band that holds the mean square with 95 % if noise and model are true."""
+    outliers: int
+    """Readings left out as outliers."""
+    readings: int
+    """Number of readings."""
+    sensor: str
+    """Sensor."""
+    squares: float
+    """Squared residuals by their covariance, per reading.
+
+    One if noise and model are true."""
+    text: str
+    """Sentence about the residuals."""
+
+
 class GradientParameter(Row):
     """Number of the robot file."""
 
@@ -1032,6 +1150,94 @@ class FrequencyRow(Row):
     """Measured [Hz]."""
     number: int
     """Number of the mode in the ascending list, from 1."""
+
+
+class DiagramRow(Row):
+    """Pole of the stabilisation diagram of an ambient record."""
+
+    damping_ratio: float
+    """Damping ratio."""
+    frequency_hz: float
+    """Frequency [Hz]."""
+    is_stable: bool
+    """True if it has been found in five orders in a row."""
+    order: int
+    """Order of the system."""
+
+
+class PoleRow(Row):
+    """Natural frequency that was found in a time history."""
+
+    damping_interval_95: NDArray[np.float64] | None
+    """Interval that holds the damping ratio with 95 %."""
+    damping_ratio: float | None
+    """Damping ratio; absent if the record is too short for it."""
+    damping_std: float | None
+    """Damping std."""
+    difference_of_halves: float | None
+    """Largest difference of both halves, in deviations."""
+    frequency_hz: float
+    """Frequency [Hz]."""
+    halves_damping_ratio: NDArray[np.float64] | None
+    """Damping ratios in both halves."""
+    halves_hz: NDArray[np.float64] | None
+    """Frequencies in the first and the second half of a decay [Hz]."""
+    interval_95_hz: NDArray[np.float64] | None
+    """Interval that holds the frequency with 95 % [Hz]."""
+    is_vibration: bool
+    """True if the pole is fitted like a measured natural frequency."""
+    shape_imag: NDArray[np.float64]
+    """Imaginary parts of the shape."""
+    shape_real: NDArray[np.float64]
+    """Real parts of the shape at the sensors; 1 at the one that sees it best."""
+    shape_std: NDArray[np.float64]
+    """Standard deviations √E|δ|² of the shape."""
+    std_hz: float
+    """Std [Hz]."""
+
+
+class HistoryRow(Row):
+    """Time history with what was found in it."""
+
+    channels: list[str]
+    """Sensors, in the order of the shapes."""
+    checks: list[str]
+    """Findings about the readings."""
+    chi2_per_degree: float | None
+    """χ² per degree of freedom of a decay; 1 by itself where no noise was given."""
+    covariance: NDArray[np.float64]
+    """Covariance of frequency [Hz] and damping ratio of each pole, in this order."""
+    diagram: list[DiagramRow] | None
+    """Stabilisation diagram of an ambient record."""
+    duration_s: float
+    """Duration [s]."""
+    experiment: str
+    """Experiment."""
+    is_noise: bool | None
+    """False if the residuals of a decay are more than noise."""
+    kind: str
+    """`decay` or `ambient`."""
+    name: str
+    """Name."""
+    noise: NDArray[np.float64] | None
+    """Standard deviations of the noise of the sensors of a decay, in the SI unit of each."""
+    order: int | None
+    """Order of the system of an ambient record."""
+    poles: list[PoleRow]
+    """Natural frequencies, ascending."""
+    residual_correlation: float | None
+    """Mean square of the correlations of the residuals of a decay, times the number of samples: 1 for noise."""
+    sample_rate_hz: float
+    """Sample rate [Hz]."""
+    samples: int
+    """Samples."""
+    warnings: list[str] | None
+    """Sentences on what limits the result."""
+
+    _PARTS: ClassVar[dict[str, type[Row]]] = {
+        "diagram": DiagramRow,
+        "poles": PoleRow,
+    }
 
 
 class ProposedMeasurement(Row):
@@ -1333,7 +1539,22 @@ class ThresholdRow(Row):
     """`everywhere`, `from` or `nowhere`."""
 
 
-class HistoryRow(Row):
+class BoxRow(Row):
+    """Box of a division."""
+
+    lower_m: NDArray[np.float64]
+    """Least coordinate of the positions [m]."""
+    margin_n: float | None
+    """Least distance of a tension from its limits inside, or the least missing wrench outside [N]."""
+    reason: str | None
+    """Reason why it is undecided."""
+    upper_m: NDArray[np.float64]
+    """Greatest coordinate of the positions [m]."""
+    verdict: str
+    """Verdict: inside, outside or undecided."""
+
+
+class SettleResultsHistoryRow(Row):
     """Displacement of the point at one time from where the lengths of this time hold it at rest, and the bound of its
     distance."""
 
@@ -1439,7 +1660,7 @@ class Robustness(Row):
 class Shaping(Row):
     """Shaper and what it does."""
 
-    history_without: list[HistoryRow]
+    history_without: list[SettleResultsHistoryRow]
     """Motion from the end of the command without it."""
     impulses: list[ImpulseRow]
     """Impulses."""
@@ -1458,7 +1679,7 @@ class Shaping(Row):
     """Time from which on the sum of all amplitudes without the shaper is within the tolerance; absent if it never is [s]."""
 
     _PARTS: ClassVar[dict[str, type[Row]]] = {
-        "history_without": HistoryRow,
+        "history_without": SettleResultsHistoryRow,
         "impulses": ImpulseRow,
         "robustness": Robustness,
     }
@@ -1588,6 +1809,8 @@ class SimulatedRow(Row):
     """Unstrained length of each cable [m]."""
     velocity_m_s: NDArray[np.float64]
     """Velocity of the platform origin [m/s]."""
+    work_of_anchors_j: float
+    """Work at moving anchors since the start [J]."""
     work_of_loads_j: float
     """Work of loads, pushes and wind since the start [J]."""
     work_of_winches_j: float
@@ -2197,6 +2420,17 @@ class FailedSamples(Row):
     """Reason."""
 
 
+class PositionDeviation(Row):
+    """Deviation of the position of the platform origin."""
+
+    covariance_m2: NDArray[np.float64]
+    """Covariance of the position, world axes [m²]."""
+    deviation_m: float
+    """Standard deviation along the direction in which it is largest [m]."""
+    direction: NDArray[np.float64]
+    """Direction of the largest deviation, world axes."""
+
+
 class ShareOfInput(Row):
     """Share of a number in the variance of a result."""
 
@@ -2262,6 +2496,8 @@ class PoseUncertainty(Row):
 
     failed: FailedSamples | None
     """Number of sampled robots without results, with the first reason."""
+    position: PositionDeviation | None
+    """Deviation of the platform's position; absent if the pose is not among the results or does not deviate."""
     position_m: NDArray[np.float64] | None
     """Pose of the undisturbed robot; absent if it has no equilibrium [m]."""
     reason: str | None
@@ -2273,6 +2509,7 @@ class PoseUncertainty(Row):
 
     _PARTS: ClassVar[dict[str, type[Row]]] = {
         "failed": FailedSamples,
+        "position": PositionDeviation,
         "results": UncertainResult,
     }
 
@@ -2483,6 +2720,54 @@ class AreaOfWorkspace(Row):
     """Numbers of parts that do not touch each other, and of holes."""
 
 
+class Proved(Row):
+    """Results of `prove`, or of the proof of a workspace."""
+
+    boxes: list[BoxRow]
+    """Boxes of the division."""
+    end: str
+    """Reason why the division ended: `complete`, `boxes`, `time`, `undecided` or `stopped`."""
+    inside: float
+    """Volume that is proved inside."""
+    loads: int
+    """Number of required loads of which all others are combinations."""
+    margin_n: float | None
+    """Least distance of a tension from its limits if the box is inside; the least wrench that is missing if it is outside
+    [N]."""
+    outside: float
+    """Volume that is proved outside."""
+    pose: PoseRow
+    """Middle of the box, and the orientation of the statement."""
+    reason: str | None
+    """Reason why the whole box is undecided."""
+    static_model: str
+    """Static model."""
+    tried: int
+    """Number of boxes that were proved or tried."""
+    undecided: float
+    """Volume that is neither."""
+    undecided_share: float
+    """Undecided volume over the volume that is not proved outside."""
+    verdict: str
+    """`inside`, `outside` or `undecided` for the whole box, or `divided` if parts of it are decided differently."""
+    volume_unit: str
+    """Unit of the volumes: m³, or m², m if the box has no width along one or two axes."""
+    whole: float
+    """Volume of the box, in the unit that is given."""
+    within_deg: NDArray[np.float64]
+    """Largest turns about the axes of the world, which belong to the statement at every position [deg]."""
+    within_m: NDArray[np.float64]
+    """Half widths of the box of positions [m]."""
+    worst: list[BoxRow]
+    """Largest undecided boxes, with the reasons."""
+
+    _PARTS: ClassVar[dict[str, type[Row]]] = {
+        "boxes": BoxRow,
+        "pose": PoseRow,
+        "worst": BoxRow,
+    }
+
+
 class RaysOfWorkspace(Row):
     """Set along rays."""
 
@@ -2601,6 +2886,8 @@ class CalibrateResults(Results):
     """Number of starts that arrived at the best minimum."""
     chi2: float
     """Sum of the squares of the residuals, divided by the deviations of the data."""
+    covariance: list[CovarianceRow] | None
+    """Covariance of the numbers of the robot file, for `uncertainty`; none if the readings do not tell it."""
     data: int
     """Number of readings and measured coordinates."""
     degrees_of_freedom: int
@@ -2653,6 +2940,7 @@ class CalibrateResults(Results):
     _PARTS: ClassVar[dict[str, type[Row]]] = {
         "accuracy": ToolAccuracy,
         "anchors": AnchorRow,
+        "covariance": CovarianceRow,
         "distances": DistanceRow,
         "left_out": LeftOut,
         "minima": MinimumRow,
@@ -2862,6 +3150,38 @@ class DesignResults(Results):
     }
 
 
+class EstimateResults(Results):
+    """Results of `estimate`."""
+
+    alarms: list[EstimateAlarm]
+    """Alarms in the order of their times."""
+    cable_errors: list[CableErrors]
+    """Cable errors."""
+    cables: list[str]
+    """Names of the cables, in the order of all lists."""
+    fit: str
+    """Sentence on the fit of the readings."""
+    log_rows: int
+    """Number of rows of the log."""
+    not_determined: list[str]
+    """Sentences on numbers that these sensors do not determine."""
+    robot: str | None
+    """Name of the robot; absent if there are several."""
+    rows: list[EstimateRow]
+    """Rows."""
+    sensors: list[SensorFit]
+    """Sensors."""
+    warnings: list[str]
+    """Sentences that the user should know before trusting the numbers."""
+
+    _PARTS: ClassVar[dict[str, type[Row]]] = {
+        "alarms": EstimateAlarm,
+        "cable_errors": CableErrors,
+        "rows": EstimateRow,
+        "sensors": SensorFit,
+    }
+
+
 class GradientResults(Results):
     """Results of `gradient`."""
 
@@ -2973,6 +3293,8 @@ class IdentifyResults(Results):
     """Root mean square of the relative differences of all natural frequencies."""
     frequency_rms_before: float | None
     """Root mean square before the fit, with the same modes as partners."""
+    histories: list[HistoryRow] | None
+    """Time histories with the natural frequencies that were found in them."""
     measurements_needed: int | None
     """Least number of proposed measurements that reaches the wanted deviation; absent if none was wanted or no number
     does."""
@@ -3004,6 +3326,7 @@ class IdentifyResults(Results):
     _PARTS: ClassVar[dict[str, type[Row]]] = {
         "assignment": ModeAssignment,
         "frequencies": FrequencyRow,
+        "histories": HistoryRow,
         "proposals": ProposedMeasurement,
         "responses": FittedResponse,
         "starts": StartRow,
@@ -3179,6 +3502,58 @@ class PoseErrorResults(Results):
     }
 
 
+class ProveResults(Results):
+    """Results of `prove`."""
+
+    boxes: list[BoxRow]
+    """Boxes of the division."""
+    end: str
+    """Reason why the division ended: `complete`, `boxes`, `time`, `undecided` or `stopped`."""
+    inside: float
+    """Volume that is proved inside."""
+    loads: int
+    """Number of required loads of which all others are combinations."""
+    margin_n: float | None
+    """Least distance of a tension from its limits if the box is inside; the least wrench that is missing if it is outside
+    [N]."""
+    outside: float
+    """Volume that is proved outside."""
+    pose: PoseRow
+    """Middle of the box, and the orientation of the statement."""
+    reason: str | None
+    """Reason why the whole box is undecided."""
+    robot: str | None
+    """Name of the robot; absent if there are several."""
+    static_model: str
+    """Static model."""
+    tried: int
+    """Number of boxes that were proved or tried."""
+    undecided: float
+    """Volume that is neither."""
+    undecided_share: float
+    """Undecided volume over the volume that is not proved outside."""
+    verdict: str
+    """`inside`, `outside` or `undecided` for the whole box, or `divided` if parts of it are decided differently."""
+    volume_unit: str
+    """Unit of the volumes: m³, or m², m if the box has no width along one or two axes."""
+    warnings: list[str]
+    """Sentences that the user should know before trusting the numbers."""
+    whole: float
+    """Volume of the box, in the unit that is given."""
+    within_deg: NDArray[np.float64]
+    """Largest turns about the axes of the world, which belong to the statement at every position [deg]."""
+    within_m: NDArray[np.float64]
+    """Half widths of the box of positions [m]."""
+    worst: list[BoxRow]
+    """Largest undecided boxes, with the reasons."""
+
+    _PARTS: ClassVar[dict[str, type[Row]]] = {
+        "boxes": BoxRow,
+        "pose": PoseRow,
+        "worst": BoxRow,
+    }
+
+
 class SettleResults(Results):
     """Results of `settle`."""
 
@@ -3196,14 +3571,14 @@ class SettleResults(Results):
     """True if a count proves that every mode has its damped mode."""
     duration_s: float | None
     """Time from its start to its end, with the shaper [s]."""
-    during: list[HistoryRow] | None
+    during: list[SettleResultsHistoryRow] | None
     """Motion while the command runs, at negative times."""
     held_exact_m: NDArray[np.float64] | None
     """Displacement between the equilibria with the wrench and without it; absent if there is none with it, and with ideal
     cables [m]."""
     held_m: NDArray[np.float64] | None
     """Displacement of the point under the wrench, linear, world axes [m]."""
-    history: list[HistoryRow]
+    history: list[SettleResultsHistoryRow]
     """Motion from the release or the end of the command on."""
     history_up_to_hz: float | None
     """Frequency up to which modes are in the history; absent if all are [Hz]."""
@@ -3249,8 +3624,8 @@ class SettleResults(Results):
     """Winches in vibration; absent if they are as in the robot file."""
 
     _PARTS: ClassVar[dict[str, type[Row]]] = {
-        "during": HistoryRow,
-        "history": HistoryRow,
+        "during": SettleResultsHistoryRow,
+        "history": SettleResultsHistoryRow,
         "lengths": LengthsRow,
         "lowest_tension": LowestTension,
         "modes": SettlingMode,
@@ -3645,6 +4020,8 @@ class WorkspaceResults(Results):
     """Parts that do not touch each other, and holes, the largest first."""
     plane: AreaOfWorkspace | None
     """Plane of a planar platform, in which the set is an area; absent in space. Volumes are those of a slab of 1 m."""
+    proof: Proved | None
+    """Proof in which parts of the box required loads are held."""
     rays: RaysOfWorkspace | None
     """Set along rays."""
     robot: str | None
@@ -3676,6 +4053,7 @@ class WorkspaceResults(Results):
         "inner_box": InnerBox,
         "parts": PartOfWorkspace,
         "plane": AreaOfWorkspace,
+        "proof": Proved,
         "rays": RaysOfWorkspace,
         "sections": SectionOfWorkspace,
         "volumes": VolumeRow,
@@ -3691,6 +4069,7 @@ OF_COMMANDS.update(
         "clearance": ClearanceResults,
         "compare": CompareResults,
         "design": DesignResults,
+        "estimate": EstimateResults,
         "gradient": GradientResults,
         "gust": GustResults,
         "identify": IdentifyResults,
@@ -3699,6 +4078,7 @@ OF_COMMANDS.update(
         "parameters": ParametersResults,
         "payload": PayloadResults,
         "pose-error": PoseErrorResults,
+        "prove": ProveResults,
         "settle": SettleResults,
         "simulate": SimulateResults,
         "speeds": SpeedsResults,

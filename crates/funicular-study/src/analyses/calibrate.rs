@@ -6,6 +6,7 @@
 mod accuracy;
 mod caveats;
 mod choice;
+mod covariance;
 mod drawn;
 mod profiles;
 mod reachable;
@@ -16,6 +17,7 @@ mod words;
 mod wrong;
 
 pub use accuracy::{HalvingRow, ToolAccuracy, ToolRow};
+pub use covariance::CovarianceRow;
 pub use drawn::{AnchorRow, LinearRows, NetRows};
 pub use rows::LeftOut;
 pub use rows::{CableResidual, CalibratedValue, DistanceRow, MinimumRow, ProposalRow, ReadingRow, Walk, WeakRow};
@@ -107,11 +109,20 @@ rows! {
         pub iterations: usize;
         /// Robot file with the calibrated anchors and attachments.
         pub robot_file: String;
+        /// Covariance of the numbers of the robot file, for `uncertainty`; none if the readings do not tell it.
+        pub covariance: Vec<CovarianceRow> = sparse;
         /// World axes along which the platform moves.
         pub axes: Vec<usize> = hidden;
         /// Rows as linear equations, for pages.
         pub linear: Option<LinearRows> = hidden;
         pub warnings: Vec<String> = hidden;
+    }
+}
+
+impl Calibrated {
+    /// Table of the covariance.
+    pub fn covariance_table(&self) -> ResultTable<'_> {
+        ResultTable::new(CovarianceRow::columns(), &self.covariance)
     }
 }
 

@@ -1,10 +1,11 @@
-//! Candidates of a proposal of `calibrate` or `identify`: a grid, or a list of poses.
+//! Poses of a request: a grid, or a list; for candidates of a proposal of `calibrate` or `identify`, and for commands
+//! that work at several poses.
 
 use crate::at_rest::check_pose;
 use crate::names::suggestion;
-use crate::request::Axis;
+use crate::request::{self, Axis, Places};
 use anyhow::{Result, anyhow, bail};
-use funicular::robot::{PlatformMotion, Pose, Robot};
+use funicular::robot::{PlatformMotion, Pose, Robot, State};
 
 /// Names of the axes.
 const AXES: [&str; 6] = ["x", "y", "z", "roll", "pitch", "yaw"];
@@ -16,8 +17,8 @@ const MAX_CANDIDATES: usize = 100_000;
 pub(crate) enum Candidates {
     /// None were asked for.
     None,
-    /// Poses as they are.
-    Poses(Vec<Pose>),
+    /// Poses as they are: position [m], then roll, pitch, yaw [degrees].
+    Poses(Vec<[f64; 6]>),
     /// Values along each axis; an axis without values stays at the middle pose.
     Grid([Vec<f64>; 6]),
 }
@@ -67,10 +68,8 @@ fn of_keys(
         (Some(_), false) => bail!("⟪{poses_key}⟫ and ⟪{grid_key}⟫ are both given: leave out one of them"),
         (None, true) => bail!("a proposal needs candidates: give their ⟪grid⟫ or a list of ⟪poses⟫"),
         (Some(poses), true) => {
-            let pose = |[x, y, z, roll, pitch, yaw]: &[f64; 6]| Pose::new([*x, *y, *z], [*roll, *pitch, *yaw]);
-            let poses: Vec<Pose> = poses.iter().map(pose).collect();
-            poses.iter().try_for_each(|pose| check_pose(robot, pose))?;
-            Ok(Candidates::Poses(poses))
+            poses.iter().try_for_each(|row| check_pose(robot, &pose(row)))?;
+            Ok(Candidates::Poses(poses.clone()))
         }
         (None, false) => grid(grid_key, given_grid),
     }
@@ -108,22 +107,26 @@ impl Candidates {
     /// # Errors
     /// A pose that the platform cannot have.
     pub(crate) fn poses(&self, robot: &Robot, middle: &Pose) -> Result<Vec<Pose>> {
+        Ok(self.rows(robot, middle)?.iter().map(pose).collect())
+    }
+
+    /// Position [m] and roll, pitch, yaw [degrees] of [`Self::poses`].
+    fn rows(&self, robot: &Robot, middle: &Pose) -> Result<Vec<[f64; 6]>> {
         let values = match self {
             Self::None => return Ok(Vec::new()),
-            Self::Poses(poses) => return Ok(poses.clone()),
+            Self::Poses(rows) => return Ok(rows.clone()),
             Self::Grid(values) => values,
         };
         let [x, y, z] = middle.position_w.into();
         let [roll, pitch, yaw] = funicular::math::rotation::to_roll_pitch_yaw_deg(&middle.rot_wp);
-        let at_middle = [x, y, z, roll, pitch, yaw];
-        let mut poses = vec![at_middle];
+        let mut rows = vec![[x, y, z, roll, pitch, yaw]];
         for (k, values) in values.iter().enumerate() {
             if !values.is_empty() {
-                poses = poses
+                rows = rows
                     .iter()
-                    .flat_map(|pose| {
+                    .flat_map(|row| {
                         values.iter().map(move |value| {
-                            let mut next = *pose;
+                            let mut next = *row;
                             next[k] = *value;
                             next
                         })
@@ -137,11 +140,32 @@ impl Candidates {
             let PlatformMotion::Planar(plane) = &robot.platform.motion else { return point };
             plane.point_with(given).map_or(point, Into::into)
         };
-        let poses: Vec<Pose> = poses
-            .iter()
-            .map(|[x, y, z, roll, pitch, yaw]| Pose::new(in_plane([*x, *y, *z]), [*roll, *pitch, *yaw]))
-            .collect();
-        poses.iter().try_for_each(|pose| check_pose(robot, pose))?;
-        Ok(poses)
+        for [x, y, z, ..] in &mut rows {
+            [*x, *y, *z] = in_plane([*x, *y, *z]);
+        }
+        rows.iter().try_for_each(|row| check_pose(robot, &pose(row)))?;
+        Ok(rows)
+    }
+}
+
+/// Pose of a row: position [m], then roll, pitch, yaw [degrees].
+pub(crate) fn pose([x, y, z, roll, pitch, yaw]: &[f64; 6]) -> Pose {
+    Pose::new([*x, *y, *z], [*roll, *pitch, *yaw])
+}
+
+/// Poses of a request that works at several, as rows of position [m] and roll, pitch, yaw [degrees]; `None` if it has
+/// neither a grid nor a list. A grid lies about the pose of the state.
+///
+/// # Errors
+/// A grid and a list, an axis that does not exist or is there twice, or a pose that the platform cannot have.
+pub(crate) fn of_places(places: &Places, state: &request::State, robot: &Robot) -> Result<Option<Vec<[f64; 6]>>> {
+    let middle = match (&state.pose, &robot.state) {
+        (Some(pose), _) => pose.to_robot()?,
+        (None, State::Pose(pose)) => *pose,
+        (None, _) => Pose::new([0.0; 3], [0.0; 3]),
+    };
+    match given(["grid", "poses"], &places.grid, places.poses.as_ref(), robot)? {
+        Candidates::None => Ok(None),
+        candidates => Ok(Some(candidates.rows(robot, &middle)?)),
     }
 }

@@ -30,9 +30,8 @@ use band::SidesTried;
 use choices::{Exchanges, best_rope, reconnected};
 use cures::cures;
 use funicular::math::max_min::{Goal, MaxMinEnding, Settings};
-use funicular::math::rotation;
 use funicular::robot::parameters::Parameters;
-use funicular::robot::{Pose, Robot, State};
+use funicular::robot::{Robot, State};
 use funicular::statics::LoadCapacity;
 use report::DesignReport;
 use rows::{Evaluated, linearisation_of_goal};
@@ -115,7 +114,7 @@ pub fn run(request: &DesignRequest, watch: &mut dyn Watch) -> Result<Designed> {
     // The robot of the file, whose errors are the user's.
     let file = request.robot.read()?;
     let parameters = Parameters::from_toml(&file.text).map_err(|error| anyhow!("{error}"))?;
-    let listed = listed_poses(request, parameters.robot())?;
+    let listed = candidate_poses::of_places(&request.places, &request.state, parameters.robot())?;
     check_weights(request, listed.as_ref().map_or(1, Vec::len))?;
     let mut run = DesignRun { request, listed, watch };
 
@@ -126,24 +125,6 @@ pub fn run(request: &DesignRequest, watch: &mut dyn Watch) -> Result<Designed> {
         None => (run.search(text)?, Vec::new()),
     };
     run.results(&chosen, exchanges, ropes)
-}
-
-/// Poses of a list or a grid; `None` for the pose of the state.
-fn listed_poses(request: &DesignRequest, robot: &Robot) -> Result<Option<Vec<[f64; 6]>>> {
-    if request.grid.is_empty() {
-        return Ok(request.poses.clone());
-    }
-    let middle = match (&request.state.pose, &robot.state) {
-        (Some(pose), _) => pose.to_robot()?,
-        (None, State::Pose(pose)) => *pose,
-        (None, _) => Pose::new([0.0; 3], [0.0; 3]),
-    };
-    let given = candidate_poses::given(["grid", "poses"], &request.grid, request.poses.as_ref(), robot)?;
-    let row = |pose: &Pose| {
-        let ([x, y, z], [roll, pitch, yaw]) = (pose.position_w.into(), rotation::to_roll_pitch_yaw_deg(&pose.rot_wp));
-        [x, y, z, roll, pitch, yaw]
-    };
-    Ok(Some(given.poses(robot, &middle)?.iter().map(row).collect()))
 }
 
 /// Searches of a request.

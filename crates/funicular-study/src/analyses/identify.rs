@@ -8,6 +8,7 @@ mod chi2;
 mod derivatives;
 mod draws;
 mod experiment;
+mod histories;
 mod lists;
 mod model;
 mod observations;
@@ -23,6 +24,7 @@ mod tables;
 mod unknowns;
 
 pub use super::profile::{OpenEnd, Profile};
+pub use histories::{DiagramRow, HistoryRow, PoleRow};
 pub use proposals::ProposedMeasurement;
 pub use tables::{FittedResponse, FrequencyRow, StaticRow};
 
@@ -86,6 +88,8 @@ rows! {
         pub assignment: Option<ModeAssignment>;
         pub responses: Vec<FittedResponse> = sparse;
         pub statics: Vec<StaticRow> = sparse;
+        /// Time histories with the natural frequencies that were found in them.
+        pub histories: Vec<HistoryRow> = sparse;
         /// Measurements to make next.
         pub proposals: Vec<ProposedMeasurement> = sparse;
         /// Least number of proposed measurements that reaches the wanted deviation; absent if none was wanted or no
@@ -236,9 +240,13 @@ impl ValueRow {
 /// stopped.
 pub fn run(request: &IdentifyRequest, watch: &mut dyn Watch) -> Result<Identified> {
     check(request)?;
-    let request = &within_range(request)?;
+    let (request, histories) = histories::with_frequencies(&within_range(request)?)?;
+    let request = &request;
     let file = request.robot.read()?;
     let parameters = Parameters::from_toml(&file.text)?;
+    if request.fit.is_empty() && !histories.is_empty() {
+        return Ok(Identified::of_histories(parameters.robot().name.clone(), file.text.clone(), histories));
+    }
     let unknowns = unknowns(&parameters, &request.fit)?;
     let mut profiled = named(("profile", &request.profile), &parameters, &unknowns)?;
     let wanted = candidates(request, &parameters)?;
@@ -288,6 +296,7 @@ pub fn run(request: &IdentifyRequest, watch: &mut dyn Watch) -> Result<Identifie
 
     let tables = tables(&mut model, request, &best.x, Some(&nominal[..]).filter(|_| has_nominal))?;
     warnings.splice(0..0, caveats::left_out(&model, &tables.responses));
+    warnings.splice(0..0, histories.iter().flat_map(HistoryRow::caveats));
     Ok(Identified {
         robot: parameters.robot().name.clone(),
         values: rows,
@@ -310,6 +319,7 @@ pub fn run(request: &IdentifyRequest, watch: &mut dyn Watch) -> Result<Identifie
         assignment: searched.assigning.as_ref().map(|found| ModeAssignment::of(found, &model, doubts)),
         responses: tables.responses,
         statics: tables.statics,
+        histories,
         robot_file: model.text(&best.x)?,
         proposals: proposed,
         measurements_needed,
@@ -441,7 +451,9 @@ fn is_noise_given(request: &IdentifyRequest) -> bool {
             (experiment.measured_lengths_m.is_some(), experiment.length_std_m),
         ];
         responses.iter().all(|response| response.std.is_some())
-            && frequencies.iter().all(|frequency| frequency.std_hz.is_some() && frequency.damping_ratio.is_none())
+            && frequencies
+                .iter()
+                .all(|of| of.std_hz.is_some() && of.damping_ratio.is_some() == of.damping_std.is_some())
             && statics.iter().all(|(is_measured, deviation)| !is_measured || deviation.is_some())
     })
 }
@@ -592,10 +604,14 @@ impl<'a> FittedValue<'a> {
 
 impl Tabled for Identified {
     fn tables() -> Vec<(&'static str, Vec<Column>)> {
-        vec![("", FittedValue::columns().described())]
+        let poles = ("without `--fit`: frequencies of time histories", PoleRow::columns().described());
+        vec![("fitted values", FittedValue::columns().described()), poles]
     }
 
     fn table(&self) -> ResultTable<'_> {
+        if self.values.is_empty() {
+            return ResultTable::new(PoleRow::columns(), self.histories.iter().flat_map(|history| &history.poles));
+        }
         ResultTable::new(FittedValue::columns(), FittedValue::all(self))
     }
 }

@@ -10,9 +10,11 @@
 
 mod distribution;
 mod inputs;
+mod joint;
 mod linear;
 mod mode_linearity;
 mod output;
+mod position;
 mod response_linearity;
 mod responses;
 mod results;
@@ -24,14 +26,15 @@ pub use output::{
     FailedSamples, InputGroup, PoseUncertainty, ResultAtPose, ShareOfInput, UncertainInput, UncertainResponse,
     UncertainResult, Uncertainties, WorstCase,
 };
+pub use position::PositionDeviation;
 pub(crate) use statistics::Statistics;
 
-use super::found;
 use super::result_groups::{refuse_unused, result_groups};
 use super::shared::Models;
+use super::{candidate_poses, found};
 use crate::at_rest::{self, AtRest};
 use crate::error::{Cancelled, NoSolution};
-use crate::measure::MeasureGroup;
+use crate::measure::{Measure, MeasureGroup};
 use crate::names::UncertaintyMethod;
 use crate::request::{Pose, Request, UncertaintyRequest};
 use crate::table::{Chunk, Record};
@@ -108,12 +111,12 @@ impl UncertaintyStudy {
         let robot = request.robot.read()?.robot;
         let requested =
             of.contains(&&MeasureGroup::Response).then(|| RequestedResponse::new(request, &robot)).transpose()?;
-        let poses: Vec<Option<[f64; 6]>> = match &request.poses {
+        if let Some(poses) = &request.places.poses {
+            crate::sweep::check_poses(poses, &robot)?;
+        }
+        let poses: Vec<Option<[f64; 6]>> = match candidate_poses::of_places(&request.places, &request.state, &robot)? {
             None => vec![None],
-            Some(poses) => {
-                crate::sweep::check_poses(poses, &robot)?;
-                poses.iter().copied().map(Some).collect()
-            }
+            Some(rows) => rows.into_iter().map(Some).collect(),
         };
 
         // Input errors are the same at every pose, and are found at the first equilibrium.
@@ -267,6 +270,7 @@ impl SamplePlan<'_> {
                     roll_pitch_yaw_deg: None,
                     reason: reason.clone(),
                     failed: None,
+                    position: None,
                     results: Vec::new(),
                 });
                 continue;
@@ -335,7 +339,37 @@ impl SamplePlan<'_> {
             roll_pitch_yaw_deg: Some(pose.roll_pitch_yaw_deg),
             reason: None,
             failed: failed.map(|(count, reason)| FailedSamples { count, reason: reason.to_owned() }),
+            position: self.position(i, linear, samples),
             results: rows.map(|(number, row)| self.result(i, number, row, linear, samples, single)).collect(),
+        }
+    }
+
+    /// Deviation of the position, if it is among the results: by gradients, or of the sampled robots.
+    fn position(&self, i: usize, linear: &LinearPose, samples: &Samples) -> Option<PositionDeviation> {
+        let of_axis = |row| match row {
+            row @ &Row { kind: Measure::Pose(axis @ 0..3), .. } => Some((axis, row)),
+            _ => None,
+        };
+        let axes: Vec<(usize, &Row)> = linear.rows.iter().filter_map(of_axis).collect();
+        let is_sampled = self.study.request.method != UncertaintyMethod::Linear
+            && axes.iter().any(|(_, row)| row.sampling_reason.is_some());
+        let changes: Vec<Vec<f64>> = if is_sampled {
+            let of_axis = |(_, row): &(usize, &Row)| {
+                samples.0.values(&self.sampling, i, SampleSet::Sample, row.kind).map(Iterator::collect)
+            };
+            axes.iter().map(of_axis).collect::<Option<_>>()?
+        } else {
+            let of_axis = |(_, row): &(usize, &Row)| {
+                let derivatives = row.derivatives.as_ref()?.iter().zip(&linear.distributions);
+                Some(derivatives.map(|(derivative, of)| derivative * of.deviation()).collect())
+            };
+            axes.iter().map(of_axis).collect::<Option<_>>()?
+        };
+        let axes: Vec<usize> = axes.iter().map(|(axis, _)| *axis).collect();
+        if is_sampled {
+            PositionDeviation::of_samples(&axes, &changes)
+        } else {
+            PositionDeviation::of_contributions(&axes, &changes)
         }
     }
 
@@ -504,6 +538,7 @@ fn notes(request: &UncertaintyRequest, poses: &[PoseUncertainty]) -> Vec<String>
                 .to_owned(),
         );
     }
+    notes.extend(output::position_note(poses));
     let failed: usize = poses.iter().filter_map(|pose| pose.failed.as_ref()).map(|failed| failed.count).sum();
     if failed > 0 {
         notes.push(format!("{} had no equilibrium or no valid values: not counted", counted(failed, "sampled robot")));

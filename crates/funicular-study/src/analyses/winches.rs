@@ -238,17 +238,13 @@ fn needs_of(robot: &Robot, poses: &[Pose], request: &WinchesRequest, watch: &mut
 
 /// Poses of a request: a grid about the pose of the state, a list, or this pose alone.
 fn poses(robot: &Robot, request: &WinchesRequest) -> Result<Vec<Pose>> {
-    let is_list = request.poses.is_some() || !request.grid.is_empty();
-    let middle = match (&robot.state, is_list) {
-        (State::Pose(pose), _) => *pose,
-        (_, true) => Pose::new([0.0; 3], [0.0; 3]),
-        (_, false) => bail!("the robot has no pose: give ⟪grid⟫, ⟪poses⟫ or ⟪pose⟫"),
-    };
-    if !is_list {
-        return Ok(vec![middle]);
+    if let Some(rows) = candidate_poses::of_places(&request.places, &request.state, robot)? {
+        return Ok(rows.iter().map(candidate_poses::pose).collect());
     }
-    let candidates = candidate_poses::wanted((true, ""), &request.grid, request.poses.as_ref(), robot)?;
-    candidates.poses(robot, &middle)
+    match &robot.state {
+        State::Pose(pose) => Ok(vec![*pose]),
+        _ => bail!("the robot has no pose: give ⟪grid⟫, ⟪poses⟫ or ⟪pose⟫"),
+    }
 }
 
 /// Rows of the winch that serves every cable, and of each.
@@ -396,7 +392,10 @@ impl Winches {
                 Some(if shown.0 == "brake-power" { format!("{number} while it brakes") } else { number })
             })
             .collect();
-        format!("Each winch: {}; {} m of rope", numbers.join(", "), significant(self.winches[0].rope_m, 3))
+        // At one pose only the stretch under different loads is wound.
+        let rope = self.winches[0].rope_m;
+        let wound = if self.poses > 1 { format!("; {} m of rope", significant(rope, 3)) } else { String::new() };
+        format!("Each winch: {}{wound}", numbers.join(", "))
     }
 }
 

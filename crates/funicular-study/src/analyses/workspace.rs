@@ -16,6 +16,7 @@ pub use rows::{
 pub use so_far::FoundSoFar;
 pub use study::{EvaluateSet, SearchedSet, WorkspaceStudy};
 
+use super::prove;
 use crate::Watch;
 use crate::error::Stopped;
 use crate::request::WorkspaceRequest;
@@ -51,5 +52,9 @@ pub fn run(robot: Robot, request: &WorkspaceRequest, watch: &mut dyn Watch) -> R
         Some(values)
     };
     let found = study.find(&mut evaluate)?;
-    found.ok_or_else(|| Stopped(so_far.stopped()).into())
+    let mut found = found.ok_or_else(|| Stopped(so_far.stopped()))?;
+    if let Some(proof) = study.proof() {
+        found.proof = Some(prove::run_study(proof, watch)?);
+    }
+    Ok(found)
 }

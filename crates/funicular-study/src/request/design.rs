@@ -1,7 +1,7 @@
 //! Request of `design`: values of the robot file to be chosen, and what they have to achieve.
 
 use super::key::declared;
-use super::parts::{Axis, Model, RobotText, State, Tensions};
+use super::parts::{Model, Places, RobotText, State, Tensions};
 use crate::names::DesignGoal;
 use serde::{Deserialize, Serialize};
 
@@ -21,12 +21,9 @@ declared! {
         /// Goal of the design.
         #[serde(with = "crate::names")]
         goal: DesignGoal = DesignGoal::default() => (name::<DesignGoal>()).form("GOAL");
-        /// Poses: position [m] and roll, pitch, yaw [degrees].
-        poses: Option<Vec<[f64; 6]>> = None => (Poses).otherwise("the pose of the state").excludes(&["pose"])
-            .read_by(Reader::Poses, "the poses");
-        /// Axis of a grid of poses: x, y, z [m], roll, pitch, yaw [degrees], with N values from A to B, or with listed
-        /// values (repeatable); an axis that is not given stays at the pose of the state.
-        grid: Vec<Axis> = Vec::new() => (List(ProgramForm::GridAxis)).form("AXIS=A:B:N|V,V,…").excludes(&["poses"]);
+        /// Poses.
+        #[serde(flatten)]
+        places: Places = Places::default() => group;
         /// Weights of the poses, for their mean instead of the worst pose.
         weights: Option<Vec<f64>> = None => (Commas(ProgramForm::Positive)).form("W1,W2,…");
         /// Ropes to choose from for all cables: a table with the columns name, axial_stiffness_n, mass_kg_per_m and,

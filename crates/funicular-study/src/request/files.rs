@@ -146,8 +146,9 @@ declared! {
         /// Side of the box of poses for C and JSON: x, y, z [m], roll, pitch, yaw [degrees] from A to B, or at one
         /// value (repeatable); an axis that is not given keeps the value of ⟪pose⟫ or of the pose of the robot's state.
         within: Vec<Axis> = Vec::new() => (List(ProgramForm::Side)).form("AXIS=A:B").under("Table of lengths");
-        /// Largest error of a length in the box [m].
-        tolerance_m: Option<f64> = None => (Number(Positive)).under("Table of lengths").otherwise("1e-4");
+        /// Largest error of a length in the box [m]; in a unit, the error of a position that one step may have.
+        tolerance_m: Option<f64> = None =>
+            (Number(Positive)).under("Table of lengths").otherwise("1e-4, 1e-7 in a unit");
         /// Beginning of all names in the C file.
         prefix: Option<String> = None => (Text).form("NAME").under("Table of lengths")
             .otherwise("from the name of the robot file");
@@ -166,6 +167,7 @@ declared! {
         "funicular export robots/cogiro.toml --to mujoco -o cogiro.xml",
         "funicular export robots/cogiro.toml --to mujoco --cable-pieces 10 -o cogiro.xml",
         "funicular export robots/cogiro.toml --to vtk --pose 1,2,1.5 --modes-below-hz 10 -o cogiro.vtp",
+        "funicular export robots/cogiro.toml --to fmu -o cogiro.fmu",
         "funicular export robots/cogiro.toml --to c --within x=-3:3 --within y=-2:2 --within z=0.5:2.5 -o cogiro.c",
     }
 }

@@ -73,7 +73,8 @@ pub fn convert_units(command: &str, given: &mut Object) -> Result<()> {
             (Kind::Columns | Kind::GappedColumns, value) => vec![value],
             (Kind::Data(_), Value::Array(rows)) if key.name == "offers" => rows.iter_mut().collect(),
             (Kind::Data(_), Value::Object(scenario)) if key.name == "scenario" => {
-                let events = scenario.get_mut("lengths").and_then(Value::as_array_mut).into_iter().flatten();
+                let kinds = scenario.iter_mut().filter(|(kind, _)| ["lengths", "anchor"].contains(&kind.as_str()));
+                let events = kinds.filter_map(|(_, events)| events.as_array_mut()).flatten();
                 events.filter_map(|event| event.get_mut("table")).collect()
             }
             _ => continue,
@@ -150,8 +151,11 @@ fn of_data(name: &str, value: &Value) -> KeyCheck {
         "experiments" => experiments(value),
         "offers" => objects(value, &offer_keys()),
         "ropes" => objects(value, &rope_keys()),
+        "covariance" => objects(value, &covariance_keys()),
         "responses" => objects(value, &response_keys()),
         "frequencies" => objects(value, &frequency_keys()),
+        "histories" => objects(value, &history_keys()),
+        "channels" => objects(value, &channel_keys()),
         "from_csv" => object(value, "a mapping with `path` and `text`", |given| keys_of_object(&file(), &[], given)),
         "files" => objects(value, &file()),
         "parts" | "cables" => of_kind(&Kind::Texts, value),
@@ -305,6 +309,12 @@ fn offer_keys() -> Vec<Key> {
     std::iter::once(entry("name", Kind::Text, true)).chain(gives).collect()
 }
 
+/// Keys of an entry of a covariance.
+fn covariance_keys() -> Vec<Key> {
+    let path = |name| entry(name, Kind::Text, true);
+    vec![path("first"), path("second"), entry("covariance", Kind::Number(Range::Finite), true)]
+}
+
 /// Keys of a rope to choose.
 fn rope_keys() -> Vec<Key> {
     let number = |name: &'static str| {
@@ -329,11 +339,30 @@ fn response_keys() -> Vec<Key> {
     ]
 }
 
+fn history_keys() -> Vec<Key> {
+    vec![
+        entry("name", Kind::Text, false),
+        entry("time_s", Kind::PerCable(Range::Finite), true),
+        entry("channels", Kind::Data(super::shape::objects), true),
+    ]
+}
+
+fn channel_keys() -> Vec<Key> {
+    vec![
+        entry("name", Kind::Text, true),
+        entry("output", Kind::Text, false),
+        entry("output_point_m", Kind::Vector, false),
+        entry("values", Kind::PerCable(Range::Finite), true),
+        entry("std", Kind::Number(Range::Positive), false),
+    ]
+}
+
 fn frequency_keys() -> Vec<Key> {
     let number = |name, required| entry(name, Kind::Number(Range::Finite), required);
     vec![
         number("frequency_hz", true),
         number("damping_ratio", false),
+        number("damping_std", false),
         number("std_hz", false),
         number("weight", false),
         entry("label", Kind::Text, false),

@@ -2,7 +2,7 @@
 
 use super::key::declared;
 use super::loads::Requirements;
-use super::parts::{Axis, MAX_HZ, Model, RobotText, State, Tensions};
+use super::parts::{Axis, MAX_HZ, Model, Places, RobotText, State, Tensions};
 use super::speeds::RequiredVelocities;
 use funicular::modes::PLATFORM_SHARE;
 
@@ -50,12 +50,9 @@ declared! {
     pub struct MapRequest {
         /// Robot file.
         robot: RobotText = RobotText::default() => (Data(shape::robot)).required();
-        /// Axis of the grid: x, y, z [m], roll, pitch, yaw [degrees], with N values from A to B, or with listed values
-        /// (repeatable); an axis that is not given keeps the value of the robot's state or of ⟪pose⟫.
-        grid: Vec<Axis> = Vec::new() => (List(ProgramForm::GridAxis)).form("AXIS=A:B:N|V,V,…");
-        /// List of poses instead of a grid: position [m] and roll, pitch, yaw [degrees].
-        poses: Option<Vec<[f64; 6]>> = None => (Poses).excludes(&["grid", "pose", "lengths_m"])
-            .read_by(Reader::Poses, "the poses");
+        /// Poses.
+        #[serde(flatten)]
+        places: Places = Places::default() => group;
         /// Quantities and options of every point.
         #[serde(flatten)]
         point: EachPoint = EachPoint::default() => group;

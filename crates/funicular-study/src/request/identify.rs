@@ -2,7 +2,8 @@
 
 use super::key::declared;
 use super::parts::{Axis, Model, Pose, RobotText, State, Tensions};
-use crate::measurements::{MeasuredFrequency, MeasuredResponse};
+use crate::measurements::{MeasuredFrequency, MeasuredHistory, MeasuredResponse};
+use crate::names::HistoryKind;
 use funicular::math::chosen_rows::RowCriterion;
 use serde::{Deserialize, Serialize};
 
@@ -21,18 +22,18 @@ const DEFAULT_DAMPING_NOISE: f64 = 0.1;
 declared! {
     /// Values of the robot file that fit measurements best, with their deviations.
     ///
-    /// Measurements are frequency responses, natural frequencies with damping ratios, poses, tensions and lengths, in
-    /// one or several states. The result says how sure each value is, and which combinations the measurements do not
-    /// determine. docs/identification.md explains files, priors and the result.
+    /// Measurements are frequency responses, natural frequencies with damping ratios, time histories of sensors, poses,
+    /// tensions and lengths, in one or several states. The result says how sure each value is, and which combinations
+    /// the measurements do not determine. docs/identification.md explains files, priors and the result.
     pub struct IdentifyRequest {
         /// Robot file.
         robot: RobotText = RobotText::default() => (Data(shape::robot)).required();
         /// Value of the robot file to identify, with optional bounds, as in platform.mass_kg=10:30; * stands for any
         /// key, as in 'materials.*.axial_stiffness_n', and a path to a table or vector for all numbers of it that the
-        /// file gives (repeatable).
-        fit: Vec<FitValue> = Vec::new() => (List(ProgramForm::Fit)).form("PATH[=MIN:MAX]").required();
+        /// file gives (repeatable). Without any, the frequencies and damping ratios of time histories are found alone.
+        fit: Vec<FitValue> = Vec::new() => (List(ProgramForm::Fit)).form("PATH[=MIN:MAX]");
         /// Measurements of the robot, each in a state of its own.
-        experiments: Vec<Experiment> = Vec::new() => (Data(shape::experiments)).required();
+        experiments: Vec<Experiment> = Vec::new() => (Data(shape::experiments));
         /// Maximum number of starts of the search. The first start has the values of the file, the others are spread by
         /// the priors; the search ends at the first start that fits.
         starts: usize = DEFAULT_STARTS => (Count(0..=u64::MAX));
@@ -79,6 +80,17 @@ declared! {
         frequency_noise: f64 = DEFAULT_FREQUENCY_NOISE => (Number(Positive)).form("FRACTION").under("Measurements");
         /// Relative standard deviation of damping ratios.
         damping_noise: f64 = DEFAULT_DAMPING_NOISE => (Number(Positive)).form("FRACTION").under("Measurements");
+        /// Kind of measured time histories.
+        #[serde(with = "crate::names")]
+        history_kind: HistoryKind = HistoryKind::default() => (name::<HistoryKind>()).form("KIND")
+            .under("Time histories");
+        /// Time at which the histories begin to count [s]: a decay begins after its push has ended.
+        history_from_s: Option<f64> = None => (Number(Finite)).under("Time histories").otherwise("all");
+        /// Time at which they end to count [s].
+        history_to_s: Option<f64> = None => (Number(Finite)).under("Time histories").otherwise("all");
+        /// Number of vibrations in a decay, or half the order of the system for a record in wind.
+        history_poles: Option<usize> = None => (Count(1..=20)).under("Time histories")
+            .otherwise("as many as the readings show");
         /// Rule and limits of tensions.
         #[serde(flatten)]
         tensions: Tensions = Tensions::default() => group;
@@ -98,6 +110,7 @@ declared! {
         "funicular identify docs/quick-start/hall.toml --hold-lengths-of-pose \\\n    --measured \
          docs/identification/hall-modes.csv --fit platform.mass_kg --fit materials.rope.youngs_modulus_pa \\\n    \
          --propose 3 --grid x=-2:2:5 --propose-measuring frequencies,tensions",
+        "funicular identify docs/quick-start/hall.toml --measured docs/identification/hall-decay.csv",
         "funicular identify robot.toml --experiments poses.json --rigid-cables --fit platform.center_of_mass_m \\\n    \
          --fit platform.inertia_kg_m2 -o result.json --page result.html",
     }
@@ -144,6 +157,9 @@ declared! {
         /// Natural frequencies.
         #[serde(skip_serializing_if = "Vec::is_empty")]
         frequencies: Vec<MeasuredFrequency> = Vec::new() => (Data(shape::objects));
+        /// Time histories of sensors, from which natural frequencies and damping ratios are found.
+        #[serde(skip_serializing_if = "Vec::is_empty")]
+        histories: Vec<MeasuredHistory> = Vec::new() => (Data(shape::objects));
         /// Measured pose at held lengths [m, degrees].
         #[serde(skip_serializing_if = "Option::is_none")]
         measured_pose: Option<Pose> = None => (Pose).form("X,Y,Z,ROLL,PITCH,YAW").under("Measurements");

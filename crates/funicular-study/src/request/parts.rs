@@ -305,6 +305,18 @@ impl OneOrSeveral {
     }
 }
 
+declared! {
+    /// Poses at which a command works: a grid, or a list.
+    pub struct Places {
+        /// Axis of the grid: x, y, z [m], roll, pitch, yaw [degrees], with N values from A to B, or with listed values
+        /// (repeatable); an axis that is not given keeps the value of the robot's state or of ⟪pose⟫.
+        grid: Vec<Axis> = Vec::new() => (List(ProgramForm::GridAxis)).form("AXIS=A:B:N|V,V,…");
+        /// List of poses instead of a grid: position [m] and roll, pitch, yaw [degrees].
+        poses: Option<Vec<[f64; 6]>> = None => (Poses).excludes(&["grid", "pose", "lengths_m"])
+            .read_by(Reader::Poses, "the poses");
+    }
+}
+
 /// Axis of a grid: equal steps, or listed values.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(untagged, deny_unknown_fields)]

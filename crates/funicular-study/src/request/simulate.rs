@@ -15,7 +15,7 @@ declared! {
     pub struct SimulateRequest {
         /// Robot file.
         robot: RobotText = RobotText::default() => (Data(shape::robot)).required();
-        /// Events: lists `release`, `pick`, `lengths`, `tension`, `stop`, `push` and `cut` of events.
+        /// Events: lists `release`, `pick`, `lengths`, `tension`, `stop`, `push`, `anchor` and `cut` of events.
         scenario: Scenario = Scenario::default() => (Data(shape::scenario))
             .read_by(Reader::Scenario, "the scenario");
         /// Simulated time [s].
@@ -95,6 +95,9 @@ pub struct Scenario {
     /// Forces on the platform.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub push: Vec<PushEvent>,
+    /// Anchors that move.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub anchor: Vec<AnchorEvent>,
     /// Cables that fail.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub cut: Vec<CutEvent>,
@@ -190,6 +193,20 @@ declared! {
 }
 
 declared! {
+    /// Anchors move: those of a crane, a ship, a drone, or of the whole base.
+    pub struct AnchorEvent {
+        /// Beginning [s].
+        at_s: f64 = 0.0 => (Number(Finite)).required();
+        /// Names of the cables whose anchors have the displacements of the table; all, which is the base, if not given.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        cables: Option<Vec<String>> = None => (Texts);
+        /// Table with t_s from the beginning on, and x_m, y_m, z_m, the displacement from the places of the robot file,
+        /// or anchor_NAME_x_m, anchor_NAME_y_m, anchor_NAME_z_m, the place of the anchor of cable NAME.
+        table: NumberColumns = NumberColumns::new() => (Columns).required();
+    }
+}
+
+declared! {
     /// A cable fails, at a time or at a tension, at the platform or at a place along it.
     pub struct CutEvent {
         /// Name of the cable.
@@ -208,7 +225,7 @@ declared! {
 }
 
 /// Kinds of events with their keys, in the order of the fields of [`Scenario`].
-pub(super) fn event_kinds() -> [(&'static str, Vec<Key>); 7] {
+pub(super) fn event_kinds() -> [(&'static str, Vec<Key>); 8] {
     [
         ("release", ReleaseEvent::keys()),
         ("pick", PickEvent::keys()),
@@ -216,6 +233,7 @@ pub(super) fn event_kinds() -> [(&'static str, Vec<Key>); 7] {
         ("tension", TensionEvent::keys()),
         ("stop", StopEvent::keys()),
         ("push", PushEvent::keys()),
+        ("anchor", AnchorEvent::keys()),
         ("cut", CutEvent::keys()),
     ]
 }

@@ -1,14 +1,26 @@
 //! Request of the uncertainty of results.
 
 use super::key::declared;
-use super::parts::{Model, ResponsePoints, RobotText, State, Tensions};
+use super::parts::{Model, Places, ResponsePoints, RobotText, State, Tensions};
 use crate::measure::MeasureGroup;
 use crate::names::UncertaintyMethod;
 use funicular::gradient::Hold;
-use serde::{Deserialize, Deserializer};
+use serde::{Deserialize, Deserializer, Serialize};
 
 /// Number of sampled robots if a request gives none: deviations are then accurate to 5 %.
 const DEFAULT_SAMPLES: usize = 200;
+
+/// Covariance of two numbers of the robot file, or the variance of one.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[serde(default)]
+pub struct CovarianceEntry {
+    /// Path of the first number.
+    pub first: String,
+    /// Path of the second number; that of the first for its variance.
+    pub second: String,
+    /// Covariance, in the product of their units.
+    pub covariance: f64,
+}
 
 declared! {
     /// Deviations of results from deviations or tolerances of numbers of the robot file.
@@ -26,6 +38,10 @@ declared! {
         /// Tolerances PATH=VALUE or PATH=PERCENT% of numbers with a uniform distribution within ± their tolerance,
         /// separated by commas.
         tolerances: Vec<String> = Vec::new() => (Sizes).form("TOLERANCES");
+        /// Covariance of numbers that deviate together, as `calibrate` writes it: a table with the columns first,
+        /// second (paths) and covariance, in the units of the file; pairs without a row are independent
+        covariance: Option<Vec<CovarianceEntry>> = None => (Data(shape::objects))
+            .read_by(Reader::Records, "the covariance");
         /// Results, separated by commas.
         of: Vec<String> = pose_and_tensions() => (Texts).form("RESULTS").one_of(MeasureGroup::names());
         /// Quantity that is held while the numbers deviate; with the pose held, the tensions parallel to the chords of
@@ -44,9 +60,9 @@ declared! {
         /// Points of the platform.
         #[serde(flatten)]
         points: ResponsePoints = ResponsePoints::default() => group;
-        /// List of poses instead of the state: position [m] and roll, pitch, yaw [degrees].
-        poses: Option<Vec<[f64; 6]>> = None => (Poses).excludes(&["pose", "lengths_m"])
-            .read_by(Reader::Poses, "the poses");
+        /// Poses.
+        #[serde(flatten)]
+        places: Places = Places::default() => group;
         /// Method for the deviations.
         #[serde(with = "crate::names")]
         method: UncertaintyMethod = UncertaintyMethod::default() => (name::<UncertaintyMethod>()).form("METHOD");
@@ -70,6 +86,8 @@ declared! {
          \\\n    --of pose,tensions,frequencies --below-hz 2",
         "funicular uncertainty robots/cogiro.toml --pose 1,2,1.5 --tolerances cables.*.unstrained_length_m=0.0002 -o \
          cogiro.html",
+        "funicular uncertainty robots/cogiro.toml --covariance covariance.csv --grid x=-5:5:3 --grid y=-3:3:3 \
+         \\\n    --grid z=1.5 --of pose",
         "funicular uncertainty robots/cogiro.toml --poses trajectory.csv --deviations platform.center_of_mass_m=0.005 \
          \\\n    --of stiffness-min --hold pose -o stiffness.csv",
         "funicular uncertainty robots/yuan2014-4mm.toml --deviations materials.*.youngs_modulus_pa=5%,platform=1% \

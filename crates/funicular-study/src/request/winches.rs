@@ -2,7 +2,7 @@
 
 use super::key::declared;
 use super::loads::Requirements;
-use super::parts::{Axis, RobotText, State, Tensions};
+use super::parts::{Places, RobotText, State, Tensions};
 use super::speeds::RequiredVelocities;
 use serde::{Deserialize, Serialize};
 
@@ -50,12 +50,9 @@ declared! {
     pub struct WinchesRequest {
         /// Robot file.
         robot: RobotText = RobotText::default() => (Data(shape::robot)).required();
-        /// Axis of the grid: x, y, z [m], roll, pitch, yaw [degrees], with N values from A to B, or with listed values
-        /// (repeatable); an axis that is not given keeps the value of the robot's state or of ⟪pose⟫.
-        grid: Vec<Axis> = Vec::new() => (List(ProgramForm::GridAxis)).form("AXIS=A:B:N|V,V,…");
-        /// List of poses instead of a grid: position [m] and roll, pitch, yaw [degrees].
-        poses: Option<Vec<[f64; 6]>> = None => (Poses).excludes(&["grid", "pose", "lengths_m"])
-            .read_by(Reader::Poses, "the poses");
+        /// Poses.
+        #[serde(flatten)]
+        places: Places = Places::default() => group;
         /// Winches on offer, to be compared with the needs: `name`, and what each bears or gives, `tension_n`,
         /// `speed_m_s`, `acceleration_m_s2`, `torque_n_m`, `power_w`, `brake_power_w`, `rope_m`; what a winch does not
         /// say is not compared

@@ -3,6 +3,7 @@
 use super::grids::PointOptions;
 use super::key::declared;
 use super::parts::{Axis, RobotText};
+use super::prove::Division;
 use crate::names::OrientationRule;
 use serde::{Deserialize, Serialize};
 
@@ -41,8 +42,13 @@ declared! {
         /// Section at right angles to an axis, as in z=1.5 or z=0.5,1,1.5 (repeatable).
         section: Vec<Axis> = Vec::new() => (List(ProgramForm::GridAxis)).form("AXIS=V,V,…").under("Set");
         /// Robot file whose set is compared with this one, on the same grid and with the same options.
-        compare: Option<RobotText> = None => (Data(shape::robot)).under("Set")
+        compare: Option<Box<RobotText>> = None => (Data(shape::robot)).under("Set")
             .read_by(Reader::Robot, "the other robot file");
+        /// Prove as well in which parts of the box required loads are held at every position, not only at the nodes.
+        prove: bool = false => (Switch).under("Proof");
+        /// End of the proof.
+        #[serde(flatten)]
+        division: Division = Division::default() => group;
         /// State and loads; the pose gives the orientation for axes that the grid does not have.
         #[serde(flatten)]
         point: PointOptions = PointOptions::default() => (group without ["lengths_m", "hold_lengths_of_pose"]);
@@ -52,6 +58,7 @@ declared! {
          cogiro.stl",
         "funicular workspace robots/ipanema2.toml --grid z=0:4:41 --at-least load-factor=1 --at-least \
          stiffness-min=1e4",
+        "funicular workspace robots/cogiro.toml --prove --boxes 100000 -o workspace.html --certificate cogiro.jsonl",
         "funicular workspace robots/cogiro.toml --grid yaw=-20:20:5 --orientations all --section z=1.5 -o \
          workspace.html",
     }

@@ -68,21 +68,22 @@ impl PreparedSweep {
 
         // The poses: a list, or a grid around the pose of the state.
         let mut base = None;
-        let points = match &request.poses {
-            Some(_) if !request.grid.is_empty() => bail!("give ⟪grid⟫ or ⟪poses⟫, not both"),
+        let points = match &request.places.poses {
+            Some(_) if !request.places.grid.is_empty() => bail!("give ⟪grid⟫ or ⟪poses⟫, not both"),
             Some(poses) => {
                 check_poses(poses, &robot)?;
                 Poses::list(robot.clone(), poses.clone())
             }
-            None if request.grid.is_empty() => bail!("give ⟪grid⟫ or ⟪poses⟫: a map needs poses"),
+            None if request.places.grid.is_empty() => bail!("give ⟪grid⟫ or ⟪poses⟫: a map needs poses"),
             None => {
-                let axes = steps_of(&request.grid, "grid")?;
+                let axes = steps_of(&request.places.grid, "grid")?;
                 base = base_pose(holding.as_ref().unwrap_or(&robot), &request)?;
                 Poses::grid(robot.clone(), &axes, base.as_ref())?
             }
         };
         if let Some(axes) = points.axes() {
-            request.grid = AXES.iter().zip(axes).map(|(name, steps)| Axis::new((*name).to_owned(), steps)).collect();
+            request.places.grid =
+                AXES.iter().zip(axes).map(|(name, steps)| Axis::new((*name).to_owned(), steps)).collect();
         }
 
         let (quantities, options) = quantities_and_options(&robot, &mut request.point)?;
@@ -207,8 +208,8 @@ impl PreparedSweep {
             keys.insert("holder_file".to_owned(), json!(text));
         }
 
-        if let Request::Map(MapRequest { poses, .. }) = &self.request {
-            if let Some(poses) = poses {
+        if let Request::Map(MapRequest { places, .. }) = &self.request {
+            if let Some(poses) = &places.poses {
                 keys.remove("grid");
                 let description = json!({ "count": poses.len(), "sha256": digest::of_poses(poses) });
                 keys.insert("poses".to_owned(), description);

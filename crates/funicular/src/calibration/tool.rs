@@ -3,7 +3,7 @@
 
 use super::elastic::RowState;
 use super::{CalibratedRobot, Calibration, MeasuredRow};
-use crate::math::{DMat, Mat3, Vec3};
+use crate::math::{DMat, Mat3, Vec3, symmetric};
 use crate::robot::Pose;
 
 /// Least singular value of the readings' derivatives by the pose, relative to the largest one, at which readings hold
@@ -37,15 +37,14 @@ impl ToolRows {
     pub fn deviation(&self, covariance: &DMat) -> ToolDeviation {
         let position = &self.position * covariance * self.position.transpose();
         let covariance_w = Mat3::from_fn(|i, j| 0.5 * (position[(i, j)] + position[(j, i)]));
-        let eigen = covariance_w.symmetric_eigen();
-        let largest = eigen.eigenvalues.imax();
+        let (variance, direction_w) = symmetric::largest_principal(&covariance_w);
         let of_angle = |k: usize| {
             let row = self.angles.rows(k, 1);
             (row * covariance * row.transpose())[(0, 0)].max(0.0).sqrt()
         };
         ToolDeviation {
-            position: eigen.eigenvalues[largest].max(0.0).sqrt(),
-            direction_w: eigen.eigenvectors.column(largest).into(),
+            position: variance.max(0.0).sqrt(),
+            direction_w,
             covariance_w,
             angles: (self.angles.nrows() == 3).then(|| [0, 1, 2].map(of_angle)),
         }

@@ -53,6 +53,11 @@ impl CalibrationUnknown {
         }
     }
 
+    /// True for a number of the robot file: of an anchor, an attachment or a pulley.
+    pub fn is_in_file(&self) -> bool {
+        matches!(self, Self::Anchor { .. } | Self::Attachment { .. } | Self::PulleyRadius { .. })
+    }
+
     /// True for a length, or the scale of the readings times their mean; false for a factor of stiffness or mass.
     pub fn is_length(&self) -> bool {
         self.factor().is_none()

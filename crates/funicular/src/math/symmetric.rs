@@ -1,6 +1,6 @@
 //! Eigenvalues of real symmetric matrices, and their signs by congruence.
 
-use super::{Mat6, Vec6, order};
+use super::{Mat3, Mat6, Vec3, Vec6, order};
 
 /// Number of negative eigenvalues of the leading `n`×`n` block of the symmetric `matrix`, which must be scaled.
 ///
@@ -124,6 +124,15 @@ pub fn eigen(matrix: &Mat6, n: usize) -> (Vec<f64>, Vec<Vec6>) {
     };
     let order = order::ascending(&values);
     (order.iter().map(|&i| values[i]).collect(), order.iter().map(|&i| vectors.column(i).clone_owned()).collect())
+}
+
+/// Largest eigenvalue of a symmetric matrix with its eigenvector; of the two senses the one whose largest component is
+/// positive.
+pub fn largest_principal(matrix: &Mat3) -> (f64, Vec3) {
+    let eigen = matrix.symmetric_eigen();
+    let largest = eigen.eigenvalues.imax();
+    let vector: Vec3 = eigen.eigenvectors.column(largest).into();
+    (eigen.eigenvalues[largest], vector * vector[vector.iamax()].signum())
 }
 
 #[cfg(test)]

@@ -20,33 +20,33 @@ impl<T: Dot> Dot for Vec<T> {
     }
 }
 
-/// Sum of rates with other ones.
+/// Sum of rates with multiples of other ones.
 trait Sum {
-    fn add(&mut self, other: &Self);
+    fn add(&mut self, factor: f64, other: &Self);
 }
 
 impl Sum for f64 {
-    fn add(&mut self, other: &Self) {
-        *self += other;
+    fn add(&mut self, factor: f64, other: &Self) {
+        *self += factor * other;
     }
 }
 
 impl Sum for Vec3 {
-    fn add(&mut self, other: &Self) {
-        *self += other;
+    fn add(&mut self, factor: f64, other: &Self) {
+        *self += factor * other;
     }
 }
 
 impl Sum for Mat3 {
-    fn add(&mut self, other: &Self) {
-        *self += other;
+    fn add(&mut self, factor: f64, other: &Self) {
+        *self += factor * other;
     }
 }
 
 impl<T: Sum + Clone + Default> Sum for Vec<T> {
-    fn add(&mut self, other: &Self) {
+    fn add(&mut self, factor: f64, other: &Self) {
         self.resize(self.len().max(other.len()), T::default());
-        self.iter_mut().zip(other).for_each(|(own, other)| own.add(other));
+        self.iter_mut().zip(other).for_each(|(own, other)| own.add(factor, other));
     }
 }
 
@@ -71,8 +71,8 @@ macro_rules! numbers {
         }
 
         impl Sum for $Change {
-            fn add(&mut self, other: &Self) {
-                $(self.$rate.add(&other.$rate);)*
+            fn add(&mut self, factor: f64, other: &Self) {
+                $(self.$rate.add(factor, &other.$rate);)*
             }
         }
 
@@ -297,7 +297,12 @@ impl RobotChange {
 
     /// Adds the rates of another change: the gradient of a sum is the sum of the gradients.
     pub fn add(&mut self, other: &Self) {
-        Sum::add(self, other);
+        self.add_scaled(1.0, other);
+    }
+
+    /// Adds a multiple of the rates of another change: several numbers that move together.
+    pub fn add_scaled(&mut self, factor: f64, other: &Self) {
+        Sum::add(self, factor, other);
     }
 }
 

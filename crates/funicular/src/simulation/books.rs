@@ -18,6 +18,8 @@ pub struct EnergyBooks {
     pub potential: f64,
     /// Work of the winches, with the energy of the rope that passes the anchors.
     pub winches: f64,
+    /// Work at anchors that move.
+    pub anchors: f64,
     /// Work of loads, pushes and wind.
     pub loads: f64,
     /// Energy lost in damping.
@@ -40,13 +42,13 @@ impl EnergyBooks {
 
     /// Energy that moves now, and that came and went since the start [J]: the measure of an error of the energy.
     pub fn moved(&self) -> f64 {
-        let Self { kinetic, winches, loads, payloads, dissipated, .. } = self;
-        kinetic + winches.abs() + loads.abs() + payloads.abs() + dissipated
+        let Self { kinetic, winches, anchors, loads, payloads, dissipated, .. } = self;
+        kinetic + winches.abs() + anchors.abs() + loads.abs() + payloads.abs() + dissipated
     }
 
     /// Error of the energy balance [J]: energy that only the errors of mesh and steps explain.
     pub fn defect(&self) -> f64 {
-        self.total() - self.at_start - self.winches - self.loads - self.payloads + self.dissipated
+        self.total() - self.at_start - self.winches - self.anchors - self.loads - self.payloads + self.dissipated
     }
 }
 
@@ -54,6 +56,7 @@ impl EnergyBooks {
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Powers {
     pub(super) winches: f64,
+    pub(super) anchors: f64,
     pub(super) loads: f64,
     pub(super) dissipation: f64,
 }
@@ -66,14 +69,14 @@ pub(super) struct StepPowers {
 }
 
 impl StepPowers {
-    /// Work [J] from the beginning to the share s of the step: of winches, loads and damping.
-    pub(super) fn work(&self, s: f64) -> [f64; 3] {
+    /// Work [J] from the beginning to the share s of the step: of winches, anchors, loads and damping.
+    pub(super) fn work(&self, s: f64) -> [f64; 4] {
         let of = |power: fn(&Powers) -> f64| {
             let [p0, pm, p1] = [0, 1, 2].map(|k| power(&self.at[k]));
             let (linear, square) = (-3.0 * p0 + 4.0 * pm - p1, 2.0 * p0 - 4.0 * pm + 2.0 * p1);
             self.duration * s * (p0 + s * (0.5 * linear + s * square / 3.0))
         };
-        [of(|p| p.winches), of(|p| p.loads), of(|p| p.dissipation)]
+        [of(|p| p.winches), of(|p| p.anchors), of(|p| p.loads), of(|p| p.dissipation)]
     }
 }
 
@@ -90,7 +93,7 @@ impl System {
         let [kinetic, potential] = self.body.energy(&body);
         let [loads, lost] = self.body.powers(time, &self.air.on_body(time), &body);
         let mut books = EnergyBooks { kinetic, potential, ..EnergyBooks::default() };
-        let mut powers = Powers { winches: 0.0, loads, dissipation: lost };
+        let mut powers = Powers { winches: 0.0, anchors: 0.0, loads, dissipation: lost };
         for (i, rope) in self.ropes.iter().enumerate() {
             if self.ends[i] == RopeEnd::Gone {
                 continue;
@@ -107,6 +110,7 @@ impl System {
             books.strain += of.strain;
             books.potential += of.potential;
             powers.winches += of.winch;
+            powers.anchors += self.anchor_power(i, time, &lengths[i], m, needed);
             powers.loads += of.loads;
             powers.dissipation += of.dissipation;
         }
@@ -130,7 +134,7 @@ impl System {
         let rotation = std::mem::replace(&mut self.rotation, dense.rotation);
         dense.at(time, m);
         let (lengths, body) = (self.lengths(time), self.body_motion(m));
-        self.fill_ends(&body, &lengths, m);
+        self.fill_ends(time, &body, &lengths, m);
         self.needed(time, &lengths, &body, m, needed);
         // The motion is given about the rotation that it belongs to.
         self.rotation = rotation;

@@ -205,7 +205,7 @@ impl Stepper {
     /// Brings ropes in narrow bends to rest between their ends.
     fn hang(&mut self, narrow: &[Option<Vec3>], lengths: &[WoundLength]) {
         let body = self.system.body_motion(&self.now);
-        self.system.fill_ends(&body, lengths, &mut self.now);
+        self.system.fill_ends(self.time, &body, lengths, &mut self.now);
         for (i, load_w) in narrow.iter().enumerate().filter_map(|(i, load_w)| Some((i, (*load_w)?))) {
             let range = self.system.of_rope(i);
             let ends_w = [range.start, range.end - 3].map(|from| three(&self.now.x, from));
@@ -230,7 +230,7 @@ impl Stepper {
     /// Forces that the present motion needs.
     pub(super) fn evaluate(&mut self, lengths: &[WoundLength]) {
         let body = self.system.body_motion(&self.now);
-        self.system.fill_ends(&body, lengths, &mut self.now);
+        self.system.fill_ends(self.time, &body, lengths, &mut self.now);
         self.system.needed(self.time, lengths, &body, &self.now, &mut self.needed);
     }
 

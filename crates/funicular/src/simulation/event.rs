@@ -80,6 +80,15 @@ pub enum SimulationEvent {
         /// Point at which the force acts, platform frame [m].
         point_p: Vec3,
     },
+    /// Anchors move through places at given times by a cubic spline, at rest at both ends.
+    Anchors {
+        /// Beginning [s].
+        time: f64,
+        /// Times since the beginning, from zero on, rising [s].
+        times: Vec<f64>,
+        /// Places at these times, world axes [m], of the anchor of each cable; none for an anchor that goes on.
+        places_w: Vec<Option<Vec<Vec3>>>,
+    },
     /// A cable fails, at the platform or at a place along it.
     Cut {
         /// Index of the cable.
@@ -125,6 +134,9 @@ pub enum EventFault {
     /// A command that names no cable, or changes none.
     #[error("it changes nothing: give the cables by their names, with a change of length or a tension for each")]
     NoCable,
+    /// A motion of anchors that names none.
+    #[error("it moves no anchor: give the cables whose anchors move")]
+    NoAnchor,
     /// The rise of a push is longer than half of it.
     #[error("its rise takes {rise} s at each end: give at most half of its duration of {duration} s")]
     Rise {
@@ -183,6 +195,46 @@ pub enum EventFault {
         first: f64,
         /// Time [s].
         time: f64,
+    },
+    /// The first place of an anchor in a table is not where the anchor is at that time.
+    #[error(
+        "the anchor of cable \"{cable}\" jumps from {before:?} m to {first:?} m at {time} s: begin the table with its \
+         place at that time"
+    )]
+    AnchorJump {
+        /// Name of the cable.
+        cable: String,
+        /// Place before [m].
+        before: [f64; 3],
+        /// First place of the table [m].
+        first: [f64; 3],
+        /// Time [s].
+        time: f64,
+    },
+    /// Motions of one anchor overlap.
+    #[error("it begins at {time} s, before the last motion of the anchor of cable \"{cable}\" ends at {until} s")]
+    AnchorOverlap {
+        /// Name of the cable.
+        cable: String,
+        /// Beginning [s].
+        time: f64,
+        /// End of the motion before [s].
+        until: f64,
+    },
+    /// An anchor that stands on a flexible support.
+    #[error(
+        "the anchor of cable \"{cable}\" stands on a flexible support, whose foot cannot be moved: leave out `support` \
+         of this cable, or let its anchor rest"
+    )]
+    AnchorOnSupport {
+        /// Name of the cable.
+        cable: String,
+    },
+    /// A place that is not finite.
+    #[error("its table has a place of the anchor of cable \"{cable}\" that is not finite")]
+    AnchorNotFinite {
+        /// Name of the cable.
+        cable: String,
     },
     /// Times of a table that do not rise.
     #[error("row {row} of its table has the time {time} s, after {before} s: times rise from row to row")]
@@ -295,7 +347,7 @@ pub(super) const LEAST_LENGTH: f64 = 0.01;
 /// 0.02 of it, in 5000 steps for 0.08 s; with 0.01 some need steps below the shortest one.
 const MIN_HALF: f64 = 0.02;
 /// Difference of lengths that counts as a jump, over the length: above the rounding of tables in micrometres.
-const JUMP: f64 = 1e-5;
+pub(super) const JUMP: f64 = 1e-5;
 
 impl SimulationEvent {
     /// Time at which it begins [s]; none for a cut at a tension.
@@ -308,6 +360,7 @@ impl SimulationEvent {
             | Self::Stop { time, .. }
             | Self::Tension { time, .. }
             | Self::Push { time, .. }
+            | Self::Anchors { time, .. }
             | Self::Cut { at: CutAt::Time(time), .. } => Some(*time),
             Self::Cut { at: CutAt::Tension(_), .. } => None,
         }
@@ -362,6 +415,7 @@ impl SimulationEvent {
                 Err(EventFault::NegativePlace { place: *place })
             }
             Self::Follow { times, .. } => check_times(times),
+            Self::Anchors { times, places_w, .. } => check_anchors(robot, times, places_w),
             Self::Tension { tensions, .. } => {
                 let negative = tensions.iter().flatten().find(|tension| !(**tension >= 0.0 && tension.is_finite()));
                 negative.map_or(Ok(()), |tension| Err(EventFault::NegativeTension { tension: *tension }))
@@ -383,6 +437,30 @@ pub(super) fn check_place(cable: &str, place: f64, length: f64) -> Result<(), Ev
         return Ok(());
     }
     Err(EventFault::Place { cable: cable.to_owned(), place, length, least, most })
+}
+
+/// Refuses to move an anchor on a flexible support.
+pub(super) fn check_can_move(robot: &Robot, cable: usize) -> Result<(), EventFault> {
+    let of = &robot.cables[cable];
+    if of.anchor.support.is_some() {
+        return Err(EventFault::AnchorOnSupport { cable: of.name.clone() });
+    }
+    Ok(())
+}
+
+fn check_anchors(robot: &Robot, times: &[f64], places_w: &[Option<Vec<Vec3>>]) -> Result<(), EventFault> {
+    if places_w.iter().all(Option::is_none) {
+        return Err(EventFault::NoAnchor);
+    }
+    check_times(times)?;
+    for (i, places_w) in places_w.iter().enumerate() {
+        let Some(places_w) = places_w else { continue };
+        check_can_move(robot, i)?;
+        if places_w.iter().any(|place_w| !place_w.norm().is_finite()) {
+            return Err(EventFault::AnchorNotFinite { cable: robot.cables[i].name.clone() });
+        }
+    }
+    Ok(())
 }
 
 fn check_times(times: &[f64]) -> Result<(), EventFault> {

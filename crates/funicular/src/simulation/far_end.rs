@@ -192,6 +192,8 @@ pub(super) struct FarState<'a> {
     pub(super) z: [&'a [f64]; 3],
     /// Displacement of its support.
     pub(super) support_w: Vec3,
+    /// Displacement of the anchor since the start.
+    pub(super) moved_w: Vec3,
     /// Force that the last station needs, conjugate to its length [N]; zero without a feed.
     pub(super) held: f64,
     /// Lagrange's force of the last node, and its velocity and slope.
@@ -300,7 +302,7 @@ impl FarEnd {
         energy.dissipation = forces.feed.dissipation;
 
         // Rope on the wheel has its own heights, and all behind it that of the entry point.
-        let entry_w = self.entry_w + of.support_w;
+        let entry_w = self.entry_w + of.support_w + of.moved_w;
         let weight_w = rope.gravity_w * rope.mass;
         let dead_w = rope.load_w - weight_w;
         let whole = self.whole(of.given, of.z, of.free);

@@ -3,6 +3,7 @@
 
 use super::body::MovingBody;
 use super::event::{EventFault, Faulty, SimulationEvent, check_places, windings};
+use super::moving_anchor::{AnchorCourse, courses};
 use super::rope::WoundLength;
 use super::start::SimulationError;
 use super::winding::Winding;
@@ -17,6 +18,8 @@ const PARTS: usize = 64;
 #[derive(Debug, Clone)]
 pub struct CommandedLengths {
     pub(super) windings: Vec<Winding>,
+    /// Courses of the anchors; none for those that rest.
+    pub(super) anchors: Vec<Option<AnchorCourse>>,
     /// Events with a time, by their time.
     pub(super) order: Vec<usize>,
 }
@@ -44,7 +47,9 @@ impl CommandedLengths {
         let windings = windings(robot, (&initial, &free), events, &order)
             .and_then(|windings| check_places(robot, (&initial, &free), events, &windings).map(|()| windings))
             .map_err(|Faulty { event, fault }| SimulationError::Event { event, fault })?;
-        Ok(Self { windings, order })
+        let anchors = courses(robot, events, &order)
+            .map_err(|Faulty { event, fault }| SimulationError::Event { event, fault })?;
+        Ok(Self { windings, anchors, order })
     }
 
     /// Length of a cable with its rate and acceleration.

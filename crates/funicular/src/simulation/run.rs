@@ -4,6 +4,7 @@ use super::books::{EnergyBooks, Powers, StepPowers};
 use super::dense::DenseOutput;
 use super::esdirk::{StepCounts, Stepper};
 use super::event::{CutAt, EventFault, Faulty, SimulationEvent, check_place};
+use super::moving_anchor::AnchorCourse;
 use super::planned::CommandedLengths;
 use super::rope::WoundLength;
 use super::start::{LossOfMode, SimulationError, SimulationSettings, at_rest};
@@ -17,7 +18,9 @@ mod picture;
 mod state;
 mod stepping;
 
-pub use stepping::{LengthAtEnd, StepError, StepInputs, SteppedSimulation, WrenchInput};
+pub use stepping::{
+    AnchorAtEnd, LengthAtEnd, StepError, StepInputs, StepSignal, StepSignals, SteppedSimulation, WrenchInput,
+};
 
 const SLACK: f64 = SlackCable::TENSION;
 
@@ -139,10 +142,13 @@ impl Simulation {
         settings: &SimulationSettings,
         holds_tension: &dyn Fn(usize) -> bool,
     ) -> Result<Self, SimulationError> {
-        let CommandedLengths { windings, order } = CommandedLengths::new(robot, rest, events, duration)?;
+        let CommandedLengths { windings, anchors, order } = CommandedLengths::new(robot, rest, events, duration)?;
         let mut breaks: Vec<f64> = windings.iter().flat_map(Winding::breaks).collect();
+        breaks.extend(anchors.iter().flatten().flat_map(AnchorCourse::breaks));
         let parting = parting(robot, events);
-        let (stepper, losses) = at_rest(robot, rest, settings, (windings, holds_tension), &parting, gusts)?;
+        let (mut stepper, losses) = at_rest(robot, rest, settings, (windings, holds_tension), &parting, gusts)?;
+
+        stepper.system.anchors[..anchors.len()].clone_from_slice(&anchors);
 
         let (count, size) = (robot.cables.len(), stepper.system.size);
         let mut simulation = Self {
@@ -460,9 +466,12 @@ impl Simulation {
         let at_platform = [Some(i), system.half_of(i)].into_iter().flatten();
         let attached = at_platform.filter(|rope| system.ends[*rope] == RopeEnd::Attached);
         let platform = attached.map(|rope| at(system.of_rope(rope).start).norm()).fold(0.0, |sum, of| sum + of);
-        let anchor = match system.far_forces(i, time, &lengths[i], m, needed) {
-            Some(forces) => forces.exit_w.norm(),
-            None => system.ropes[i].anchor_tension(&lengths[i], &m.x[range.clone()], &at(range.end - 3)),
+        let anchor = if let Some(forces) = system.far_forces(i, time, &lengths[i], m, needed) {
+            forces.exit_w.norm()
+        } else {
+            // The momentum of rope that passes is its own along the rope, and that of the anchor's motion.
+            let with_w = m.point(range.end - 3)[1] * (system.ropes[i].mass * lengths[i].rate);
+            system.ropes[i].anchor_tension(&lengths[i], &m.x[range.clone()], &(at(range.end - 3) - with_w))
         };
         [platform, anchor]
     }
@@ -578,9 +587,10 @@ fn with_energy(books: &EnergyBooks, energy: &EnergyBooks) -> EnergyBooks {
 }
 
 /// Books with more work.
-fn with_work(books: &EnergyBooks, [winches, loads, dissipated]: [f64; 3]) -> EnergyBooks {
+fn with_work(books: &EnergyBooks, [winches, anchors, loads, dissipated]: [f64; 4]) -> EnergyBooks {
     EnergyBooks {
         winches: books.winches + winches,
+        anchors: books.anchors + anchors,
         loads: books.loads + loads,
         dissipated: books.dissipated + dissipated,
         ..*books

@@ -382,6 +382,7 @@ pub(super) fn at_rest(
         ends,
         halves,
         packs: RopePack::of(&ropes),
+        anchors: vec![None; ropes.len()],
         ropes,
         far_ends,
         supports,

@@ -5,6 +5,7 @@
 
 use super::body::{BodyMotion, MovingBody};
 use super::far_end::{ExitMotion, FarEnd, FarForces, FarState, delayed_weights};
+use super::moving_anchor::AnchorCourse;
 use super::rope::{RopeMesh, WoundLength};
 use super::side_by_side::RopePack;
 use super::winding::Winding;
@@ -74,6 +75,8 @@ pub(super) struct System {
     /// Supports, whose numbers follow those of the platform.
     pub(super) supports: Vec<MovingSupport>,
     pub(super) windings: Vec<Winding>,
+    /// Courses of the anchors of the ropes; none for those that rest.
+    pub(super) anchors: Vec<Option<AnchorCourse>>,
     /// First number of each rope in a motion.
     pub(super) offsets: Vec<usize>,
     /// Number of numbers of a motion.
@@ -187,11 +190,14 @@ impl System {
         BODY + 3 * index..BODY + 3 * index + 3
     }
 
-    /// Fills the ends of the ropes: on the platform, and far ends that move. `lengths` are the commanded ones.
-    pub(super) fn fill_ends(&self, body: &BodyMotion, lengths: &[WoundLength], m: &mut MotionNumbers) {
+    /// Fills the ends of the ropes: on the platform, and far ends that move. `lengths` are the commanded ones at the
+    /// time.
+    pub(super) fn fill_ends(&self, time: f64, body: &BodyMotion, lengths: &[WoundLength], m: &mut MotionNumbers) {
         for (i, end) in self.ends.iter().enumerate() {
             if let Some(far) = &self.far_ends[i] {
-                self.fill_far_end(i, far, &lengths[i], m);
+                self.fill_far_end(i, far, (time, &lengths[i]), m);
+            } else if let Some(anchor) = &self.anchors[i] {
+                m.put(self.of_rope(i).end - 3, &anchor.at(time));
             }
             if *end == RopeEnd::Attached {
                 m.put(self.offsets[i], &body.point(&self.body.lever_p(i)));
@@ -199,7 +205,7 @@ impl System {
         }
     }
 
-    fn fill_far_end(&self, i: usize, far: &FarEnd, given: &WoundLength, m: &mut MotionNumbers) {
+    fn fill_far_end(&self, i: usize, far: &FarEnd, (time, given): (f64, &WoundLength), m: &mut MotionNumbers) {
         let (places, from) = (far.places(), self.of_far_end(i).start);
         if let (Some(feed), Some(at)) = (&far.feed, places.feed)
             && feed.follows_command()
@@ -212,7 +218,9 @@ impl System {
             }
         }
         let swivel = places.swivel.map_or([0.0; 3], |at| [m.x[from + at], m.v[from + at], m.a[from + at]]);
-        let exit = far.exit(swivel, &Self::support_motion(far, m));
+        let [place, velocity, acceleration] = Self::support_motion(far, m);
+        let moved = self.moved(i, time);
+        let exit = far.exit(swivel, &[place + moved[0], velocity + moved[1], acceleration + moved[2]]);
         m.put(self.of_rope(i).end - 3, &exit);
     }
 
@@ -233,6 +241,35 @@ impl System {
         far.support.map_or([Vec3::zeros(); 3], |support| m.point(Self::of_support(support.index).start))
     }
 
+    /// Displacement of the anchor of rope `i` since the start, with its velocity and acceleration.
+    fn moved(&self, i: usize, time: f64) -> ExitMotion {
+        self.anchors[i].as_ref().map_or([Vec3::zeros(); 3], |anchor| anchor.moved(time))
+    }
+
+    /// Power [W] that moves the anchor of rope `i`: with the energy that passing rope has by the motion of the anchor.
+    ///
+    /// # References
+    /// docs/theory.md, equation (97g2).
+    pub(super) fn anchor_power(
+        &self,
+        i: usize,
+        time: f64,
+        given: &WoundLength,
+        m: &MotionNumbers,
+        needed: &[f64],
+    ) -> f64 {
+        let Some(anchor) = &self.anchors[i] else { return 0.0 };
+        let [_, velocity_w, _] = anchor.moved(time);
+        let node_w = three(needed, self.of_rope(i).end - 3);
+        let Some(far) = &self.far_ends[i] else { return node_w.dot(&velocity_w) };
+        let (rope, free) = (&self.ropes[i], self.free_length(i, given, m));
+        let behind = self.whole_length(i, given, m).value - free.value;
+        let passing = 0.5 * rope.mass * free.rate * velocity_w.norm_squared();
+        let weight_w = rope.gravity_w * (rope.mass * behind);
+        let stored = if far.feed.is_some() { passing } else { 0.0 };
+        (node_w - weight_w).dot(&velocity_w) - stored
+    }
+
     /// True if a commanded acceleration or a push is another one from a time on than before it.
     pub(super) fn jumps_at(&self, time: f64) -> bool {
         let before = time.next_down();
@@ -240,7 +277,13 @@ impl System {
             let [before, after] = [before, time].map(|at| winding.at(at));
             (after.acceleration - before.acceleration).abs() > MIN_JUMP
         });
-        lengths || self.body.pushes.iter().any(|push| (push.share(time) - push.share(before)).abs() > MIN_JUMP)
+        let anchors = self.anchors.iter().flatten().any(|anchor| {
+            let [before, after] = [before, time].map(|at| anchor.moved(at));
+            (after[2] - before[2]).norm() > MIN_JUMP
+        });
+        lengths
+            || anchors
+            || self.body.pushes.iter().any(|push| (push.share(time) - push.share(before)).abs() > MIN_JUMP)
     }
 
     /// Commanded lengths of all ropes at a time.
@@ -286,6 +329,7 @@ impl System {
             free,
             z: [&m.x[z.clone()], &m.v[z.clone()], &m.a[z.clone()]],
             support_w: support.map_or_else(Vec3::zeros, |support| three(&m.x, Self::of_support(support.index).start)),
+            moved_w: self.moved(i, time)[0],
             held: stations.map_or(0.0, |count| needed[z.start + count - 1]),
             node_w: three(needed, range.end - 3),
             velocity_w: three(&m.v, range.end - 3),
@@ -355,7 +399,7 @@ impl System {
         if let (Some(feed), Some(at)) = (&far.feed, places.feed) {
             let (range, free) = (self.of_rope(i), self.free_length(i, given, m));
             let wind = self.air.on_rope(i, time);
-            let entry_w = far.entry_w + Self::support_motion(far, m)[0];
+            let entry_w = far.entry_w + Self::support_motion(far, m)[0] + self.moved(i, time)[0];
             let of_rope = [&m.x[range.clone()], &m.v[range.clone()], &m.a[range]];
             let scale = feed.stretch * feed.stretch;
             for (j, (needed, mass)) in forces.feed.needed.iter().zip(&feed.masses).enumerate() {

@@ -116,6 +116,16 @@ impl Winding {
         }
     }
 
+    /// Gives the numbers of its [command](Self::command) away, to be read or replaced; without one it rests.
+    pub(super) fn each_commanded_number(&mut self, each: &mut dyn FnMut(&mut f64)) {
+        let is_commanded = matches!(&self.changes[..], [Change { course: LengthCourse::Commanded(_), .. }]);
+        if !is_commanded {
+            let now = self.at(0.0).value;
+            self.command(0.0, 0.0, [now, 0.0, 0.0, 0.0, 0.0, 0.0]);
+        }
+        self.each_number(each);
+    }
+
     /// Times at which a change begins or ends [s].
     pub(super) fn breaks(&self) -> impl Iterator<Item = f64> + '_ {
         self.changes.iter().flat_map(|change| [change.from, change.until])

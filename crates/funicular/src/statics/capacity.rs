@@ -219,6 +219,18 @@ pub(crate) fn required_wrench(robot: &Robot, pose: &Pose, multiple: f64, coeffic
     lightest + unscaled(robot, &load) * multiple
 }
 
+/// Maximum number of loads of a proof: each takes some 20 µs in every box.
+const MAX_PROVED: usize = 1024;
+
+/// Dead load with each of the required loads that all others are combinations of, reduced; `None` for a set without
+/// corners or with too many.
+pub(crate) fn required_vertices(robot: &Robot, pose: &Pose) -> Option<Vec<Vec6>> {
+    let loaded = with_lightest_payload(robot, pose);
+    let dead = Coordinates::of(robot).reduce(&load_wrench(&loaded, pose));
+    let vertices = RequiredSet::of(robot, pose, &robot.required).vertices()?;
+    (vertices.len() <= MAX_PROVED).then(|| vertices.iter().map(|vertex| dead + vertex).collect())
+}
+
 /// Wrench in world axes about the platform origin (N, N m) from its reduced one.
 fn unscaled(robot: &Robot, reduced: &Vec6) -> Vec6 {
     let coordinates = Coordinates::of(robot);

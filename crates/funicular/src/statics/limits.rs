@@ -28,6 +28,9 @@ pub(crate) enum MinimumTension {
 }
 
 impl MinimumTension {
+    /// Multiples of the cable's load and of the platform's weight; the larger of both is the default.
+    pub(crate) const DEFAULT_FACTORS: [f64; 2] = [TAUT, PART_OF_PLATFORM];
+
     /// Source of the minimum of cable `i` with this chord: of the two defaults the larger one.
     pub(crate) fn of(robot: &Robot, i: usize, chord_w: &Vec3) -> Self {
         Self::with_limits(robot, i, robot.cables[i].limits(), chord_w)

@@ -1,5 +1,6 @@
 //! Simulation: histories of independent methods, closed forms, orders of convergence, books of the energy.
 
+mod anchors;
 mod drives;
 mod parted;
 mod scenarios;

@@ -39,7 +39,7 @@ struct MoorDynDriver {
 /// # Errors
 /// The event, and why.
 pub(crate) fn refuse(scenario: &Scenario) -> Result<()> {
-    let Scenario { release, pick, lengths: _, tension, stop: _, push, cut } = scenario;
+    let Scenario { release, pick, lengths: _, tension, stop: _, push, anchor, cut } = scenario;
     let kept = "a body of MoorDyn keeps the mass of its file";
     let parted = cut.iter().filter(|of| of.place_m != 0.0).count();
     let fuses = cut.iter().filter(|of| of.at_tension_n.is_some()).count();
@@ -47,6 +47,7 @@ pub(crate) fn refuse(scenario: &Scenario) -> Result<()> {
         ("pick", pick.len(), format!("{kept}, so that it cannot take a payload up")),
         ("tension", tension.len(), "a line of MoorDyn has a length, and no winch holds its tension".to_owned()),
         ("push", push.len(), "MoorDyn has no forces on a body but weight and water".to_owned()),
+        ("anchor", anchor.len(), "the script moves no points of MoorDyn; let the anchors rest".to_owned()),
         ("cut", fuses, "a line of MoorDyn breaks when the script says so, not at a tension; give `at_s`".to_owned()),
         ("cut", parted, "the script frees the end of a line, and cannot part it; leave `place_m` out".to_owned()),
     ];

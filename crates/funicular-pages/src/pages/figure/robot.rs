@@ -9,6 +9,7 @@ use crate::figures::view::{EYE, extent, joined, polygon, ranges, sides};
 use funicular::math::Vec3;
 use funicular::robot::{Pose, Robot};
 use funicular::statics::{CableState, Equilibrium};
+use funicular_study::analyses::prove::Proved;
 use funicular_study::analyses::simulate::{SimulatedFrame, SimulatedPicture};
 use funicular_study::analyses::workspace::Workspace;
 use serde_json::{Value, json};
@@ -145,6 +146,25 @@ pub(crate) fn surface_in_space(found: &Workspace, caption: String) -> PageFigure
         "figure-surface",
         520,
         caption,
+        &data,
+        json!({
+            "scene": scene(&points, true, WIDE), "showlegend": false, "margin": {"l": 0, "r": 0, "t": 0, "b": 0},
+        }),
+    )
+}
+
+/// Figure of the surface of what is proved inside, with the anchors.
+pub(crate) fn proved_in_space(found: &Proved) -> PageFigure {
+    let anchors: Vec<Vec3> = found.statement.cables().map(|cable| cable.anchor_w).collect();
+    let mut data = vec![triangles(&found.surface.vertices, &found.surface.triangles, colour::BLUE, 0.85)];
+    data.extend(anchors.iter().map(|anchor| marker(*anchor, "square", 4, "anchor<extra></extra>")));
+    let mut points = found.surface.vertices.clone();
+    points.extend(&anchors);
+    PageFigure::new(
+        "figure-proved",
+        520,
+        "Set that is proved inside, with one scale for all three axes. Squares: anchors. Drag to rotate, scroll to \
+         zoom.",
         &data,
         json!({
             "scene": scene(&points, true, WIDE), "showlegend": false, "margin": {"l": 0, "r": 0, "t": 0, "b": 0},

@@ -18,8 +18,8 @@ use crate::set_values;
 use crate::text::{counted, significant};
 use anyhow::{Result, anyhow};
 use funicular::calibration::{
-    Calibration, CalibrationFit, CalibrationFrame, CalibrationPrecision, CalibrationSearch, CalibrationUnknown,
-    OtherMinimum, ProposalAim, WeakWalk, proposals,
+    Calibration, CalibrationFit, CalibrationFrame, CalibrationPrecision, CalibrationSearch, OtherMinimum, ProposalAim,
+    WeakWalk, proposals,
 };
 use funicular::math::{DMat, Vec3, rotation};
 use funicular::robot::Pose;
@@ -52,7 +52,7 @@ pub(super) struct CalibrationReport<'a> {
     pub(super) factor: Option<f64>,
     /// Factor of a deviation whose interval holds 95 %.
     quantile: f64,
-    paths: Vec<(String, &'static str)>,
+    pub(super) paths: Vec<(String, &'static str)>,
     /// Candidates of a proposal.
     poses: Vec<Pose>,
     /// Poses at which the accuracy of the tool is asked for.
@@ -178,6 +178,7 @@ impl<'a> CalibrationReport<'a> {
             arrivals: self.found.arrivals,
             iterations: self.fit().iterations,
             robot_file: self.robot_file()?,
+            covariance: self.covariance(),
             warnings: Vec::new(),
             values,
             rows,
@@ -484,13 +485,7 @@ impl<'a> CalibrationReport<'a> {
     fn robot_file(&self) -> Result<String> {
         let mut assignments = Vec::new();
         for (k, unknown) in self.of.unknowns.iter().enumerate() {
-            let is_in_file = matches!(
-                unknown,
-                CalibrationUnknown::Anchor { .. }
-                    | CalibrationUnknown::Attachment { .. }
-                    | CalibrationUnknown::PulleyRadius { .. }
-            );
-            if is_in_file {
+            if unknown.is_in_file() {
                 let path = set_values::path(&self.paths[k].0).map_err(|error| anyhow!("{error}"))?;
                 assignments.push(path.with("⟪unknowns⟫", self.fit().values[k]));
             }

@@ -83,7 +83,8 @@ pub(super) fn observations(
     if reader.found.is_empty() {
         bail!(
             "{name} has no measurement: give ⟪measured_pose⟫, ⟪measured_tensions_n⟫ or ⟪measured_lengths_m⟫, or \
-             measured responses or natural frequencies (keys `responses` and `frequencies` of the experiment)"
+             measured responses, natural frequencies or time histories (keys `responses`, `frequencies` and \
+             `histories` of the experiment)"
         );
     }
     Ok(reader.found)
@@ -174,7 +175,11 @@ impl ExperimentReader<'_> {
                     self.name
                 );
             }
-            let deviation = self.request.damping_noise / frequency.weight.unwrap_or(1.0).sqrt();
+            let relative = match frequency.damping_std {
+                Some(std) => self.key("damping_std", std)? / damping,
+                None => self.request.damping_noise,
+            };
+            let deviation = relative / frequency.weight.unwrap_or(1.0).sqrt();
             self.add(Subject::Damping(k), damping.into(), deviation);
         }
         Ok(())

@@ -1,10 +1,11 @@
 //! Events of a scenario: from the words of a file to what the simulation knows.
 
 use super::CutRow;
+use crate::analyses::anchor_table::AnchorTable;
 use crate::analyses::timed_rows::{Holds, TimedRows};
 use crate::at_rest::AtRest;
 use crate::names::suggestion;
-use crate::request::{self, CutEvent, LengthsEvent, NumberColumns, Scenario, check_scenario};
+use crate::request::{self, AnchorEvent, CutEvent, LengthsEvent, NumberColumns, Scenario, check_scenario};
 use crate::text::short;
 use crate::values::finite;
 use anyhow::{Context, Result, anyhow, bail};
@@ -75,6 +76,7 @@ impl ScenarioEvents {
                 point_p: vector("point_m", of.point_m)?,
             })
         })?;
+        events.add("anchor", &scenario.anchor, |of| anchors(of, robot))?;
         events.add("cut", &scenario.cut, |of| cut(of, robot))?;
         Ok(events)
     }
@@ -203,6 +205,14 @@ fn follow(time: f64, table: &NumberColumns, at_rest: &AtRest) -> Result<Simulati
     Ok(SimulationEvent::Follow { time, lengths: (0..robot.cables.len()).map(of_cable).collect(), times: rows.times })
 }
 
+/// Places of anchors over time.
+fn anchors(of: &AnchorEvent, robot: &Robot) -> Result<SimulationEvent> {
+    let AnchorTable { times, places_w } = AnchorTable::read("table", &of.table, robot)
+        .map_err(|fault| anyhow!("`table`: {}", fault.text))?
+        .of_cables(of.cables.as_deref(), robot)?;
+    Ok(SimulationEvent::Anchors { time: number("at_s", of.at_s)?, times, places_w })
+}
+
 /// Reads a scenario from TOML. `table` reads the columns of a file that a `[[lengths]]` names.
 ///
 /// # Errors
@@ -210,8 +220,8 @@ fn follow(time: f64, table: &NumberColumns, at_rest: &AtRest) -> Result<Simulati
 pub fn scenario_from_toml(text: &str, table: impl Fn(&str) -> Result<NumberColumns>) -> Result<Scenario> {
     let document: toml_edit::DocumentMut = text.parse().map_err(|error| not_toml(text, &error))?;
     let mut value = of_item(document.as_item())?;
-    if let Some(Value::Array(list)) = value.get_mut("lengths") {
-        for event in list {
+    for kind in ["lengths", "anchor"] {
+        for event in value.get_mut(kind).and_then(Value::as_array_mut).into_iter().flatten() {
             if let Some(Value::String(path)) = event.get("table") {
                 let columns = table(path)?;
                 event["table"] = serde_json::to_value(columns)?;

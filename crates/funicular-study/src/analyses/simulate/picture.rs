@@ -154,6 +154,10 @@ fn marks(robot: &Robot, events: &[SimulationEvent]) -> Vec<EventMark> {
                 let moved = (0..lengths.len()).filter(|i| lengths[*i].is_some()).collect();
                 (*time, times.last().copied(), format!("lengths{}", named(moved)))
             }
+            SimulationEvent::Anchors { time, times, places_w } => {
+                let moved = (0..places_w.len()).filter(|i| places_w[*i].is_some()).collect();
+                (*time, times.last().copied(), format!("anchors{}", named(moved)))
+            }
             SimulationEvent::Tension { time, duration, tensions } => {
                 let held = (0..tensions.len()).filter(|i| tensions[*i].is_some()).collect();
                 (*time, Some(*duration), format!("tension{}", named(held)))

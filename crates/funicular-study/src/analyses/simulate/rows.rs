@@ -45,6 +45,8 @@ rows! {
         pub potential_energy_j: f64 => one;
         /// Work of the winches since the start.
         pub work_of_winches_j: f64 => one;
+        /// Work at moving anchors since the start.
+        pub work_of_anchors_j: f64 => one;
         /// Work of loads, pushes and wind since the start.
         pub work_of_loads_j: f64 => one;
         /// Energy lost in damping since the start.
@@ -105,6 +107,7 @@ impl SimulatedRow {
             strain_energy_j: energy.strain,
             potential_energy_j: energy.potential,
             work_of_winches_j: energy.winches,
+            work_of_anchors_j: energy.anchors,
             work_of_loads_j: energy.loads,
             dissipated_j: energy.dissipated,
             energy_of_payloads_j: energy.payloads,

@@ -18,6 +18,17 @@ const HALVINGS: usize = 20;
 const MAX_CHANGES_BETWEEN: usize = 8;
 pub(super) const MAX_CHANGES: usize = 100;
 
+/// Parts between two samples at which a limit is looked for that may be reached and left within them: the middle first.
+/// One that is reached for less than an eighth of the time changes the rates by little.
+const PROBES: [f64; 7] = [0.5, 0.25, 0.75, 0.375, 0.625, 0.125, 0.875];
+
+/// Multiple of the last change of a tension by which the next one may be larger: a parabola has up to 3 between samples
+/// of equal distance about its end.
+const NEXT_CHANGE: f64 = 3.0;
+
+/// Part of the time between two samples that is too short to tell how a tension goes on.
+const SHORT: f64 = 0.01;
+
 /// Jump of a rate [m/s] and of a length [m] that counts: within the period of a servo, 1 ms, the first is 0.01 m/s² and
 /// the second 10 µm/s. Rounding leaves 1e-8 m/s, and 1e-11 m.
 const MIN_RATE: f64 = 1e-5;
@@ -164,16 +175,69 @@ fn largest(of: &[f64]) -> Option<(usize, f64)> {
 pub(super) fn between(
     along: &mut AlongPath,
     planned: &Planned,
-    last: &Sample,
+    known: &[Sample],
     next: &Sample,
     found: usize,
 ) -> Result<Vec<(Sample, Option<LengthJump>)>> {
-    let mut samples = Vec::new();
+    let Some((last, before)) = known.split_last() else { return Ok(Vec::new()) };
     // Tensions that are no matter of choice pass their limits smoothly.
     if !planned.judged.choice || last.0.phase != next.0.phase || found >= MAX_CHANGES {
-        return Ok(samples);
+        return Ok(Vec::new());
     }
 
+    let Some(inside) = reached_between(along, planned, before.last(), [last, next])? else {
+        return of_changes(along, planned, last, next);
+    };
+    let mut samples = of_changes(along, planned, last, &inside)?;
+    samples.push((inside.clone(), None));
+    samples.extend(of_changes(along, planned, &inside, next)?);
+    Ok(samples)
+}
+
+/// Sample between two at which a tension has reached a limit that it has at neither of them, or has left one; `None` if
+/// no tension comes so near, as their changes since the sample before tell.
+fn reached_between(
+    along: &mut AlongPath,
+    planned: &Planned,
+    before: Option<&Sample>,
+    [last, next]: [&Sample; 2],
+) -> Result<Option<Sample>> {
+    if last.1.at_limit != next.1.at_limit {
+        return Ok(None);
+    }
+
+    let whole = next.0.time - last.0.time;
+    // Both sides of a jump tell no change, and the path bends at its corners.
+    let before = before.filter(|of| of.0.phase == last.0.phase && last.0.time - of.0.time > SHORT * whole);
+    let comes_near = |before: &Sample, i: usize| {
+        let times = whole / (last.0.time - before.0.time);
+        let distances = before.1.from_limits[i].iter().zip(last.1.from_limits[i]);
+        distances.into_iter().any(|(before, last)| last < NEXT_CHANGE * times * (before - last))
+    };
+    let free = || (0..last.1.at_limit.len()).filter(|i| last.1.at_limit[*i].is_none());
+    let probes = match before {
+        Some(before) if free().any(|i| comes_near(before, i)) => &PROBES[..],
+        Some(_) => &[],
+        None => &PROBES[..1],
+    };
+    for part in probes {
+        let time = last.0.time + part * whole;
+        let at = (Instant { time, is_row: false, ..last.0 }, in_motion(along, planned, time, Side::After)?);
+        if at.1.at_limit != last.1.at_limit {
+            return Ok(Some(at));
+        }
+    }
+    Ok(None)
+}
+
+/// Samples on both sides of the jumps between two samples, as [`between`] returns them.
+fn of_changes(
+    along: &mut AlongPath,
+    planned: &Planned,
+    last: &Sample,
+    next: &Sample,
+) -> Result<Vec<(Sample, Option<LengthJump>)>> {
+    let mut samples = Vec::new();
     if matches!(planned.rule, TensionRule::Middle | TensionRule::Stiffest) {
         samples = of_rule(along, planned, last, next, MAX_DEPTH)?;
     }

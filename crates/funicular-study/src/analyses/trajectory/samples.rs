@@ -61,7 +61,7 @@ impl MotionSamples {
             let motion = in_motion(&mut along, planned, instant.time, instant.side)?;
             if let Some(last) = sampled.last().cloned() {
                 let next = (*instant, motion.clone());
-                for (sample, jump) in jumps::between(&mut along, planned, &last, &next, jumps.len())? {
+                for (sample, jump) in jumps::between(&mut along, planned, &sampled, &next, jumps.len())? {
                     if let Some(mut jump) = jump {
                         jump.before = sampled.len();
                         jumps.push(jump);

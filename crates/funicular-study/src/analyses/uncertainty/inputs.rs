@@ -1,5 +1,6 @@
 //! Numbers of the robot file that deviate, with their distributions.
 
+use super::joint::JointDeviations;
 use crate::analyses::gradient::{Tolerance, refuse_replaced, value_at};
 use crate::at_rest::AtRest;
 use crate::normal::normal_quantile;
@@ -71,10 +72,10 @@ enum NumberPlace {
     Coordinate(usize),
 }
 
-/// Number that deviates.
+/// Number that deviates by itself, or combination of numbers that deviate together.
 #[derive(Debug, Clone)]
 pub(crate) struct DeviatingNumber {
-    /// Path.
+    /// Path, or name of the combination.
     pub(crate) path: String,
     /// Unit.
     pub(crate) unit: &'static str,
@@ -82,22 +83,47 @@ pub(crate) struct DeviatingNumber {
     pub(crate) group: usize,
     /// True if its value is that of the pose or of the lengths, and changes from pose to pose.
     pub(crate) is_of_state: bool,
+    /// Numbers that move with it: one by itself, and all of a combination.
+    moved: Vec<MovedNumber>,
+    is_combination: bool,
+}
+
+/// Number of the robot that moves with a deviation.
+#[derive(Debug, Clone)]
+struct MovedNumber {
     place: NumberPlace,
     parameter: Parameter,
+    /// Change per unit of the deviation.
+    weight: f64,
 }
 
 /// Numbers that one option makes deviate.
 pub(crate) struct DeviationGroup {
     /// Text of the option.
     pub(crate) name: String,
-    amount: Tolerance,
-    is_normal: bool,
+    of: GroupOf,
+}
+
+/// Deviations of a group.
+enum GroupOf {
+    /// Each number by itself, by the same amount.
+    Each { amount: Tolerance, is_normal: bool },
+    /// All numbers together: combinations of deviation 1.
+    Joint,
 }
 
 impl DeviationGroup {
-    /// Key of the request that gives the deviation.
-    fn key(&self) -> &'static str {
-        if self.is_normal { "deviations" } else { "tolerances" }
+    /// Key, text and amount of the option; `None` for a joint group.
+    fn entry(&self) -> Option<(&'static str, &str, &Tolerance)> {
+        self.amount().map(|(key, amount)| (key, self.name.as_str(), amount))
+    }
+
+    /// Key of the request that gives the deviation, and its amount; `None` for a joint one.
+    fn amount(&self) -> Option<(&'static str, &Tolerance)> {
+        match &self.of {
+            GroupOf::Each { amount, is_normal } => Some((if *is_normal { "deviations" } else { "tolerances" }, amount)),
+            GroupOf::Joint => None,
+        }
     }
 }
 
@@ -119,10 +145,11 @@ impl Inputs {
     pub(crate) fn new(request: &UncertaintyRequest, at_rest: &AtRest) -> Result<Self> {
         let text = request.robot.changed_text()?;
         let original = Parameters::from_toml(&text).map_err(|error| anyhow!("{error}"))?;
-        let groups = groups(request, &original)?;
+        let mut groups = groups(request, &original)?;
         let candidates = candidates(&original, &at_rest.robot);
-        let entries: Vec<_> = groups.iter().map(|of| (of.key(), of.name.as_str(), &of.amount)).collect();
+        let entries: Vec<_> = groups.iter().filter_map(DeviationGroup::entry).collect();
         refuse_replaced(&entries, &candidates)?;
+        let joint = joint(request, &original, &candidates)?;
 
         // The last option that matches a number gives its deviation.
         let mut chosen: Vec<(Parameter, usize)> = Vec::new();
@@ -130,7 +157,7 @@ impl Inputs {
         for parameter in candidates {
             let mut group = None;
             for (index, (option, met)) in groups.iter().zip(&mut met).enumerate() {
-                if option.amount.matches(&parameter) {
+                if option.amount().is_some_and(|(_, amount)| amount.matches(&parameter)) {
                     met.any = true;
                     let fits = fits(request.hold, &parameter);
                     met.fitting |= fits;
@@ -140,45 +167,64 @@ impl Inputs {
             chosen.extend(group.map(|group| (parameter, group)));
         }
         refuse_unmet(&groups, &met, request.hold, &original)?;
-        if chosen.len() > MAX_INPUTS {
-            bail!("{} numbers deviate, and at most {MAX_INPUTS} can at once: choose fewer", chosen.len());
+        if let Some((both, group)) = chosen.iter().find(|(of, _)| joint.members.iter().any(|own| own.keys == of.keys)) {
+            bail!(
+                "⟪covariance⟫ has {}, and {} makes it deviate as well: leave out one of them",
+                both.path(),
+                groups[*group].name
+            );
+        }
+        let count = chosen.len() + joint.combinations.len();
+        if count > MAX_INPUTS {
+            bail!("{count} numbers deviate, and at most {MAX_INPUTS} can at once: choose fewer");
         }
 
-        let stated = stated(&text, &original, &chosen, request, at_rest)?;
-        let list =
+        let all: Vec<&Parameter> = chosen.iter().map(|(parameter, _)| parameter).chain(&joint.members).collect();
+        let stated = stated(&text, &original, &all, request, at_rest)?;
+        let mut list: Vec<DeviatingNumber> =
             chosen.into_iter().map(|(parameter, group)| DeviatingNumber::new(parameter, group, &stated)).collect();
+        if !joint.members.is_empty() {
+            list.extend(
+                joint.combinations.iter().enumerate().map(|(k, weights)| {
+                    DeviatingNumber::combination(k, (&joint.members, weights), groups.len(), &stated)
+                }),
+            );
+            groups.push(DeviationGroup { name: "covariance".to_owned(), of: GroupOf::Joint });
+        }
         Ok(Self { list, groups, stated })
     }
 
     /// Values of the numbers at a state.
     pub(crate) fn values(&self, at_rest: &AtRest) -> Vec<f64> {
-        let value = |input: &DeviatingNumber| match input.place {
-            NumberPlace::Length(cable) => at_rest.equilibrium.cables[cable].unstrained_length,
-            NumberPlace::Number(_) | NumberPlace::Pose(_) | NumberPlace::Coordinate(_) => {
-                value_at(at_rest, &input.parameter)
+        let value = |input: &DeviatingNumber| match &input.moved[..] {
+            // A combination deviates from zero.
+            _ if input.is_combination => 0.0,
+            [MovedNumber { place: NumberPlace::Length(cable), .. }] => {
+                at_rest.equilibrium.cables[*cable].unstrained_length
             }
+            moved => moved.iter().map(|of| value_at(at_rest, &of.parameter)).sum(),
         };
         self.list.iter().map(value).collect()
     }
 
     /// Distributions of the numbers with these values.
     pub(crate) fn distributions(&self, values: &[f64]) -> Vec<Distribution> {
-        let distribution = |(input, value): (&DeviatingNumber, &f64)| {
-            let group = &self.groups[input.group];
-            let size = group.amount.of(*value);
-            if group.is_normal { Distribution::Normal(size) } else { Distribution::Uniform(size) }
+        let distribution = |(input, value): (&DeviatingNumber, &f64)| match &self.groups[input.group].of {
+            GroupOf::Each { amount, is_normal: true } => Distribution::Normal(amount.of(*value)),
+            GroupOf::Each { amount, is_normal: false } => Distribution::Uniform(amount.of(*value)),
+            GroupOf::Joint => Distribution::Normal(1.0),
         };
         self.list.iter().zip(values).map(distribution).collect()
     }
 
     /// True if the size of a number's deviation changes from pose to pose.
     pub(crate) fn follows_state(&self, input: &DeviatingNumber) -> bool {
-        input.is_of_state && self.groups[input.group].amount.is_percent()
+        input.is_of_state && self.groups[input.group].amount().is_some_and(|(_, amount)| amount.is_percent())
     }
 
     /// Changes of a robot per unit of each number; `None` for numbers without derivatives.
     pub(crate) fn changes(&self, robot: &Robot) -> Vec<Option<RobotChange>> {
-        let change = |input: &DeviatingNumber| match input.place {
+        let of_place = |place: NumberPlace| match place {
             NumberPlace::Number(index) | NumberPlace::Pose(index) => self.stated.change_of(index, robot),
             NumberPlace::Coordinate(k) => coordinate_change(robot, k),
             NumberPlace::Length(cable) => {
@@ -186,6 +232,13 @@ impl Inputs {
                 change.cables[cable].unstrained_length = 1.0;
                 Some(change)
             }
+        };
+        let change = |input: &DeviatingNumber| {
+            let mut total = RobotChange::none(robot.cables.len());
+            for moved in &input.moved {
+                total.add_scaled(moved.weight, &of_place(moved.place)?);
+            }
+            Some(total)
         };
         self.list.iter().map(change).collect()
     }
@@ -196,12 +249,27 @@ impl Inputs {
     /// Values that a robot cannot have.
     pub(super) fn robot(&self, values: &[f64], deviations: &[f64]) -> Result<(Robot, Vec<f64>), String> {
         let mut lengths = vec![0.0; self.stated.robot().cables.len()];
-        let mut numbers = Vec::with_capacity(self.list.len());
+        let mut numbers: Vec<(usize, f64)> = Vec::with_capacity(self.list.len());
+        // Combinations come last, and several of them move one number.
+        let singles = self.list.iter().filter(|input| !input.is_combination).count();
         for ((input, value), deviation) in self.list.iter().zip(values).zip(deviations) {
-            match input.place {
-                NumberPlace::Number(index) => numbers.push((index, value + deviation)),
-                NumberPlace::Length(cable) => lengths[cable] += deviation,
-                NumberPlace::Pose(_) | NumberPlace::Coordinate(_) => {}
+            for MovedNumber { place, weight, .. } in &input.moved {
+                match *place {
+                    NumberPlace::Number(index) if input.is_combination => {
+                        let known = numbers.iter().skip(singles).position(|(of, _)| *of == index);
+                        let at = known.map_or_else(
+                            || {
+                                numbers.push((index, self.stated.list()[index].value));
+                                numbers.len() - 1
+                            },
+                            |at| at + singles,
+                        );
+                        numbers[at].1 += weight * deviation;
+                    }
+                    NumberPlace::Number(index) => numbers.push((index, value + deviation)),
+                    NumberPlace::Length(cable) => lengths[cable] += weight * deviation,
+                    NumberPlace::Pose(_) | NumberPlace::Coordinate(_) => {}
+                }
             }
         }
         let robot = self.stated.robot_with(&numbers).map_err(|error| error.to_string())?;
@@ -210,12 +278,34 @@ impl Inputs {
 
     /// True for a number of the pose.
     pub(super) fn is_of_pose(&self, index: usize) -> bool {
-        matches!(self.list[index].place, NumberPlace::Pose(_) | NumberPlace::Coordinate(_))
+        let is_of_pose = |of: &MovedNumber| matches!(of.place, NumberPlace::Pose(_) | NumberPlace::Coordinate(_));
+        self.list[index].moved.iter().any(is_of_pose)
     }
 }
 
 impl DeviatingNumber {
     fn new(parameter: Parameter, group: usize, stated: &Parameters) -> Self {
+        let (path, unit) = (parameter.path(), parameter.unit);
+        let moved = MovedNumber::new(parameter, 1.0, stated);
+        let is_of_state = !matches!(moved.place, NumberPlace::Number(_));
+        Self { path, unit, group, is_of_state, moved: vec![moved], is_combination: false }
+    }
+
+    /// Combination with this index of numbers that deviate together, with the change of each per unit.
+    fn combination(k: usize, (members, weights): (&[Parameter], &[f64]), group: usize, stated: &Parameters) -> Self {
+        let moved: Vec<MovedNumber> = (members.iter().zip(weights))
+            .filter(|(_, weight)| **weight != 0.0)
+            .map(|(member, weight)| MovedNumber::new(member.clone(), *weight, stated))
+            .collect();
+        let largest = moved.iter().max_by(|a, b| a.weight.abs().total_cmp(&b.weight.abs()));
+        let most = largest.map_or_else(String::new, |of| format!(", most of {}", of.parameter.path()));
+        let path = format!("combination {}{most}", k + 1);
+        Self { path, unit: "1", group, is_of_state: false, moved, is_combination: true }
+    }
+}
+
+impl MovedNumber {
+    fn new(parameter: Parameter, weight: f64, stated: &Parameters) -> Self {
         let index = stated.list().iter().position(|other| other.keys == parameter.keys);
         let place = match (parameter.part, parameter.key, index) {
             (RobotPart::Cable(cable), "unstrained_length_m", _) => NumberPlace::Length(cable),
@@ -226,8 +316,7 @@ impl DeviatingNumber {
             }
             (_, _, index) => NumberPlace::Number(index.unwrap_or(usize::MAX)),
         };
-        let is_of_state = !matches!(place, NumberPlace::Number(_));
-        Self { path: parameter.path(), unit: parameter.unit, group, is_of_state, place, parameter }
+        Self { place, parameter, weight }
     }
 }
 
@@ -237,13 +326,13 @@ fn groups(request: &UncertaintyRequest, original: &Parameters) -> Result<Vec<Dev
         let texts = if is_normal { &request.deviations } else { &request.tolerances };
         texts.iter().map(move |text| {
             let amount = Tolerance::parse(key, text, original)?;
-            Ok(DeviationGroup { name: text.trim().to_owned(), amount, is_normal })
+            Ok(DeviationGroup { name: text.trim().to_owned(), of: GroupOf::Each { amount, is_normal } })
         })
     };
     let groups = parse("deviations", true).chain(parse("tolerances", false)).collect::<Result<Vec<_>>>()?;
-    if groups.is_empty() {
+    if groups.is_empty() && request.covariance.is_none() {
         bail!(
-            "no number deviates: give ⟪deviations⟫ or ⟪tolerances⟫, as in platform.mass_kg=1% or \
+            "no number deviates: give ⟪deviations⟫, ⟪tolerances⟫ or ⟪covariance⟫, as in platform.mass_kg=1% or \
              cables.*.anchor_m=0.002"
         );
     }
@@ -271,23 +360,37 @@ fn fits(hold: Hold, parameter: &Parameter) -> bool {
 /// Refuses options without a number.
 fn refuse_unmet(groups: &[DeviationGroup], met: &[Met], hold: Hold, original: &Parameters) -> Result<()> {
     for (group, met) in groups.iter().zip(met) {
+        let Some((key, amount)) = group.amount() else { continue };
         if !met.any {
-            return Err(group.amount.missing(original));
+            return Err(amount.missing(original));
         }
         if !met.fitting {
-            let key = group.key();
-            let (held, other, follows) = match hold {
-                Hold::Lengths => ("lengths", "pose", "pose follows"),
-                _ => ("pose", "lengths", "lengths follow"),
-            };
-            bail!(
-                "⟪{key}⟫ {}: with the {held} held the {follows}, and cannot deviate by itself: leave it out, or give \
-                 ⟪hold⟫ {other}",
-                group.name
-            );
+            return Err(follows(key, &group.name, hold));
         }
     }
     Ok(())
+}
+
+/// Message about numbers that follow from what is held.
+fn follows(key: &str, name: &str, hold: Hold) -> anyhow::Error {
+    let (held, other, follows) = match hold {
+        Hold::Lengths => ("lengths", "pose", "pose follows"),
+        _ => ("pose", "lengths", "lengths follow"),
+    };
+    anyhow!(
+        "⟪{key}⟫ {name}: with the {held} held the {follows}, and cannot deviate by itself: leave it out, or give \
+         ⟪hold⟫ {other}"
+    )
+}
+
+/// Numbers of the covariance of a request, which may deviate while its lengths or pose are held.
+fn joint(request: &UncertaintyRequest, original: &Parameters, candidates: &[Parameter]) -> Result<JointDeviations> {
+    let Some(entries) = &request.covariance else { return Ok(JointDeviations::default()) };
+    let found = JointDeviations::new(entries, original, candidates)?;
+    match found.members.iter().find(|member| !fits(request.hold, member)) {
+        Some(member) => Err(follows("covariance", &member.path(), request.hold)),
+        None => Ok(found),
+    }
 }
 
 /// Coordinates of a pose: key, unit, component.
@@ -368,7 +471,7 @@ fn candidates(original: &Parameters, robot: &Robot) -> Vec<Parameter> {
 fn stated(
     text: &str,
     original: &Parameters,
-    chosen: &[(Parameter, usize)],
+    chosen: &[&Parameter],
     request: &UncertaintyRequest,
     at_rest: &AtRest,
 ) -> Result<Parameters> {
@@ -394,7 +497,7 @@ fn stated(
     }
 
     // Numbers that the file leaves out.
-    for (parameter, _) in chosen.iter().filter(|(parameter, _)| !parameter.given) {
+    for parameter in chosen.iter().filter(|parameter| !parameter.given) {
         if parameter.part == RobotPart::State || parameter.key == "unstrained_length_m" {
             continue;
         }
@@ -405,7 +508,7 @@ fn stated(
         let of_vector = &parameter.keys[..parameter.keys.len() - 1];
         let components = original.list().iter().filter(|other| other.keys.starts_with(of_vector));
         let vector: Vec<f64> = components.map(|other| value_at(at_rest, other)).collect();
-        let mut whole = parameter.clone();
+        let mut whole = (*parameter).clone();
         whole.keys.pop();
         state(&whole.path(), json!(vector))?;
     }

@@ -1,5 +1,6 @@
 //! Results of `uncertainty` as data.
 
+use super::position::PositionDeviation;
 use crate::analyses::fields;
 use crate::analyses::shared::Models;
 use crate::columns::{Columns, ResultTable, Style, Tabled, any, column, only_read, parts};
@@ -99,6 +100,8 @@ rows! {
         pub reason: Option<String>;
         /// Number of sampled robots without results, with the first reason.
         pub failed: Option<FailedSamples>;
+        /// Deviation of the platform's position; absent if the pose is not among the results or does not deviate.
+        pub position: Option<PositionDeviation>;
         pub results: Vec<UncertainResult>;
     }
 }
@@ -275,4 +278,17 @@ impl Tabled for Uncertainties {
     fn table(&self) -> ResultTable<'_> {
         ResultTable::new(ResultAtPose::columns(&self.groups, true), ResultAtPose::all(self, 0, usize::MAX))
     }
+}
+
+/// Sentence on the least and the largest deviation of the position over several poses.
+pub(super) fn position_note(poses: &[PoseUncertainty]) -> Option<String> {
+    let mut known: Vec<(&PoseUncertainty, PositionDeviation)> =
+        poses.iter().filter_map(|pose| Some((pose, pose.position?))).collect();
+    known.sort_by(|a, b| a.1.deviation_m.total_cmp(&b.1.deviation_m));
+    let ([best, .., worst], true) = (&known[..], poses.len() > 1) else { return None };
+    let at = |(pose, of): &(&PoseUncertainty, PositionDeviation)| {
+        let [x, y, z] = pose.position_m.unwrap_or_default().map(|value| significant(value, 4));
+        format!("{} at ({x}, {y}, {z}) m", of.told())
+    };
+    Some(format!("Position: from {} to {}, standard deviations in the worst direction", at(best), at(worst)))
 }

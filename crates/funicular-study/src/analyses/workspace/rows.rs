@@ -4,6 +4,7 @@ use super::conditions::ConditionRow;
 use super::places::{PlaneOfMotion, THICKNESS};
 use crate::analyses::fields::AXES;
 use crate::analyses::found;
+use crate::analyses::prove::Proved;
 use crate::columns::{ResultTable, Tabled, parts};
 use crate::rows::rows;
 use crate::table::Column;
@@ -51,6 +52,8 @@ rows! {
         pub rays: Option<RaysOfWorkspace>;
         /// Comparison with another robot.
         pub compared: Option<ComparedSets>;
+        /// Proof in which parts of the box required loads are held.
+        pub proof: Option<Proved>;
         /// Closed surface: vertices, and triangles by the numbers of their vertices from 0, counterclockwise from
         /// outside.
         pub vertices_m: Vec<[f64; 3]>;
@@ -292,6 +295,7 @@ impl Workspace {
             sections: wanted.sections.iter().map(section).collect(),
             rays,
             compared,
+            proof: None,
             vertices_m: surface.vertices().iter().map(|vertex| (*vertex).into()).collect(),
             triangles: surface.triangles().to_vec(),
             triangles_of_surface: surface.on_surface(),

@@ -3,6 +3,7 @@
 use super::conditions::Conditions;
 use super::places::{self, PlaneOfMotion};
 use super::rows::{ComparedSets, RaysOfWorkspace, WantedSet, Workspace, first_step};
+use crate::analyses::prove::{ProofOfWorkspace, ProofStudy};
 use crate::error::NoSolution;
 use crate::names::{Named, OrientationRule};
 use crate::request::{WorkspaceRequest, check_positive, check_vector};
@@ -10,6 +11,7 @@ use crate::sweep::{Options, options_of, with_request};
 use anyhow::{Result, bail};
 use funicular::level_set::{BoundaryMesh, Evaluate, LevelSet, PointGrid, RaySet, RaysInBox, SearchEnd, Sphere};
 use funicular::math::{Rotation, Vec3};
+use funicular::proof::PositionBox;
 use funicular::robot::{Pose, Robot};
 use funicular::warnings;
 use std::collections::{HashMap, HashSet};
@@ -47,6 +49,7 @@ pub struct WorkspaceStudy {
     tolerance: f64,
     rays: Option<(Sphere, Option<Vec3>)>,
     sections: Vec<(usize, f64)>,
+    proof: Option<ProofStudy>,
 }
 
 impl WorkspaceStudy {
@@ -80,7 +83,13 @@ impl WorkspaceStudy {
         let in_space = (0..3).filter(|k| plane.is_none_or(|plane| plane.axis != *k)).map(|k| step[k]);
         let tolerance = request.vertex_tolerance_m.unwrap_or(0.01 * in_space.fold(f64::INFINITY, f64::min));
         let rule = request.orientations;
-        Ok(Self { own, other, grid, plane, orientations, rule, tolerance, rays, sections })
+        let proof = proof_of(request, &own, &grid, &orientations)?;
+        Ok(Self { own, other, grid, plane, orientations, rule, tolerance, rays, sections, proof })
+    }
+
+    /// Proof that is wanted besides.
+    pub fn proof(&self) -> Option<&ProofStudy> {
+        self.proof.as_ref()
     }
 
     /// True if the result has sections.
@@ -170,6 +179,39 @@ impl WorkspaceStudy {
         let found = RaySet::find(sphere.clone(), &search, evaluate);
         Ok(found.map(|set| RaysOfWorkspace::of(&set, &search)))
     }
+}
+
+/// Proof about the box of the grid, if it is wanted.
+fn proof_of(
+    request: &WorkspaceRequest,
+    own: &JudgedRobot,
+    grid: &PointGrid,
+    orientations: &[Rotation],
+) -> Result<Option<ProofStudy>> {
+    if !request.prove {
+        if request.division.is_given() {
+            bail!("⟪boxes⟫, ⟪undecided⟫ and ⟪time_s⟫ end a proof: give ⟪prove⟫, too, or leave them out");
+        }
+        return Ok(None);
+    }
+    if let Some(bound) = request.at_least.iter().chain(&request.at_most).next() {
+        bail!(
+            "⟪prove⟫ proves that tensions within their limits hold the required loads, and not the quantity `{}`, \
+             which belongs to tensions that a rule chooses pose by pose: leave out ⟪at_least⟫ and ⟪at_most⟫, or \
+             leave out ⟪prove⟫",
+            bound.quantity
+        );
+    }
+    let [rotation] = orientations else {
+        bail!(
+            "⟪prove⟫ divides positions at one orientation: leave out roll, pitch and yaw of ⟪grid⟫; `funicular prove` \
+             with ⟪within_deg⟫ proves a box of positions with every turn up to a limit"
+        );
+    };
+    let region = PositionBox { lower: grid.lower(), upper: grid.upper() };
+    let (model, division) = (own.options.static_model, request.division);
+    let of = ProofOfWorkspace { robot: &own.robot, model, rotation: *rotation, region, division };
+    Ok(Some(ProofStudy::of_workspace(&of)?))
 }
 
 /// Values of positions; for a planar platform, positions of its slab that differ across the plane are evaluated once.

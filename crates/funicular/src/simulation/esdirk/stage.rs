@@ -42,7 +42,7 @@ impl Stepper {
         for round in 0..NEWTON_STEPS {
             place(&self.work, &turn_base, hg, current);
             let body = self.system.body_motion(current);
-            self.system.fill_ends(&body, &lengths, current);
+            self.system.fill_ends(time, &body, &lengths, current);
             self.system.needed(time, &lengths, &body, current, &mut self.needed);
 
             // Ropes went slack or taut on the way: back to where no work is missing and none too much.

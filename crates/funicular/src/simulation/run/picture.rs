@@ -41,7 +41,7 @@ impl Simulation {
         let rotation = std::mem::replace(&mut system.rotation, dense.rotation);
         let body = system.body_motion(&motion);
         let lengths = system.lengths(time);
-        system.fill_ends(&body, &lengths, &mut motion);
+        system.fill_ends(time, &body, &lengths, &mut motion);
         system.rotation = rotation;
         let curves = self.curves_of(&motion);
         self.work = motion;

@@ -100,14 +100,16 @@ impl Simulation {
 
 impl Powers {
     fn each_number(&mut self, each: EachNumber) {
-        let Self { winches, loads, dissipation } = self;
-        [winches, loads, dissipation].into_iter().for_each(each);
+        let Self { winches, anchors, loads, dissipation } = self;
+        [winches, anchors, loads, dissipation].into_iter().for_each(each);
     }
 }
 
 impl EnergyBooks {
     fn each_number(&mut self, each: EachNumber) {
-        let Self { kinetic, strain, potential, winches, loads, dissipated, payloads, at_start } = self;
-        [kinetic, strain, potential, winches, loads, dissipated, payloads, at_start].into_iter().for_each(each);
+        let Self { kinetic, strain, potential, winches, anchors, loads, dissipated, payloads, at_start } = self;
+        [kinetic, strain, potential, winches, anchors, loads, dissipated, payloads, at_start]
+            .into_iter()
+            .for_each(each);
     }
 }

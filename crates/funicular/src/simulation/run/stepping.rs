@@ -7,16 +7,19 @@
 mod events;
 mod inputs;
 mod saved;
+mod signals;
 
 use super::{RobotSample, Simulation, SlackCable};
+use crate::math::Vec3;
 use crate::robot::{Control, LoadError, Robot};
 use crate::simulation::event::{EventFault, LEAST_LENGTH};
 use crate::simulation::feed::WinchHold;
 use crate::simulation::start::{SimulationError, SimulationSettings};
 use crate::simulation::system::RopeEnd;
 use crate::statics::{CableState, Equilibrium};
-pub use inputs::{LengthAtEnd, StepInputs, WrenchInput};
+pub use inputs::{AnchorAtEnd, LengthAtEnd, StepInputs, WrenchInput};
 use saved::fingerprint;
+pub use signals::{StepSignal, StepSignals};
 use thiserror::Error;
 
 /// Range of intervals [s]. Shorter ones are below what a step can be; longer ones are more than a controller waits, and
@@ -51,6 +54,14 @@ pub enum StepError {
         /// Number of cables.
         cables: usize,
     },
+    /// Another number of values than there are inputs.
+    #[error("{given} values are given, and there are {inputs} inputs: give one for each")]
+    SignalCount {
+        /// Number of values.
+        given: usize,
+        /// Number of inputs.
+        inputs: usize,
+    },
     /// A length that jumps.
     #[error(
         "the length of cable \"{cable}\" would change by {change} m within {interval} s, which is a jump: give its \
@@ -60,6 +71,19 @@ pub enum StepError {
         /// Name of the cable.
         cable: String,
         /// Change of the length [m].
+        change: f64,
+        /// Interval [s].
+        interval: f64,
+    },
+    /// An anchor that jumps.
+    #[error(
+        "the anchor of cable \"{cable}\" would move by {change} m within {interval} s, which is a jump: give its \
+         velocity as well, a smaller change, or a longer interval"
+    )]
+    AnchorJump {
+        /// Name of the cable.
+        cable: String,
+        /// Change of its place [m].
         change: f64,
         /// Interval [s].
         interval: f64,
@@ -103,8 +127,8 @@ pub enum StepError {
         /// Present time [s].
         now: f64,
     },
-    /// A table of lengths.
-    #[error("a table of lengths is no event of a simulation in intervals: give the lengths of each interval")]
+    /// A table of lengths or of places of anchors.
+    #[error("a table is no event of a simulation in intervals: give the lengths or places at the end of each interval")]
     Table,
     /// A failure at a place along a cable.
     #[error(
@@ -239,6 +263,11 @@ impl SteppedSimulation {
         self.run.sample(self.time)
     }
 
+    /// Place, velocity and acceleration of the anchor of a cable at the present time, world axes.
+    pub fn anchor_motion(&self, cable: usize) -> [Vec3; 3] {
+        self.anchor(cable).at(self.time)
+    }
+
     /// Force and moment that a caller holds at the present time, with their rates.
     pub fn held_wrench(&self) -> WrenchInput {
         let held = self.run.stepper.system.body.held.unwrap_or_default();
@@ -320,6 +349,11 @@ impl SteppedSimulation {
         let winch = self.robot.cables[cable].anchor.winch.as_ref();
         far.and_then(|far| far.feed.as_ref()).is_some_and(|feed| feed.hold != WinchHold::Length)
             || winch.is_some_and(|winch| winch.control == Control::Torque)
+    }
+
+    /// True for an anchor without a course.
+    fn has_not_moved(&self, cable: usize) -> bool {
+        self.run.stepper.system.anchors[cable].is_none()
     }
 
     fn is_attached(&self, cable: usize) -> bool {

@@ -126,7 +126,7 @@ fn kind(message: &str) -> String {
 }
 
 fn is_finite(of: &RobotSample) -> bool {
-    let EnergyBooks { kinetic, strain, potential, winches, loads, dissipated, payloads, .. } = of.energy;
+    let EnergyBooks { kinetic, strain, potential, winches, anchors, loads, dissipated, payloads, .. } = of.energy;
     let cables = of.cables.iter().flat_map(|cable| {
         [cable.tension_platform, cable.tension_anchor, cable.length.value, cable.length.rate, cable.length.acceleration]
     });
@@ -135,7 +135,7 @@ fn is_finite(of: &RobotSample) -> bool {
         .chain(of.acceleration_w.iter())
         .copied()
         .chain(cables)
-        .chain([kinetic, strain, potential, winches, loads, dissipated, payloads])
+        .chain([kinetic, strain, potential, winches, anchors, loads, dissipated, payloads])
         .all(f64::is_finite)
 }
 

@@ -36,7 +36,7 @@ impl SteppedSimulation {
         let far_ends = &self.run.stepper.system.far_ends;
         let can_hold = |cable: usize| far_ends[cable].as_ref().is_some_and(|far| far.feed.is_some());
         match event {
-            SimulationEvent::Follow { .. } => Err(StepError::Table),
+            SimulationEvent::Follow { .. } | SimulationEvent::Anchors { .. } => Err(StepError::Table),
             // The second half of a rope has a mesh of its own, which is made at the start.
             SimulationEvent::Cut { place, .. } if *place > 0.0 => Err(StepError::Place { place: *place }),
             SimulationEvent::Cut { cable, .. } => exists(*cable),

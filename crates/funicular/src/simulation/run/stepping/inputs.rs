@@ -4,8 +4,10 @@ use super::{StepError, SteppedSimulation};
 use crate::math::Vec3;
 use crate::robot::Load;
 use crate::simulation::body::HeldWrench;
+use crate::simulation::event::check_can_move;
+use crate::simulation::moving_anchor::AnchorCourse;
 use crate::simulation::rope::WoundLength;
-use crate::simulation::winding::between;
+use crate::simulation::winding::{Winding, between};
 
 /// Change of a length that needs no rate [m].
 const MAX_JUMP: f64 = 1e-6;
@@ -19,11 +21,14 @@ const ROUNDING: f64 = 1e-9;
 /// Jump of a commanded acceleration that counts [m/s²]: far above rounding, far below gravity.
 const MIN_JUMP: f64 = 1e-6;
 
-/// Inputs of an interval. Whatever is left out goes on: lengths with their last rates, wrench and wind as they are.
+/// Inputs of an interval. Whatever is left out goes on: lengths with their last rates, anchors with their last
+/// velocities, wrench and wind as they are.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct StepInputs {
     /// Unstrained length that each winch is to have at the end, in file order; empty to leave all out.
     pub lengths: Vec<Option<LengthAtEnd>>,
+    /// Place that the anchor of each cable is to have at the end, in file order; empty to leave all out.
+    pub anchors: Vec<Option<AnchorAtEnd>>,
     /// Force and moment on the platform besides the load of the robot file.
     pub wrench: Option<WrenchInput>,
     /// Mean velocity of the wind, world axes [m/s].
@@ -39,6 +44,17 @@ pub struct LengthAtEnd {
     pub rate: Option<f64>,
     /// Acceleration at the end [m/s²], with which the polynomial is of the fifth degree; `None` for the third degree.
     pub acceleration: Option<f64>,
+}
+
+/// Place of an anchor at the end of an interval, world axes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct AnchorAtEnd {
+    /// Place [m].
+    pub place_w: Vec3,
+    /// Velocity at the end [m/s]; `None` for a place that does not change by more than a micrometre.
+    pub velocity_w: Option<Vec3>,
+    /// Acceleration at the end [m/s²], with which the polynomials are of the fifth degree; `None` for the third degree.
+    pub acceleration_w: Option<Vec3>,
 }
 
 /// Force and moment on the platform about its origin.
@@ -68,6 +84,16 @@ impl SteppedSimulation {
             finite("rates_m_s", command.rate.is_none_or(f64::is_finite))?;
             finite("accelerations_m_s2", command.acceleration.is_none_or(f64::is_finite))?;
             self.check_length(i, interval, &command)?;
+        }
+        if !inputs.anchors.is_empty() && inputs.anchors.len() != cables {
+            return Err(StepError::Count { key: "anchors_m", given: inputs.anchors.len(), cables });
+        }
+        for (i, anchor) in inputs.anchors.iter().enumerate().filter_map(|(i, anchor)| Some((i, (*anchor)?))) {
+            let is_finite = |of: Option<Vec3>| of.is_none_or(|of| of.norm().is_finite());
+            finite("anchors_m", is_finite(Some(anchor.place_w)))?;
+            finite("anchor_velocities_m_s", is_finite(anchor.velocity_w))?;
+            finite("anchor_accelerations_m_s2", is_finite(anchor.acceleration_w))?;
+            self.check_anchor(i, interval, &anchor)?;
         }
         if let Some(WrenchInput { force_w, moment_w, force_rate_w, moment_rate_w }) = &inputs.wrench {
             let all = |of: [&Vec3; 2]| of.into_iter().all(|vector| vector.norm().is_finite());
@@ -108,12 +134,33 @@ impl SteppedSimulation {
         if jumps { Err(StepError::Jump { cable: name(), change, interval }) } else { Ok(()) }
     }
 
+    fn check_anchor(&self, cable: usize, interval: f64, to: &AnchorAtEnd) -> Result<(), StepError> {
+        check_can_move(&self.robot, cable).map_err(StepError::Event)?;
+        let [place_w, velocity_w, _] = self.anchor(cable).at(self.time);
+        let (change_w, velocity_at_end_w) = (to.place_w - place_w, to.velocity_w.unwrap_or_default());
+        let mean_w = change_w / interval;
+        let fastest = (mean_w - velocity_w).norm().max((mean_w - velocity_at_end_w).norm());
+        let jumps = match to.velocity_w {
+            None => change_w.norm() > MAX_JUMP,
+            Some(_) => mean_w.norm().max(velocity_at_end_w.norm()) > MAX_SPEED || fastest / interval > MAX_ACCELERATION,
+        };
+        let name = || self.robot.cables[cable].name.clone();
+        if jumps { Err(StepError::AnchorJump { cable: name(), change: change_w.norm(), interval }) } else { Ok(()) }
+    }
+
+    /// Course of an anchor, also of one that rests.
+    pub(super) fn anchor(&self, cable: usize) -> AnchorCourse {
+        let course = self.run.stepper.system.anchors[cable].clone();
+        course.unwrap_or_else(|| AnchorCourse::resting(self.robot.cables[cable].anchor.point_w))
+    }
+
     /// Takes the inputs of the interval that ends at `end`; `true` if all go on as they were.
     pub(super) fn take_inputs(&mut self, end: f64, inputs: &StepInputs) -> Result<bool, StepError> {
-        let courses = self.courses(end, inputs);
+        let (courses, anchors) = (self.courses(end, inputs), self.anchor_courses(end, inputs));
         let wrench = inputs.wrench.and_then(|wrench| self.held(&wrench));
         let wind_w = inputs.wind_w.filter(|wind_w| wind_w != self.run.stepper.system.air.mean_w());
-        let goes_on = courses.iter().all(Option::is_none) && wrench.is_none() && wind_w.is_none();
+        let goes_on =
+            courses.iter().chain(anchors.iter().flatten()).all(Option::is_none) && wrench.is_none() && wind_w.is_none();
         if goes_on {
             return Ok(true);
         }
@@ -130,6 +177,8 @@ impl SteppedSimulation {
             winding.command(now, until, coefficients);
             jumps |= (winding.at(now).acceleration - before).abs() > MIN_JUMP;
         }
+        jumps |= self.move_anchors(&anchors);
+        let system = &mut self.run.stepper.system;
         if let Some((held, is_jump)) = wrench {
             system.body.held = Some(held);
             jumps |= is_jump;
@@ -143,31 +192,49 @@ impl SteppedSimulation {
         Ok(false)
     }
 
-    /// New course of each length, with its end; `None` where the present one goes on.
-    fn courses(&self, end: f64, inputs: &StepInputs) -> Vec<Option<(f64, [f64; 6])>> {
-        let (now, interval) = (self.time, end - self.time);
+    /// New course of each length; `None` where the present one goes on.
+    fn courses(&self, end: f64, inputs: &StepInputs) -> Vec<Option<NewCourse>> {
         let windings = self.run.stepper.system.windings.iter().enumerate();
-        let course = |(i, winding): (usize, &crate::simulation::winding::Winding)| {
-            let (from, is_over) = (winding.at(now), winding.ends_at() <= now);
-            let Some(command) = inputs.lengths.get(i).copied().flatten() else {
-                // A length goes on with its rate.
-                let is_straight = from.acceleration.abs() <= MIN_JUMP || !is_over;
-                return (!is_straight).then_some((now, [from.value, from.rate, 0.0, 0.0, 0.0, 0.0]));
-            };
-            let to = WoundLength {
-                value: command.length,
-                rate: command.rate.unwrap_or(0.0),
-                acceleration: command.acceleration.unwrap_or(0.0),
-            };
-            let expected = winding.at(end);
-            let is_near = |a: f64, b: f64, size: f64| (a - b).abs() <= ROUNDING * size;
-            let is_expected = is_over
-                && is_near(to.value, expected.value, 1e-3)
-                && is_near(to.rate, expected.rate, 1e-3)
-                && command.acceleration.is_none_or(|given| is_near(given, expected.acceleration, 1.0));
-            (!is_expected).then(|| (end, between(&from, &to, interval, command.acceleration.is_some())))
+        let command = |i: usize| inputs.lengths.get(i).copied().flatten();
+        windings.map(|(i, winding)| new_course(winding, (self.time, end), command(i))).collect()
+    }
+
+    /// New courses of each anchor along the axes; `None` where the present one goes on.
+    fn anchor_courses(&self, end: f64, inputs: &StepInputs) -> Vec<[Option<NewCourse>; 3]> {
+        let along = |i: usize| {
+            let given = inputs.anchors.get(i).copied().flatten();
+            if given.is_none() && self.run.stepper.system.anchors[i].is_none() {
+                return [None; 3];
+            }
+            let course = self.anchor(i);
+            let home_w = course.home_w;
+            std::array::from_fn(|axis| {
+                let to = given.map(|of| LengthAtEnd {
+                    length: of.place_w[axis] - home_w[axis],
+                    rate: of.velocity_w.map(|velocity_w| velocity_w[axis]),
+                    acceleration: of.acceleration_w.map(|acceleration_w| acceleration_w[axis]),
+                });
+                new_course(&course.axes[axis], (self.time, end), to)
+            })
         };
-        windings.map(course).collect()
+        (0..self.robot.cables.len()).map(along).collect()
+    }
+
+    /// Lets anchors take new courses; `true` if an acceleration jumps.
+    fn move_anchors(&mut self, courses: &[[Option<NewCourse>; 3]]) -> bool {
+        let (now, mut jumps) = (self.time, false);
+        for (i, new) in courses.iter().enumerate().filter(|(_, new)| new.iter().any(Option::is_some)) {
+            let mut course = self.anchor(i);
+            let before_w = course.moved(now)[2];
+            for (axis, new) in course.axes.iter_mut().zip(new) {
+                if let Some((until, coefficients)) = *new {
+                    axis.command(now, until, coefficients);
+                }
+            }
+            jumps |= (course.moved(now)[2] - before_w).norm() > MIN_JUMP;
+            self.run.stepper.system.anchors[i] = Some(course);
+        }
+        jumps
     }
 
     /// Wrench that takes the place of the present one, and whether it jumps; `None` if the present one goes on.
@@ -182,4 +249,29 @@ impl SteppedSimulation {
         }
         Some((HeldWrench { from: self.time, force_w, moment_w, force_rate_w, moment_rate_w }, !is_continuous))
     }
+}
+
+/// Polynomial that takes the place of a course, with the time of its end [s].
+type NewCourse = (f64, [f64; 6]);
+
+/// Course that takes the place of the present one from `now` to `end`; `None` if that goes on.
+fn new_course(winding: &Winding, (now, end): (f64, f64), command: Option<LengthAtEnd>) -> Option<NewCourse> {
+    let (from, is_over) = (winding.at(now), winding.ends_at() <= now);
+    let Some(command) = command else {
+        // A length goes on with its rate.
+        let is_straight = from.acceleration.abs() <= MIN_JUMP || !is_over;
+        return (!is_straight).then_some((now, [from.value, from.rate, 0.0, 0.0, 0.0, 0.0]));
+    };
+    let to = WoundLength {
+        value: command.length,
+        rate: command.rate.unwrap_or(0.0),
+        acceleration: command.acceleration.unwrap_or(0.0),
+    };
+    let expected = winding.at(end);
+    let is_near = |a: f64, b: f64, size: f64| (a - b).abs() <= ROUNDING * size;
+    let is_expected = is_over
+        && is_near(to.value, expected.value, 1e-3)
+        && is_near(to.rate, expected.rate, 1e-3)
+        && command.acceleration.is_none_or(|given| is_near(given, expected.acceleration, 1.0));
+    (!is_expected).then(|| (end, between(&from, &to, end - now, command.acceleration.is_some())))
 }

@@ -4,13 +4,14 @@ use super::{SlackCable, StepError, SteppedSimulation};
 use crate::math::Vec3;
 use crate::robot::Robot;
 use crate::simulation::body::{HeldWrench, Push};
+use crate::simulation::moving_anchor::AnchorCourse;
 use crate::simulation::run::Fuse;
 use crate::simulation::start::SimulationSettings;
 use crate::simulation::state::{EachNumber, count, optional};
 use crate::statics::Equilibrium;
 
 /// First bytes of a state; the last one is the version of the list of numbers.
-const MARK: [u8; 8] = *b"funicul\x01";
+const MARK: [u8; 8] = *b"funicul\x02";
 /// Number of bytes of a number.
 const WORD: usize = 8;
 /// Words before the numbers: mark, robot, count.
@@ -119,6 +120,9 @@ impl SteppedSimulation {
 
         let system = &mut self.run.stepper.system;
         system.windings.iter_mut().for_each(|winding| winding.each_number(each));
+        for (course, cable) in system.anchors.iter_mut().zip(&self.robot.cables) {
+            AnchorCourse::each_number(course, cable.anchor.point_w, each);
+        }
         vector(system.air.mean_w(), each);
         let none = Vec3::zeros();
         let push = Push { from: 0.0, until: 0.0, rise: 0.0, force_w: none, moment_w: none, point_p: none };
