@@ -6,8 +6,9 @@ mod opened;
 mod rows;
 mod wanted;
 
-pub(crate) use made::Made;
+pub use made::as_csv;
 use made::{Drawn, plain};
+pub(crate) use made::{Made, size_of_page};
 pub use opened::{Opened, Written, told};
 use rows::{
     certificate, certificate_of, drawn, figure, file, lengths, page, proved_of, proved_surface, robot_file, surface_of,
@@ -26,7 +27,6 @@ use funicular_pages::pages;
 use funicular_pages::pages::plot::SweepFigureChoice;
 use funicular_pages::pages::summary::Summary;
 use funicular_study::at_rest;
-use funicular_study::columns::ResultTable;
 use funicular_study::request::{OfferedWinch, Request};
 use funicular_study::wording::{Words, worded};
 use funicular_study::{Results, Watch};
@@ -119,11 +119,6 @@ impl FigureOptions {
 /// Keys of a request that are given, as JSON.
 pub type Given = Map<String, Value>;
 
-/// Size of a page in words.
-pub(crate) fn size_of_page(bytes: usize) -> String {
-    format!("{:.1} MB", bytes as f64 / 1e6)
-}
-
 /// Results of one command, from those of any.
 macro_rules! of {
     ($Variant:ident, $at:ident, $found:ident => $made:expr) => {
@@ -152,17 +147,6 @@ fn always(_: &Given, _: &Path) -> Result<()> {
 /// Winches on offer of a request.
 fn offered<'a>(at: &Answered<'a>) -> Result<&'a [OfferedWinch]> {
     asked!(Winches, at, of => Ok(of.offers.as_deref().unwrap_or_default()))
-}
-
-/// Table as CSV with a header.
-///
-/// # Errors
-/// A cell that cannot be written.
-pub fn as_csv(ResultTable { columns, mut rows }: ResultTable<'_>) -> Result<Vec<u8>> {
-    let mut table = csv::Writer::from_writer(Vec::new());
-    table.write_record(columns.iter().map(|column| &column.name))?;
-    rows.try_for_each(|row| table.serialize(row))?;
-    table.into_inner().map_err(|error| anyhow!("{}", error.error()))
 }
 
 /// Clock in seconds since now, for work that ends after a time.

@@ -14,7 +14,7 @@ mod unit_label;
 pub use convert::NodePoint;
 pub(crate) use convert::RESPONSE;
 pub(crate) use convert::responses_of_uff;
-pub use csv::{CsvContent, ResponseName, read_csv};
+pub use csv::{CsvContent, read_csv};
 
 use anyhow::{Result, bail};
 use funicular_study::measurements::{MeasuredFrequency, MeasuredHistory, MeasuredResponse};
@@ -50,6 +50,18 @@ pub struct FileOptions {
     /// Point whose motion is measured in all responses of a table, platform frame [m].
     #[serde(default)]
     pub output_point_m: Option<[f64; 3]>,
+}
+
+/// Signals of a response of a table, or of a function of a Universal File.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ResponseName {
+    /// Name in the header.
+    pub name: String,
+    /// Input signal, as `fz`.
+    pub input: String,
+    /// Output signal, as `az`.
+    pub output: String,
 }
 
 /// Contents of a file of measurements.

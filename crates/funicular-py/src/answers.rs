@@ -2,7 +2,7 @@
 
 use crate::arrays::{ResultsObject, TextKeyed};
 use crate::errors;
-use crate::interrupt::{check_signals, interruptible_in_steps};
+use crate::interrupt::{check_signals, interruptible_in_steps, seconds};
 use crate::sweep::ProgressArgument;
 use funicular_answers::document;
 use funicular_files::atomic_file::{TemporaryFile, is_regular_or_new};
@@ -73,6 +73,10 @@ impl Watch for CtrlC {
 
     fn is_cancelled(&self) -> bool {
         self.raised.is_some()
+    }
+
+    fn now_s(&self) -> Option<f64> {
+        Some(seconds())
     }
 }
 

@@ -5,9 +5,9 @@ use funicular_study::Watch;
 use pyo3::prelude::*;
 use std::num::NonZeroUsize;
 use std::ops::Range;
-use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, channel, sync_channel};
+use std::sync::{Arc, LazyLock};
 use std::thread;
 use std::time::{Duration, Instant};
 
@@ -20,6 +20,12 @@ pub(crate) fn check_signals() -> PyResult<()> {
     Python::attach(|py| py.check_signals())
 }
 
+/// Seconds since this function was first called.
+pub(crate) fn seconds() -> f64 {
+    static START: LazyLock<Instant> = LazyLock::new(Instant::now);
+    START.elapsed().as_secs_f64()
+}
+
 /// Watch of work on a new thread, which stops at its next step after Ctrl-C.
 #[derive(Clone, Default)]
 struct Stop(Arc<AtomicBool>);
@@ -27,6 +33,10 @@ struct Stop(Arc<AtomicBool>);
 impl Watch for Stop {
     fn is_cancelled(&self) -> bool {
         self.0.load(Ordering::Relaxed)
+    }
+
+    fn now_s(&self) -> Option<f64> {
+        Some(seconds())
     }
 }
 

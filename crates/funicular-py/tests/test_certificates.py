@@ -152,7 +152,7 @@ DAMAGES: list[Change] = [
 
 
 def test_damaged_certificates_are_rejected(cogiro: funicular.Robot, checker: ModuleType, tmp_path: Path) -> None:
-    keywords: dict[str, Any] = {"pose": (0, 0, 2.7), "within_m": (7.5, 5.5, 2.7), "boxes": 300, "static_model": "spring"}
+    keywords: dict[str, Any] = {"pose": (0, 0, 2.7), "within_m": (7.5, 5.5, 2.7), "boxes": 2000, "static_model": "spring"}
     text = written(cogiro, tmp_path / "proof.jsonl", **keywords)
     lines = [json.loads(line) for line in text.splitlines()]
     assert checker.check(sealed(lines)) == checker.check(text)

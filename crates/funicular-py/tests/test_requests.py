@@ -47,6 +47,7 @@ LENGTHS_OVER_TIME = """t_s,unstrained_length_1_m,unstrained_length_2_m,unstraine
 0.5,6.862,6.566,6.755,6.664,6.801,6.604
 1,6.863,6.565,6.756,6.663,6.801,6.604
 """
+PROVED = "funicular prove robots/cogiro.toml --pose 0,0,1.5 --static-model spring --within-m 0.2,0.2,0.1"
 ESTIMATED = "docs/estimation/robot.toml --log docs/estimation/run.csv"
 MACHINE = "docs/calibration/machine.toml --readings docs/calibration/belts.csv"
 MORE = [
@@ -130,6 +131,12 @@ MORE = [
     "funicular workspace robots/cogiro.toml --step-m 3 --prove --undecided 0.9 --time-s 100",
     "funicular prove robots/cogiro.toml --pose 0,0,1.5 --within-m 2,1,0.5 --within-deg 0.5,0,1 --boxes 40 --max-tension-n 4000 --required-force-n 20,20,20",
     "funicular prove robots/cogiro.toml --pose 0,0,1.5 --static-model spring --within-m 5,3,1 --undecided 0.5 --time-s 100",
+    f"{PROVED} --mass-kg 60 --force-n 1,0,-5 --moment-n-m 0,0.1,0 --load-point-m 0,0,0.1 --wind-m-s 5,0,0 --cable-load-n-per-m 0,0,-0.1",
+    f"{PROVED} --boxes 20 --min-tension-n 5 --required-shape box --required-moment-n-m 2,2,2",
+    f"{PROVED} --required-payload-min-kg 5 --required-payload-max-kg 40 --required-payload-center-m 0,0,0.1 --required-payload-center-reach-m 0.1,0.1,0",
+    f"{PROVED} --required-acceleration-m-s2 1,1,1",
+    f"{PROVED} --required-angular-acceleration-rad-s2 0.2,0.2,0.2",
+    "funicular identify robots/cogiro.toml --measured docs/identification/hall-decay.csv --history-kind decay --history-from-s 0.5 --history-to-s 6 --history-poles 1",
     f"funicular workspace robots/cogiro-winches.toml --step-m 3.5 --at-least speed-factor=1 --max-tension-n 4000 {VELOCITIES}",
     f"funicular statics robots/cogiro.toml {TENSIONS} --hold-lengths-of-pose --mass-kg 250 --set platform.mass_kg=200",
     f"funicular stiffness robots/cogiro.toml {TENSIONS} --hold-lengths-of-pose --mass-kg 250",
@@ -293,7 +300,7 @@ def test_every_command_that_computes_has_a_line(executable: str) -> None:
                 of_command = [line for line in found if line.split()[1] == command]
                 used = any(option in line.split() for line in of_command)
                 same = ("--set", "--static-model", "--lengths-m", "--pose", "--in-plane-only")
-                excepted = (command, option) in (("loads", "--hold-lengths-of-pose"), ("winches", "--hold-lengths-of-pose"), ("reduce", "--to"))
+                excepted = (command, option) in (("loads", "--hold-lengths-of-pose"), ("winches", "--hold-lengths-of-pose"), ("reduce", "--to"), ("prove", "--required-wind-speed-m-s"))
                 if not used and not excepted and option not in (*same, "--cable-set", "--compare", "--compare-set"):
                     lacking.append((command, option))
     assert lacking == []

@@ -12,7 +12,7 @@ from conftest import ROOT
 OF_THE_PROGRAM = {"all", "figure_mode", "figure_width_mm", "form"}
 
 # Keys of an experiment in the list `experiments` of `identify`, which the program has as options, too.
-OF_EXPERIMENTS = {"measured_lengths_m", "measured_pose", "measured_tensions_n", "payload_kg"}
+OF_EXPERIMENTS = {"measured_lengths_m", "measured_pose", "measured_tensions_n"}
 
 
 def named() -> dict[str, str]:

@@ -17,6 +17,11 @@ pub trait Watch {
     fn is_cancelled(&self) -> bool {
         false
     }
+
+    /// Seconds since some time; `None` without a clock, as in a browser.
+    fn now_s(&self) -> Option<f64> {
+        None
+    }
 }
 
 /// Observer that shows nothing and never stops the work.

@@ -27,7 +27,10 @@ impl Printed for Proved {
             ("outside", Some(margin), _) => {
                 format!("outside: no position is held, at least {} N are missing", significant(margin, 5))
             }
-            (_, _, Some(reason)) => format!("undecided: {}", reason_in_words(reason)),
+            (_, _, Some(reason)) => {
+                let boxes = if self.tried > 1 { "" } else { ", or give `--boxes`" };
+                format!("undecided: {}{boxes}", reason_in_words(reason))
+            }
             _ => "divided".to_owned(),
         };
         line("verdict", &verdict);
@@ -56,7 +59,7 @@ fn reason_in_words(reason: &str) -> &'static str {
         "sag-bound" => "the bound of the sag is larger than the margin: a smaller box would not help",
         _ => {
             "the distance from the limits changes its sign within the box, or is smaller than the bounds: take a \
-              smaller box, or give `--boxes`"
+              smaller box"
         }
     }
 }

@@ -4,24 +4,11 @@
 //! if known, `NAME_std`. Lists: `frequency_hz`, `damping_ratio`, `damping_std`, `std_hz`, `weight`, `label`. Time
 //! histories begin with `t_s`. Lines that begin with # are comments.
 
-use super::{MeasuredFrequency, MeasuredHistory, MeasuredResponse, check_size, history};
+use super::{MeasuredFrequency, MeasuredHistory, MeasuredResponse, ResponseName, check_size, history};
 use crate::csv_lines::CsvText;
 use anyhow::{Result, anyhow, bail};
 use funicular_study::text::clean;
 use funicular_study::values::number;
-use serde::Deserialize;
-
-/// Signals of a response of a table, or of a function of a Universal File.
-#[derive(Debug, Clone, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct ResponseName {
-    /// Name in the header.
-    pub name: String,
-    /// Input signal, as `fz`.
-    pub input: String,
-    /// Output signal, as `az`.
-    pub output: String,
-}
 
 /// Content of a table.
 #[derive(Debug, Clone, PartialEq)]

@@ -24,7 +24,7 @@ mod tables;
 mod unknowns;
 
 pub use super::profile::{OpenEnd, Profile};
-pub use histories::{DiagramRow, HistoryRow, PoleRow};
+pub use histories::{DiagramRow, HistoryOfPoles, PoleRow};
 pub use proposals::ProposedMeasurement;
 pub use tables::{FittedResponse, FrequencyRow, StaticRow};
 
@@ -35,7 +35,7 @@ use crate::Watch;
 use crate::chosen_numbers::at_bound;
 use crate::columns::{Columns, ResultTable, Style, Tabled, column, only_read, parts};
 use crate::parameter_pattern::ParameterPattern;
-use crate::request::{self, Experiment, IdentifyRequest};
+use crate::request::{self, IdentifyRequest};
 use crate::rows::rows;
 use crate::table::Column;
 use crate::text::{counted, digits_for, significant};
@@ -89,7 +89,7 @@ rows! {
         pub responses: Vec<FittedResponse> = sparse;
         pub statics: Vec<StaticRow> = sparse;
         /// Time histories with the natural frequencies that were found in them.
-        pub histories: Vec<HistoryRow> = sparse;
+        pub histories: Vec<HistoryOfPoles> = sparse;
         /// Measurements to make next.
         pub proposals: Vec<ProposedMeasurement> = sparse;
         /// Least number of proposed measurements that reaches the wanted deviation; absent if none was wanted or no
@@ -263,9 +263,10 @@ pub fn run(request: &IdentifyRequest, watch: &mut dyn Watch) -> Result<Identifie
     let best = &searched.best;
 
     // How well the measurements determine the values.
-    let mut judged = judge(&model, best, is_noise_given(request));
+    let mut judged = judge(&model, best, caveats::is_noise_given(request));
     let assigning = searched.assigning.as_ref();
-    let doubts = assigning.map(|of| of.doubts(&model, best, &judged, is_noise_given(request))).unwrap_or_default();
+    let doubts =
+        assigning.map(|of| of.doubts(&model, best, &judged, caveats::is_noise_given(request))).unwrap_or_default();
     if searched.apart.is_some() {
         "the search has not arrived: its starts ended apart".clone_into(&mut judged.verdict);
     }
@@ -296,7 +297,7 @@ pub fn run(request: &IdentifyRequest, watch: &mut dyn Watch) -> Result<Identifie
 
     let tables = tables(&mut model, request, &best.x, Some(&nominal[..]).filter(|_| has_nominal))?;
     warnings.splice(0..0, caveats::left_out(&model, &tables.responses));
-    warnings.splice(0..0, histories.iter().flat_map(HistoryRow::caveats));
+    warnings.splice(0..0, histories.iter().flat_map(HistoryOfPoles::caveats));
     Ok(Identified {
         robot: parameters.robot().name.clone(),
         values: rows,
@@ -439,23 +440,6 @@ fn within_range(request: &IdentifyRequest) -> Result<IdentifyRequest> {
         }
     }
     Ok(request)
-}
-
-/// True if every measurement has its own deviation.
-fn is_noise_given(request: &IdentifyRequest) -> bool {
-    request.experiments.iter().all(|experiment| {
-        let Experiment { responses, frequencies, .. } = experiment;
-        let statics = [
-            (experiment.measured_pose.is_some(), experiment.position_std_m.and(experiment.rotation_std_deg)),
-            (experiment.measured_tensions_n.is_some(), experiment.tension_std_n),
-            (experiment.measured_lengths_m.is_some(), experiment.length_std_m),
-        ];
-        responses.iter().all(|response| response.std.is_some())
-            && frequencies
-                .iter()
-                .all(|of| of.std_hz.is_some() && of.damping_ratio.is_some() == of.damping_std.is_some())
-            && statics.iter().all(|(is_measured, deviation)| !is_measured || deviation.is_some())
-    })
 }
 
 /// Tables of measured and fitted numbers. `nominal` are the coordinates before the fit, if the robot has an equilibrium

@@ -144,7 +144,10 @@ pub(super) fn run_study(study: &ProofStudy, watch: &mut dyn Watch) -> Result<Pro
         let proofs = boxes.iter().map(|region| (!watch.borrow().is_cancelled()).then(|| statement.prove(region)));
         proofs.collect()
     };
-    study.find(&mut prove, None, &mut |done, total, so_far| {
+    let start = watch.borrow().now_s();
+    let elapsed = || watch.borrow().now_s().unwrap_or_default() - start.unwrap_or_default();
+    let clock = start.map(|_| &elapsed as &dyn Fn() -> f64);
+    study.find(&mut prove, clock, &mut |done, total, so_far| {
         let mut watch = watch.borrow_mut();
         watch.note(so_far);
         watch.progress(done, total, "boxes");

@@ -194,7 +194,7 @@ fn best_order(
 }
 
 /// True if the frequency of a pole is better known than half the width of its peak. A vibration is known to a quarter
-/// of it in the least record of which the damping ratio is told; a pole that the noise has made is known to more than it.
+/// of it in the least record of which the damping ratio is told; a pole that noise has made is known to more than it.
 fn is_determined(pole: &IdentifiedPole) -> bool {
     pole.frequency_std_hz < pole.damping_ratio * pole.frequency_hz
 }

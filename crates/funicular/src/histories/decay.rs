@@ -1,6 +1,6 @@
 //! Free decay: number of poles, their fit, and the comparison of both halves.
 
-use super::fitting::{SinusoidFit, Unknowns};
+use super::fitting::{SinusoidFit, SinusoidUnknowns};
 use super::poles::{IdentifiedPole, PoleSet, Samples, SamplesError};
 use super::realisation::DecaySubspace;
 use crate::math::DMat;
@@ -64,7 +64,7 @@ impl HalvesOfPole {
 
 /// Poles of a free decay.
 #[derive(Debug, Clone)]
-pub struct Decay {
+pub struct DecayPoles {
     /// Poles with covariance and shapes.
     pub found: PoleSet,
     /// Standard deviation of the noise of each channel: the given one, or that of the residuals.
@@ -73,7 +73,7 @@ pub struct Decay {
     pub chi2: f64,
     /// Samples less unknowns.
     pub degrees: f64,
-    /// Range of χ² per degree that noise leaves, 99.8 %; for an unknown noise, that of [`Decay::correlation`].
+    /// Range of χ² per degree that noise leaves, 99.8 %; for an unknown noise, that of [`DecayPoles::correlation`].
     pub band: [f64; 2],
     /// Mean square of the correlations of neighbouring residuals, times the number of samples: 1 for noise.
     pub correlation: f64,
@@ -89,7 +89,7 @@ struct Fitted {
     minimum: Minimum,
     noise: Vec<f64>,
     /// Unknowns.
-    x: Unknowns,
+    x: SinusoidUnknowns,
 }
 
 /// Number of samples of all channels less the number of unknowns.
@@ -126,7 +126,7 @@ fn chi2_quantile(degrees: f64, normal: f64) -> f64 {
 ///
 /// # References
 /// J.-N. Juang, R. S. Pappa (1985), for the start; G. H. Golub, V. Pereyra (1973), L. Kaufman (1975), for the fit.
-pub fn identify(samples: &Samples, noise: Option<&[f64]>, poles: Option<usize>) -> Result<Decay, SamplesError> {
+pub fn identify(samples: &Samples, noise: Option<&[f64]>, poles: Option<usize>) -> Result<DecayPoles, SamplesError> {
     let mut stride = 1;
     let mut subspaces = Vec::new();
     while stride <= MAX_STRIDE {
@@ -173,8 +173,8 @@ fn fitted(
     let noise = before.map(|before| before.noise.clone());
     let mut fit = SinusoidFit::new(samples, known.map(<[f64]>::to_vec).or(noise).unwrap_or_else(spreads));
 
-    let mut starts: Vec<(f64, Unknowns)> = Vec::new();
-    let total = |fit: &SinusoidFit<'_>, x: &Unknowns| fit.squares(x).map(|squares| squares.iter().sum::<f64>());
+    let mut starts: Vec<(f64, SinusoidUnknowns)> = Vec::new();
+    let total = |fit: &SinusoidFit<'_>, x: &SinusoidUnknowns| fit.squares(x).map(|squares| squares.iter().sum::<f64>());
     for subspace in subspaces {
         let candidates = candidates(samples, subspace, 2 * count + SPARE_ORDERS);
         let Some(start) = fit.strongest(&candidates, count) else { continue };
@@ -202,7 +202,7 @@ fn fitted(
 }
 
 /// Decaying poles of a subspace below the Nyquist frequency.
-fn candidates(samples: &Samples, subspace: &DecaySubspace, order: usize) -> Unknowns {
+fn candidates(samples: &Samples, subspace: &DecaySubspace, order: usize) -> SinusoidUnknowns {
     let slowest = 1.0 / samples.duration();
     let poles = subspace.poles(order);
     let decaying = poles.iter().map(|pole| [-pole.eigenvalue.re, pole.eigenvalue.im]);
@@ -210,7 +210,7 @@ fn candidates(samples: &Samples, subspace: &DecaySubspace, order: usize) -> Unkn
 }
 
 /// Start with the strongest pole of the residuals beside the poles of a fit.
-fn with_one_more(samples: &Samples, fit: &SinusoidFit<'_>, x: &Unknowns) -> Option<Unknowns> {
+fn with_one_more(samples: &Samples, fit: &SinusoidFit<'_>, x: &SinusoidUnknowns) -> Option<SinusoidUnknowns> {
     let rest = fit.rest(x)?;
     let channels: Vec<Vec<f64>> = rest.column_iter().map(|column| column.iter().copied().collect()).collect();
     let rest = Samples::new(samples.time().to_vec(), &channels).ok()?;
@@ -221,7 +221,7 @@ fn with_one_more(samples: &Samples, fit: &SinusoidFit<'_>, x: &Unknowns) -> Opti
 }
 
 /// Standard deviations of the residuals, corrected for the unknowns.
-fn residual_noise(samples: &Samples, fit: &SinusoidFit<'_>, x: &Unknowns) -> Option<Vec<f64>> {
+fn residual_noise(samples: &Samples, fit: &SinusoidFit<'_>, x: &SinusoidUnknowns) -> Option<Vec<f64>> {
     let rest = fit.rest(x)?;
     let degrees = degrees(samples, x.len() / 2) / samples.channels() as f64;
     let least = |c: usize| 1e-12 * samples.spread(c);
@@ -269,7 +269,7 @@ fn is_noise(samples: &Samples, fitted: &Fitted, is_known: bool) -> bool {
     tested(samples, fitted, is_known).is_some_and(|(value, [_, highest])| value <= highest)
 }
 
-fn finished(samples: &Samples, best: Fitted, is_known: bool) -> Result<Decay, SamplesError> {
+fn finished(samples: &Samples, best: Fitted, is_known: bool) -> Result<DecayPoles, SamplesError> {
     let degrees = degrees(samples, best.x.len() / 2);
     let chi2 = best.minimum.chi2();
     let (value, band) = tested(samples, &best, is_known).ok_or(SamplesError::NoPole)?;
@@ -281,7 +281,7 @@ fn finished(samples: &Samples, best: Fitted, is_known: bool) -> Result<Decay, Sa
     let rest = fit.rest(&best.x).ok_or(SamplesError::NoPole)?;
 
     let halves = halves(samples, &best, &found.poles);
-    Ok(Decay { found, noise: best.noise, chi2, degrees, band, correlation: correlation(&rest), is_noise, halves })
+    Ok(DecayPoles { found, noise: best.noise, chi2, degrees, band, correlation: correlation(&rest), is_noise, halves })
 }
 
 /// Poles of both halves, from the poles of the whole.

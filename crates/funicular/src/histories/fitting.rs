@@ -15,7 +15,7 @@ const MAX_DECAY: f64 = 1.0;
 const MAX_GROWTH: f64 = 1.0;
 
 /// Poles with decay rate α and frequency ω: `[α₁, ω₁, α₂, ω₂, …]` [rad/s].
-pub(super) type Unknowns = Vec<f64>;
+pub(super) type SinusoidUnknowns = Vec<f64>;
 
 /// Decay that is fitted.
 pub(super) struct SinusoidFit<'a> {
@@ -52,13 +52,13 @@ impl<'a> SinusoidFit<'a> {
     }
 
     /// Minimum from a start, with a last step to the full digits.
-    pub(super) fn fit(&mut self, start: &Unknowns) -> Option<Minimum> {
+    pub(super) fn fit(&mut self, start: &SinusoidUnknowns) -> Option<Minimum> {
         let bounds = self.bounds(start.len() / 2);
         let mut found = minimise(self, start, &bounds, MAX_ITERATIONS)?;
         let gradient = found.jacobian.transpose() * DMat::from_column_slice(found.residuals.len(), 1, &found.residuals);
         if let Some(factor) = (found.jacobian.transpose() * &found.jacobian).cholesky() {
             let step = factor.solve(&gradient);
-            let x: Unknowns = found.x.iter().zip(step.iter()).map(|(x, step)| x - step).collect();
+            let x: SinusoidUnknowns = found.x.iter().zip(step.iter()).map(|(x, step)| x - step).collect();
             let is_within = x.iter().zip(&bounds).all(|(x, (low, high))| (low..=high).contains(&x));
             if is_within && let Some((residuals, jacobian)) = self.linearised(&x) {
                 let squares: f64 = residuals.iter().map(|r| r * r).sum();
@@ -71,18 +71,18 @@ impl<'a> SinusoidFit<'a> {
     }
 
     /// Sum of the squares of the residuals of each channel, in units of its noise, with the best amplitudes.
-    pub(super) fn squares(&self, x: &Unknowns) -> Option<Vec<f64>> {
+    pub(super) fn squares(&self, x: &SinusoidUnknowns) -> Option<Vec<f64>> {
         let rest = self.projected(x)?.rest;
         Some((0..rest.ncols()).map(|c| (rest.column(c).norm() / self.noise[c]).powi(2)).collect())
     }
 
     /// Values less the fitted sinusoids.
-    pub(super) fn rest(&self, x: &Unknowns) -> Option<DMat> {
+    pub(super) fn rest(&self, x: &SinusoidUnknowns) -> Option<DMat> {
         Some(self.projected(x)?.rest)
     }
 
     /// Poles with the most energy |a|²/2α among candidates, at most `count`.
-    pub(super) fn strongest(&self, candidates: &Unknowns, count: usize) -> Option<Unknowns> {
+    pub(super) fn strongest(&self, candidates: &SinusoidUnknowns, count: usize) -> Option<SinusoidUnknowns> {
         let projected = self.projected(candidates)?;
         let mut energies: Vec<(f64, usize)> = (0..candidates.len() / 2)
             .map(|k| {

@@ -49,8 +49,8 @@ pub fn quantum(samples: &Samples, channel: usize) -> f64 {
     steps.fold(f64::INFINITY, f64::min)
 }
 
-/// Part of the energy of a channel above four tenths of the sampling rate, where frequencies above the Nyquist frequency
-/// are folded to.
+/// Part of the energy of a channel above four tenths of the sampling rate, to which frequencies above the Nyquist
+/// frequency are folded.
 pub fn high_energy(samples: &Samples, channel: usize) -> f64 {
     let column = samples.values().column(channel);
     let size = PIECE.min(column.len());

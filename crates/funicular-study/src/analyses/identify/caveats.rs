@@ -3,7 +3,7 @@
 use super::IdentifiedModel;
 use super::ValueRow;
 use super::tables::FittedResponse;
-use crate::request::IdentifyRequest;
+use crate::request::{Experiment, IdentifyRequest};
 use crate::text::{counted, significant};
 use funicular::warnings::plausibility::usual::DAMPING_RATIO;
 
@@ -144,5 +144,22 @@ pub(super) fn left_out(model: &IdentifiedModel<'_>, responses: &[FittedResponse]
             counted(count, "value"),
             ranges.join(", ")
         )
+    })
+}
+
+/// True if every measurement has its own deviation.
+pub(super) fn is_noise_given(request: &IdentifyRequest) -> bool {
+    request.experiments.iter().all(|experiment| {
+        let Experiment { responses, frequencies, .. } = experiment;
+        let statics = [
+            (experiment.measured_pose.is_some(), experiment.position_std_m.and(experiment.rotation_std_deg)),
+            (experiment.measured_tensions_n.is_some(), experiment.tension_std_n),
+            (experiment.measured_lengths_m.is_some(), experiment.length_std_m),
+        ];
+        responses.iter().all(|response| response.std.is_some())
+            && frequencies
+                .iter()
+                .all(|of| of.std_hz.is_some() && of.damping_ratio.is_some() == of.damping_std.is_some())
+            && statics.iter().all(|(is_measured, deviation)| !is_measured || deviation.is_some())
     })
 }

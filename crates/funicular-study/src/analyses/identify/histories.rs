@@ -10,7 +10,7 @@ use crate::rows::rows;
 use crate::text::{counted, significant};
 use anyhow::{Result, anyhow, bail};
 use funicular::histories::ambient::{self, Ambient, AmbientOptions};
-use funicular::histories::decay::{self, Decay, HalvesOfPole};
+use funicular::histories::decay::{self, DecayPoles, HalvesOfPole};
 use funicular::histories::{IdentifiedPole, PoleSet, Samples, quality};
 use funicular::math::DMat;
 
@@ -36,7 +36,7 @@ const MIN_PERIODS: f64 = 2.0;
 rows! {
     /// Time history with what was found in it.
     #[derive(Debug, Clone)]
-    pub struct HistoryRow {
+    pub struct HistoryOfPoles {
         /// Experiment.
         pub experiment: String;
         pub name: String;
@@ -117,7 +117,7 @@ rows! {
 
 impl PoleRow {
     /// Pole with intervals by a factor of its deviations.
-    fn of(pole: &IdentifiedPole, factor: Option<f64>, history: &HistoryRow) -> Self {
+    fn of(pole: &IdentifiedPole, factor: Option<f64>, history: &HistoryOfPoles) -> Self {
         let interval = |value: f64, std: f64| factor.map(|factor| [value - factor * std, value + factor * std]);
         let is_vibration = (0.0..MAX_DAMPING).contains(&pole.damping_ratio)
             && pole.damping_ratio > 0.0
@@ -191,7 +191,7 @@ impl PoleRow {
     }
 }
 
-impl HistoryRow {
+impl HistoryOfPoles {
     /// Warnings with the name of the history.
     pub(super) fn caveats(&self) -> impl Iterator<Item = String> + '_ {
         self.warnings.iter().map(|warning| format!("{}: {warning}", self.name))
@@ -220,7 +220,7 @@ impl HistoryRow {
     }
 
     /// Adds the poles of a decay.
-    fn add_decay(&mut self, found: &Decay) {
+    fn add_decay(&mut self, found: &DecayPoles) {
         self.noise.clone_from(&found.noise);
         self.chi2_per_degree = Some(found.chi2 / found.degrees);
         self.residual_correlation = Some(found.correlation);
@@ -291,7 +291,7 @@ impl HistoryRow {
 
 impl Identified {
     /// Result without fitted values: the frequencies of histories alone.
-    pub(super) fn of_histories(robot: String, robot_file: String, histories: Vec<HistoryRow>) -> Self {
+    pub(super) fn of_histories(robot: String, robot_file: String, histories: Vec<HistoryOfPoles>) -> Self {
         let warnings = histories.iter().flat_map(|history| history.caveats().collect::<Vec<_>>()).collect();
         Self {
             robot,
@@ -339,7 +339,7 @@ fn listed(matrix: &DMat) -> Vec<Vec<f64>> {
 ///
 /// # Errors
 /// A history that cannot be used.
-pub(super) fn with_frequencies(request: &IdentifyRequest) -> Result<(IdentifyRequest, Vec<HistoryRow>)> {
+pub(super) fn with_frequencies(request: &IdentifyRequest) -> Result<(IdentifyRequest, Vec<HistoryOfPoles>)> {
     request::check("history_from_s", request.history_from_s, crate::values::finite)?;
     request::check("history_to_s", request.history_to_s, crate::values::finite)?;
     let (mut completed, mut rows) = (request.clone(), Vec::new());
@@ -359,11 +359,11 @@ pub(super) fn with_frequencies(request: &IdentifyRequest) -> Result<(IdentifyReq
 }
 
 /// Natural frequencies of a history.
-fn found(given: &MeasuredHistory, name: &str, experiment: &str, request: &IdentifyRequest) -> Result<HistoryRow> {
+fn found(given: &MeasuredHistory, name: &str, experiment: &str, request: &IdentifyRequest) -> Result<HistoryOfPoles> {
     let at = |reason: &dyn std::fmt::Display| anyhow!("{name}: {reason}");
     let samples = samples(given, request).map_err(|error| at(&error))?;
     let kind = request.history_kind;
-    let mut row = HistoryRow::of(name.to_owned(), experiment, kind, &samples, given);
+    let mut row = HistoryOfPoles::of(name.to_owned(), experiment, kind, &samples, given);
     check_readings(&mut row, &samples, given);
     match kind {
         HistoryKind::Decay => {
@@ -421,7 +421,7 @@ fn samples(given: &MeasuredHistory, request: &IdentifyRequest) -> Result<Samples
 }
 
 /// Adds what the readings themselves tell: times, range and resolution of sensors, folded vibrations, gravity.
-fn check_readings(row: &mut HistoryRow, samples: &Samples, given: &MeasuredHistory) {
+fn check_readings(row: &mut HistoryOfPoles, samples: &Samples, given: &MeasuredHistory) {
     let jitter = quality::jitter(samples);
     row.checks.push(format!(
         "{} at {} Hz, time steps vary by {} %",
@@ -463,7 +463,7 @@ fn check_readings(row: &mut HistoryRow, samples: &Samples, given: &MeasuredHisto
 }
 
 /// Adds what the mean of an accelerometer with three axes says about gravity.
-fn check_gravity(row: &mut HistoryRow, samples: &Samples, given: &MeasuredHistory) {
+fn check_gravity(row: &mut HistoryOfPoles, samples: &Samples, given: &MeasuredHistory) {
     let find = |output: &str, point: Option<[f64; 3]>| {
         let is_it = |channel: &&crate::measurements::MeasuredChannel| {
             channel.output.as_deref() == Some(output) && channel.output_point_m == point

@@ -9,11 +9,21 @@ use crate::error::Cancelled;
 use crate::watch::Watch;
 use anyhow::Result;
 use funicular::clearance::{Clearance, Surroundings};
+use funicular::path::Side;
 use funicular::robot::{MotorLoad, Robot};
-use funicular::trajectory::{InMotion, length_accelerations};
+use funicular::trajectory::{AlongPath, InMotion, length_accelerations};
 
 /// Times between two looks at whether the work shall stop.
 const PER_LOOK: usize = 50;
+
+/// Part of the largest rate of a cable by which a rate between two samples may be larger without a sample of its own.
+const MAX_MISSED: f64 = 1e-3;
+
+/// Part of the duration below which two samples have none between them.
+const SHORTEST: f64 = 1e-4;
+
+/// Largest number of samples at peaks.
+const MAX_PEAKS: usize = 200;
 
 /// Robot at the times of a path, ascending. Both sides of a jump are two of them.
 pub(super) struct MotionSamples {
@@ -72,6 +82,7 @@ impl MotionSamples {
             }
             sampled.push((*instant, motion));
         }
+        add_peaks(&mut along, planned, &mut sampled, &mut jumps)?;
         let mut found = Self::of(planned, sampled, jumps);
         if planned.judged.clearance && found.nearest.iter().flatten().all(Clearance::is_kept) {
             let known: Vec<_> =
@@ -115,4 +126,51 @@ impl MotionSamples {
         let motor = cable.anchor.winch.as_ref().map(|winch| winch.motor(tension, speed, acceleration));
         WinchInMotion { speed, acceleration, motor }
     }
+}
+
+/// Adds samples between two where the change of a length says that its rate is larger than at all samples: the rate in
+/// the middle by Simpson's rule.
+///
+/// # Errors
+/// A time at which the cables do not hold the platform.
+fn add_peaks(
+    along: &mut AlongPath,
+    planned: &Planned,
+    sampled: &mut Vec<Sample>,
+    jumps: &mut [LengthJump],
+) -> Result<()> {
+    let Some((_, first)) = sampled.first() else { return Ok(()) };
+    let mut largest = vec![0.0_f64; first.length_rates.len()];
+    let raise = |largest: &mut [f64], motion: &InMotion| {
+        for (largest, rate) in largest.iter_mut().zip(&motion.length_rates) {
+            *largest = largest.max(rate.abs());
+        }
+    };
+    sampled.iter().for_each(|(_, motion)| raise(&mut largest, motion));
+
+    let duration = planned.path.duration();
+    let (mut k, mut added) = (0, 0);
+    while k + 1 < sampled.len() && added < MAX_PEAKS {
+        let ((last, from), (next, to)) = (&sampled[k], &sampled[k + 1]);
+        let time = next.time - last.time;
+        let is_whole =
+            last.phase == next.phase && time > SHORTEST * duration && jumps.iter().all(|jump| jump.before != k);
+        let (before, after) = (lengths(from), lengths(to));
+        let may_be_larger = |i: usize| {
+            let ends = from.length_rates[i] + to.length_rates[i];
+            let middle = (6.0 * (after[i] - before[i]) / time - ends) / 4.0;
+            middle.abs() > (1.0 + MAX_MISSED) * largest[i]
+        };
+        if !is_whole || !(0..largest.len()).any(may_be_larger) {
+            k += 1;
+            continue;
+        }
+        let instant = Instant { time: last.time + 0.5 * time, is_row: false, side: Side::After, ..*last };
+        let motion = in_motion(along, planned, instant.time, instant.side)?;
+        raise(&mut largest, &motion);
+        sampled.insert(k + 1, (instant, motion));
+        jumps.iter_mut().filter(|jump| jump.before > k).for_each(|jump| jump.before += 1);
+        added += 1;
+    }
+    Ok(())
 }
