@@ -11,8 +11,9 @@ use funicular_study::analyses::identify::{
 use funicular_study::text;
 use serde_json::{Value, json};
 
-const CONTENTS: &[(&str, &str)] =
-    &[("values", "Values"), ("measurements", "Measurements"), ("precision", "Precision"), ("repeat", "How to repeat")];
+/// Sections of a fit; without one there are no values and no precision.
+const CONTENTS: [(&str, &str); 4] =
+    [("values", "Values"), ("measurements", "Measurements"), ("precision", "Precision"), ("repeat", "How to repeat")];
 
 #[derive(Template)]
 #[template(path = "identify.html")]
@@ -37,10 +38,13 @@ struct IdentifyPage<'a> {
 /// # Errors
 /// A page that cannot be written.
 pub fn page(found: &Identified, command_line: String) -> anyhow::Result<String> {
+    let has_values = !found.values.is_empty();
+    let contents: Vec<(&str, &str)> =
+        CONTENTS.into_iter().filter(|(id, _)| has_values || !["values", "precision"].contains(id)).collect();
     let page = IdentifyPage {
-        shell: Shell::new(format!("{}: values from measurements", found.robot), CONTENTS),
+        shell: Shell::new(format!("{}: values from measurements", found.robot), contents),
         found,
-        values: (!found.values.is_empty()).then(|| values(found)),
+        values: has_values.then(|| values(found)),
         chi2: format!(
             "χ² = {} for {} of freedom, χ²/n = {}",
             significant(found.chi2, 4),

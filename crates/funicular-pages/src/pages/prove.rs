@@ -8,7 +8,7 @@ use crate::figures::proved::{SETS, SectionPlane};
 use anyhow::Context as _;
 use askama::Template;
 use funicular_study::analyses::prove::{BoxRow, Proved};
-use funicular_study::text::{short, vector};
+use funicular_study::text::{counted, short, vector};
 use serde_json::{Value, json};
 
 const CONTENTS: &[(&str, &str)] = &[("said", "What is proved"), ("sets", "Sets"), ("repeat", "How to repeat")];
@@ -121,7 +121,7 @@ fn section(found: &Proved) -> Option<PageFigure> {
 impl ProvePage<'_> {
     fn place(&self) -> String {
         let [position, within] = [&self.found.pose.position_m, &self.found.within_m].map(|of| vector(of, 4));
-        format!("Positions within ({within}) m of ({position}) m, {} loads", self.found.loads)
+        format!("Positions within ({within}) m of ({position}) m, {}", counted(self.found.loads, "load"))
     }
 
     fn margin(&self) -> String {

@@ -21,7 +21,7 @@ from funicular._pages import Page
 from funicular._results import Modes, ReducedModel, StateSpaceModel
 from funicular._uncertainty import Uncertainty
 from funicular._words import StaticModel, TensionRule, CableModel, Assembly, Winches, Hold, Per, Method, Goal, ExportFormat, Result
-from funicular.results import CableResults, CalibrateResults, ClearanceResults, CompareResults, GradientResults, GustResults, LoadsResults, PayloadResults, PoseErrorResults, SettleResults, SimulateResults, SpeedsResults, TrajectoryResults, WinchesResults, WorkspaceResults
+from funicular.results import CableResults, CalibrateResults, ClearanceResults, CompareResults, EstimateResults, GradientResults, GustResults, LoadsResults, PayloadResults, PoseErrorResults, ProveResults, SettleResults, SimulateResults, SpeedsResults, TrajectoryResults, WinchesResults, WorkspaceResults
 from typing import Literal, overload
 
 __all__ = ["__version__", "Analyses", "Answered", "Catenary", "Equilibrium", "Pose", "Robot", "Simulation", "SweepPlan", "SweepTable", "SweepWork", "answer", "argument", "check_files", "complete_request", "complex_numbers", "declarations", "figure_sizes", "imported", "interval", "matlab_file", "measurements_of_file", "merge_parts", "number", "numbers", "outputs_of_commands", "peaks", "plot_page", "real_numbers", "robot_of_source", "shown", "source_file", "suggested", "text_of", "try_file", "unit_of_name", "write_file", "write_unit"]
@@ -120,7 +120,9 @@ class Analyses:
             2); `mujoco` (model in MJCF, with winches as actuators); `sdf` (world of Gazebo, whose cables Drake reads as
             springs); `urdf` (frame and platform for viewers); `vtk` (vTK XML of polylines and polygons (.vtp), for
             ParaView); `c` (table of lengths over a box of poses as a C99 file, for firmware); `json` (table of lengths
-            over a box of poses in JSON, for firmware that reads its numbers).
+            over a box of poses in JSON, for firmware that reads its numbers); `fmu` (robot in motion as a Functional
+            Mock-up Unit 2.0 for co-simulation); `fmu3` (robot in motion as a Functional Mock-up Unit 3.0 for co-
+            simulation).
         path
             Path of the file, which is complete or absent.
         segments
@@ -141,7 +143,8 @@ class Analyses:
             Side of the box of poses for C and JSON: x, y, z [m], roll, pitch, yaw [degrees] from A to B, or at one
             value (repeatable); an axis that is not given keeps the value of `pose` or of the pose of the robot's state.
         tolerance_m
-            Largest error of a length in the box [m]; if not given: 1e-4.
+            Largest error of a length in the box [m]; in a unit, the error of a position that one step may have; if not
+            given: 1e-4, 1e-7 in a unit.
         prefix
             Beginning of all names in the C file; if not given: from the name of the robot file.
 
@@ -1061,7 +1064,7 @@ class Robot(Analyses):
         RobotFileError
             The file has no such path, or the value is wrong there.
         """
-    def calibrate(self, /, readings: str | PathLike[str] | Mapping[str, ArrayLike], unknowns: str | Sequence[str] | None = None, *, leave_out: ArrayLike | None = None, hold_anchors: str | Sequence[str] | None = None, frame: str | Sequence[str] | None = None, length_std_m: SupportsFloat | SupportsIndex | None = None, position_std_m: SupportsFloat | SupportsIndex | None = None, rotation_std_deg: SupportsFloat | SupportsIndex | None = None, tension_std_n: SupportsFloat | SupportsIndex | None = None, prior: Any = None, tension_range_n: ArrayLike | None = None, static_model: StaticModel = "ideal", starts: SupportsIndex | None = None, profile: str | Sequence[str] | None = None, propose: SupportsIndex | None = None, grid: Mapping[str, ArrayLike] | None = None, poses: ArrayLike | None = None, propose_for: str | Sequence[str] | None = None, propose_by: Literal['variances', 'determinant'] = "variances", accuracy_grid: Mapping[str, ArrayLike] | None = None, accuracy_poses: ArrayLike | None = None, wanted_std_m: SupportsFloat | SupportsIndex | None = None, tension_rule: TensionRule | None = None, target_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, figure: str | PathLike[str] | None = None, calibrated: str | PathLike[str] | None = None, page: str | PathLike[str] | None = None) -> CalibrateResults:
+    def calibrate(self, /, readings: str | PathLike[str] | Mapping[str, ArrayLike], unknowns: str | Sequence[str] | None = None, *, leave_out: ArrayLike | None = None, hold_anchors: str | Sequence[str] | None = None, frame: str | Sequence[str] | None = None, length_std_m: SupportsFloat | SupportsIndex | None = None, position_std_m: SupportsFloat | SupportsIndex | None = None, rotation_std_deg: SupportsFloat | SupportsIndex | None = None, tension_std_n: SupportsFloat | SupportsIndex | None = None, prior: Any = None, tension_range_n: ArrayLike | None = None, static_model: StaticModel = "ideal", starts: SupportsIndex | None = None, profile: str | Sequence[str] | None = None, propose: SupportsIndex | None = None, grid: Mapping[str, ArrayLike] | None = None, poses: ArrayLike | None = None, propose_for: str | Sequence[str] | None = None, propose_by: Literal['variances', 'determinant'] = "variances", accuracy_grid: Mapping[str, ArrayLike] | None = None, accuracy_poses: ArrayLike | None = None, wanted_std_m: SupportsFloat | SupportsIndex | None = None, tension_rule: TensionRule | None = None, target_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, figure: str | PathLike[str] | None = None, calibrated: str | PathLike[str] | None = None, calibrated_covariance: str | PathLike[str] | None = None, page: str | PathLike[str] | None = None) -> CalibrateResults:
         """
         Calibrates anchors, attachments, offsets and more from readings of lengths at poses that are not known.
 
@@ -1143,6 +1146,9 @@ class Robot(Analyses):
             Draw the anchors with their ellipses (.svg, .pdf).
         calibrated
             Write the robot file with the calibrated anchors and attachments (.toml).
+        calibrated_covariance
+            Write the covariance of the calibrated anchors, attachments, pulleys and offsets (as unstrained lengths),
+            for `uncertainty`; a scale and factors are left out (.csv).
         page
             Write a page with the anchors and their ellipses, the residuals, rows that can be clicked away and the
             proposed poses (.html).
@@ -1150,7 +1156,8 @@ class Robot(Analyses):
         Returns
         -------
         The keys of the program's JSON: `fit` and `determined` as sentences, `is_determined`, `values` with deviations and
-        intervals, `anchors` with their covariance, `distances`, `rows`, `weak_combinations`, `walk`, `minima`, `proposals`, and `robot_file`.
+        intervals, `anchors` with their covariance, `distances`, `rows`, `weak_combinations`, `walk`, `minima`, `proposals`, `robot_file`
+        and `covariance`, which `Robot.uncertainty` takes.
 
         Raises
         ------
@@ -1192,7 +1199,7 @@ class Robot(Analyses):
         StaticsError
             The robot has no such equilibrium.
         """
-    def design(self, /, change: Any, *, goal: Goal = "first-frequency", poses: ArrayLike | None = None, grid: Mapping[str, ArrayLike] | None = None, weights: ArrayLike | None = None, ropes: Any = None, reconnect: bool = False, min_frequency_hz: SupportsFloat | SupportsIndex | None = None, min_stiffness_n_per_m: SupportsFloat | SupportsIndex | None = None, avoid_hz: ArrayLike | None = None, max_iterations: SupportsIndex | None = None, pose: Pose | ArrayLike | None = None, mass_kg: SupportsFloat | SupportsIndex | None = None, static_model: StaticModel = "catenary", force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, wind_m_s: ArrayLike | None = None, cable_load_n_per_m: ArrayLike | None = None, tension_rule: TensionRule | None = None, target_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, cable_model: CableModel | None = None, assembly: Assembly = "consistent", in_plane_only: bool = False, winches: Winches = "as-given", designed: str | PathLike[str] | None = None, page: str | PathLike[str] | None = None) -> Designed:
+    def design(self, /, change: Any, *, goal: Goal = "first-frequency", grid: Mapping[str, ArrayLike] | None = None, poses: ArrayLike | None = None, weights: ArrayLike | None = None, ropes: Any = None, reconnect: bool = False, min_frequency_hz: SupportsFloat | SupportsIndex | None = None, min_stiffness_n_per_m: SupportsFloat | SupportsIndex | None = None, avoid_hz: ArrayLike | None = None, max_iterations: SupportsIndex | None = None, pose: Pose | ArrayLike | None = None, mass_kg: SupportsFloat | SupportsIndex | None = None, static_model: StaticModel = "catenary", force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, wind_m_s: ArrayLike | None = None, cable_load_n_per_m: ArrayLike | None = None, tension_rule: TensionRule | None = None, target_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, cable_model: CableModel | None = None, assembly: Assembly = "consistent", in_plane_only: bool = False, winches: Winches = "as-given", designed: str | PathLike[str] | None = None, page: str | PathLike[str] | None = None) -> Designed:
         """
         Chooses values of the robot file with which the robot is best at several poses.
 
@@ -1215,12 +1222,12 @@ class Robot(Analyses):
             at its drum for the required velocities); `winch-torque` (least torque of a motor under everything that is
             required); `winch-power` (least mechanical power of a motor that drives, under everything that is required);
             `workspace` (most of the poses at which the required loads are held).
+        grid
+            Axis of the grid: x, y, z [m], roll, pitch, yaw [degrees], with N values from A to B, or with listed values
+            (repeatable); an axis that is not given keeps the value of the robot's state or of `pose`.
         poses
             Poses (n, 3) or (n, 6): x, y, z [m], roll, pitch, yaw [degrees]; the worst one counts. If not given: `pose`,
             or the pose of the robot file.
-        grid
-            Axis of a grid of poses: x, y, z [m], roll, pitch, yaw [degrees], with N values from A to B, or with listed
-            values (repeatable); an axis that is not given stays at the pose of the state.
         weights
             Weights of the poses, for their mean instead of the worst pose.
         ropes
@@ -1332,7 +1339,81 @@ class Robot(Analyses):
         InputError
             An argument is wrong; the message says which and what to give.
         """
-    def identify(self, /, fit: Any, experiments: Any, *, starts: SupportsIndex | None = None, profile: str | Sequence[str] | None = None, propose: SupportsIndex | None = None, grid: Mapping[str, ArrayLike] | None = None, poses: ArrayLike | None = None, propose_measuring: str | Sequence[str] | None = None, propose_modes: SupportsIndex | None = None, propose_payloads_kg: ArrayLike | None = None, propose_for: str | Sequence[str] | None = None, propose_by: Literal['variances', 'determinant'] = "variances", wanted_percent: SupportsFloat | SupportsIndex | None = None, from_hz: SupportsFloat | SupportsIndex | None = None, to_hz: SupportsFloat | SupportsIndex | None = None, response_noise: SupportsFloat | SupportsIndex | None = None, frequency_noise: SupportsFloat | SupportsIndex | None = None, damping_noise: SupportsFloat | SupportsIndex | None = None, tension_rule: TensionRule | None = None, target_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, cable_model: CableModel | None = None, assembly: Assembly = "consistent", in_plane_only: bool = False, winches: Winches = "as-given", rigid_cables: bool = False, lengths_m: ArrayLike | None = None, pose: Pose | ArrayLike | None = None, hold_lengths_of_pose: bool = False, mass_kg: SupportsFloat | SupportsIndex | None = None, static_model: StaticModel = "catenary", force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, wind_m_s: ArrayLike | None = None, cable_load_n_per_m: ArrayLike | None = None, fitted: str | PathLike[str] | None = None, page: str | PathLike[str] | None = None) -> Identified:
+    def estimate(self, /, log: str | PathLike[str] | Mapping[str, ArrayLike], *, near_pose: Pose | ArrayLike | None = None, every_s: SupportsFloat | SupportsIndex | None = None, false_alarms_per_hour: SupportsFloat | SupportsIndex | None = None, inertial_unit_m: ArrayLike | None = None, tracked_point_m: ArrayLike | None = None, length_std_m: SupportsFloat | SupportsIndex | None = None, tension_std_n: SupportsFloat | SupportsIndex | None = None, cable_angle_std_rad: SupportsFloat | SupportsIndex | None = None, gyroscope_std_rad_s: SupportsFloat | SupportsIndex | None = None, accelerometer_std_m_s2: SupportsFloat | SupportsIndex | None = None, tracker_std_m: SupportsFloat | SupportsIndex | None = None, payload_kg: SupportsFloat | SupportsIndex | None = None, payload_std_kg: SupportsFloat | SupportsIndex | None = None, first_moment_std_kg_m: SupportsFloat | SupportsIndex | None = None, force_std_n: SupportsFloat | SupportsIndex | None = None, moment_std_n_m: SupportsFloat | SupportsIndex | None = None, force_time_s: SupportsFloat | SupportsIndex | None = None, offset_std_m: SupportsFloat | SupportsIndex | None = None, tension_bias_std_n: SupportsFloat | SupportsIndex | None = None, friction: SupportsFloat | SupportsIndex | None = None, figure: str | PathLike[str] | None = None, page: str | PathLike[str] | None = None) -> EstimateResults:
+        """
+        Estimates pose, velocity, payload and tensions over time from the log of a machine, each with its deviation, and alarms.
+
+        Parameters
+        ----------
+        log
+            One row per time: `t_s`, `length_NAME_m` of every cable, and optionally `tension_anchor_NAME_n`, `gyroscope_x_rad_s`,
+            `accelerometer_x_m_s2`, `tracker_x_m` and more, as a mapping, a data frame or a CSV file.
+        near_pose
+            Pose near which the platform is at the first row: x,y,z[,roll,pitch,yaw] [m, degrees]; if not given: an
+            equilibrium that the program finds.
+        every_s
+            Least time between rows of the result [s]; with 0 every row of the log has one; 0 if not given.
+        false_alarms_per_hour
+            False alarms of the tests of the load cells that are accepted, per hour; 0.1 if not given.
+        inertial_unit_m
+            Place of the inertial unit, platform frame [m]; its axes are those of the platform; 0.0, 0.0, 0.0 if not
+            given.
+        tracked_point_m
+            Tracked point, platform frame [m]; 0.0, 0.0, 0.0 if not given.
+        length_std_m
+            Standard deviation of a length between its readings [m]; 2e-05 if not given.
+        tension_std_n
+            Standard deviation of a tension [N]; 3 if not given.
+        cable_angle_std_rad
+            Standard deviation of the direction of a cable [rad]; 0.001 if not given.
+        gyroscope_std_rad_s
+            Standard deviation of the gyroscope [rad/s]; 0.002 if not given.
+        accelerometer_std_m_s2
+            Standard deviation of the accelerometer [m/s²]; 0.03 if not given.
+        tracker_std_m
+            Standard deviation of each coordinate of the tracked point [m]; 0.001 if not given.
+        payload_kg
+            Payload beyond the platform of the file that is expected at the start [kg]; 0 if not given.
+        payload_std_kg
+            Standard deviation of this payload [kg]; 20 if not given.
+        first_moment_std_kg_m
+            Standard deviation of the payload's first moment about the platform origin, each component [kg m]; 2 if not
+            given.
+        force_std_n
+            Standard deviation of an external force besides the loads of the file, each component [N]; 3 if not given.
+        moment_std_n_m
+            Standard deviation of such a moment, each component [N m]; 0.5 if not given.
+        force_time_s
+            Time in which the external force and moment change [s]; 1 if not given.
+        offset_std_m
+            Standard deviation of the constant error of each length [m]; 0.001 if not given.
+        tension_bias_std_n
+            Standard deviation of the constant error of each tension [N]; 5 if not given.
+        friction
+            Coefficient of friction between rope and load cell: the error of a tension wanders by twice this part of it
+            within a centimetre of travel; 0 if not given.
+        figure
+            Draw motion, payload, tensions and residuals over time (.svg, .pdf).
+        page
+            Write a page with motion, payload, tensions, residuals and alarms (.html).
+
+        Returns
+        -------
+        The keys of the program's JSON: `fit` and `not_determined` as sentences, `alarms`, `sensors`, `cable_errors`, and `rows`
+        over time.
+
+        Raises
+        ------
+        InputError
+            A column, a time or a value is wrong, or the lengths of a cable are missing.
+        NoSolutionError
+            The lengths have no equilibrium.
+
+        References
+        ----------
+        docs/theory.md, equations (97r) to (97za).
+        """
+    def identify(self, /, fit: Any = None, experiments: Any = None, *, starts: SupportsIndex | None = None, profile: str | Sequence[str] | None = None, propose: SupportsIndex | None = None, grid: Mapping[str, ArrayLike] | None = None, poses: ArrayLike | None = None, propose_measuring: str | Sequence[str] | None = None, propose_modes: SupportsIndex | None = None, propose_payloads_kg: ArrayLike | None = None, propose_for: str | Sequence[str] | None = None, propose_by: Literal['variances', 'determinant'] = "variances", wanted_percent: SupportsFloat | SupportsIndex | None = None, from_hz: SupportsFloat | SupportsIndex | None = None, to_hz: SupportsFloat | SupportsIndex | None = None, response_noise: SupportsFloat | SupportsIndex | None = None, frequency_noise: SupportsFloat | SupportsIndex | None = None, damping_noise: SupportsFloat | SupportsIndex | None = None, history_kind: Literal['decay', 'ambient'] = "decay", history_from_s: SupportsFloat | SupportsIndex | None = None, history_to_s: SupportsFloat | SupportsIndex | None = None, history_poles: SupportsIndex | None = None, tension_rule: TensionRule | None = None, target_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, cable_model: CableModel | None = None, assembly: Assembly = "consistent", in_plane_only: bool = False, winches: Winches = "as-given", rigid_cables: bool = False, lengths_m: ArrayLike | None = None, pose: Pose | ArrayLike | None = None, hold_lengths_of_pose: bool = False, mass_kg: SupportsFloat | SupportsIndex | None = None, static_model: StaticModel = "catenary", force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, wind_m_s: ArrayLike | None = None, cable_load_n_per_m: ArrayLike | None = None, fitted: str | PathLike[str] | None = None, page: str | PathLike[str] | None = None) -> Identified:
         """
         Finds the values of the robot file that fit measurements best, with their deviations.
 
@@ -1343,9 +1424,10 @@ class Robot(Analyses):
         fit
             Values to identify: a list of paths, or a mapping from paths to None, to bounds (minimum, maximum), or to a
             mapping with `minimum`, `maximum`, `prior` and `prior_std`. A vector without a component stands for all its
-            numbers, and * for every name, as in `materials.*.mass_kg_per_m`.
+            numbers, and * for every name, as in `materials.*.mass_kg_per_m`. Without values, the natural frequencies of
+            time histories are found alone: `details["histories"]`.
         experiments
-            One mapping per state of the robot, or a single one: `responses` and `frequencies` as
+            One mapping per state of the robot, or a single one: `responses`, `frequencies` and `histories` as
             `funicular.read_measurements` returns them, `measured_pose`, `measured_tensions_n`, `measured_lengths_m`
             with their deviations, `cables` with the names of those that were mounted, `payload_kg` with its
             `payload_center_m`, and the keys of the state.
@@ -1392,6 +1474,16 @@ class Robot(Analyses):
             Relative standard deviation of natural frequencies without deviations; 0.01 if not given.
         damping_noise
             Relative standard deviation of damping ratios; 0.1 if not given.
+        history_kind
+            Kind of measured time histories: `decay` (free decay after a push, a release or a stop); `ambient` (record
+            under wind or other broad-band excitation that is not measured).
+        history_from_s
+            Time at which the histories begin to count [s]: a decay begins after its push has ended; if not given: all.
+        history_to_s
+            Time at which they end to count [s]; if not given: all.
+        history_poles
+            Number of vibrations in a decay, or half the order of the system for a record in wind; if not given: as many
+            as the readings show.
         fitted
             Write the robot file with the identified values (.toml).
         page
@@ -1585,6 +1677,78 @@ class Robot(Analyses):
         -------
         The keys of the program's JSON: `points` with one entry for each mass.
         """
+    def prove(self, /, pose: Pose | ArrayLike | None = None, within_m: ArrayLike | None = None, within_deg: ArrayLike | None = None, *, boxes: SupportsIndex | None = None, undecided: SupportsFloat | SupportsIndex | None = None, time_s: SupportsFloat | SupportsIndex | None = None, required_force_n: ArrayLike | None = None, required_moment_n_m: ArrayLike | None = None, required_shape: Literal['box', 'ellipsoid'] | None = None, required_payload_min_kg: SupportsFloat | SupportsIndex | None = None, required_payload_max_kg: SupportsFloat | SupportsIndex | None = None, required_payload_center_m: ArrayLike | None = None, required_payload_center_reach_m: ArrayLike | None = None, required_acceleration_m_s2: ArrayLike | None = None, required_angular_acceleration_rad_s2: ArrayLike | None = None, required_wind_speed_m_s: SupportsFloat | SupportsIndex | None = None, lengths_m: ArrayLike | None = None, hold_lengths_of_pose: bool = False, mass_kg: SupportsFloat | SupportsIndex | None = None, static_model: StaticModel = "catenary", force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, wind_m_s: ArrayLike | None = None, cable_load_n_per_m: ArrayLike | None = None, tension_rule: TensionRule | None = None, target_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, threads: SupportsIndex | None = None, progress: Callable[[int, int], object] | None = None, figure: str | PathLike[str] | None = None, proved: str | PathLike[str] | Sequence[str | PathLike[str]] | None = None, page: str | PathLike[str] | None = None, certificate: str | PathLike[str] | None = None) -> ProveResults:
+        """
+        Proves that required loads are held within the tension limits at every pose of a box, not only at samples of it.
+
+        Parameters
+        ----------
+        within_m
+            Half widths of the box of positions about the pose, world axes [m]; if not given: 0,0,0: the pose alone.
+        within_deg
+            Largest turn from the orientation of the pose about each world axis [degrees]; all turns belong to the
+            statement at every position; if not given: 0,0,0: no turn.
+        boxes
+            Maximum number of boxes into which the box is divided; if not given: 1 for `prove`, or 20000.
+        undecided
+            Share of the set that may be undecided: undecided volume over the volume that is not proved outside.
+        time_s
+            Time after which the division ends [s].
+        required_force_n
+            Largest required force, both ways along each world axis [N].
+        required_moment_n_m
+            Largest required moment about the platform origin, both ways about each world axis [N m].
+        required_shape
+            Shape of the set of required forces and moments: `box` (every component varies by itself); `ellipsoid`
+            (ellipsoid with these half axes; a ball if they are equal); if not given: from the robot file, or box.
+        required_payload_min_kg
+            Minimum required payload [kg], which is always carried.
+        required_payload_max_kg
+            Maximum required payload [kg].
+        required_payload_center_m
+            Middle of the centres of mass of the required payload, platform frame [m].
+        required_payload_center_reach_m
+            Largest distance of the centre of mass of the payload from this middle, both ways along each axis of the
+            platform [m].
+        required_acceleration_m_s2
+            Largest required acceleration of the platform origin from rest, both ways along each world axis [m/s²].
+        required_angular_acceleration_rad_s2
+            Largest required angular acceleration from rest, both ways about each world axis [rad/s²].
+        required_wind_speed_m_s
+            Speed of the required wind from every horizontal direction, on platform and ropes [m/s].
+        threads
+            Number of threads of this process; one per processor if not given.
+        progress
+            Function that is called with the number of boxes that are done, and of the most that are wanted.
+        figure
+            Draw a section with what is proved inside, outside and neither (.svg, .pdf).
+        proved
+            Write the surface of what is proved inside [m] to FILE.stl, FILE.ply or FILE.vtp (ParaView) (.stl, .ply,
+            .vtp).
+        page
+            Write a page that says what is proved and what is not, with the three sets (.html).
+        certificate
+            Write a certificate as lines of JSON, which scripts/check_certificate.py checks with rational numbers
+            (.jsonl).
+
+        The other parameters are those of `Robot.equilibrium`.
+
+        Returns
+        -------
+        The keys of the program's JSON: `verdict` with `margin_n` or `reason`, `inside`, `outside` and `undecided` in
+        `volume_unit`, `undecided_share`, `tried`, `end`, `worst`, and `boxes` with their verdicts.
+
+        Raises
+        ------
+        InputError
+            An argument is wrong, or the robot has something for which no bound over a box is derived; the message says which.
+        KeyboardInterrupt
+            Ctrl-C stopped the division; its attribute `partial_results` has the `Results` of what was proved until then.
+
+        References
+        ----------
+        docs/theory.md, section 10b.
+        """
     def simulate(self, /, scenario: Any = None, duration_s: SupportsFloat | SupportsIndex | None = None, *, sample_time_s: SupportsFloat | SupportsIndex | None = None, point: Mapping[str, ArrayLike] | None = None, tolerance_m: SupportsFloat | SupportsIndex | None = None, elements: SupportsIndex | None = None, degree: SupportsIndex | None = None, once: bool = False, damping_frequency_hz: SupportsFloat | SupportsIndex | None = None, stretch_damping_time_s: SupportsFloat | SupportsIndex | None = None, hold_platform: bool = False, gust_seed: SupportsIndex | None = None, lengths_m: ArrayLike | None = None, pose: Pose | ArrayLike | None = None, hold_lengths_of_pose: bool = False, mass_kg: SupportsFloat | SupportsIndex | None = None, static_model: StaticModel = "catenary", force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, wind_m_s: ArrayLike | None = None, cable_load_n_per_m: ArrayLike | None = None, tension_rule: TensionRule | None = None, target_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, progress: Callable[[int, int], object] | None = None, figure: str | PathLike[str] | None = None, animation: str | PathLike[str] | None = None, page: str | PathLike[str] | None = None) -> SimulateResults:
         """
         Simulates large motion in time of platform and sagging ropes.
@@ -1592,8 +1756,8 @@ class Robot(Analyses):
         Parameters
         ----------
         scenario
-            What happens: a mapping from `release`, `pick`, `lengths`, `tension`, `stop`, `push` and `cut` to lists of events,
-            each a mapping with the keys of docs/simulation.md. The `table` of an event of `lengths` may be a function of the
+            What happens: a mapping from `release`, `pick`, `lengths`, `tension`, `stop`, `push`, `anchor` and `cut` to lists
+            of events, each a mapping with the keys of docs/simulation.md. The `table` of an event of `lengths` or `anchor` may be a function of the
             time [s] from its beginning on, which returns a mapping from the columns of such a table to numbers; the event then
             needs its `duration_s`.
         duration_s
@@ -1853,7 +2017,7 @@ class Robot(Analyses):
         StaticsError
             The cables do not hold the platform at some time of the path.
         """
-    def uncertainty(self, /, deviations: Any = None, tolerances: Any = None, of: Result | Sequence[Result] | None = None, *, hold: Hold = "lengths", below_hz: SupportsFloat | SupportsIndex | None = None, at_hz: ArrayLike | None = None, input: str | None = None, output: str | None = None, input_point_m: ArrayLike | None = None, output_point_m: ArrayLike | None = None, poses: ArrayLike | None = None, method: Method = "automatic", samples: SupportsIndex | None = None, seed: SupportsIndex | None = None, lengths_m: ArrayLike | None = None, pose: Pose | ArrayLike | None = None, hold_lengths_of_pose: bool = False, mass_kg: SupportsFloat | SupportsIndex | None = None, static_model: StaticModel = "catenary", force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, wind_m_s: ArrayLike | None = None, cable_load_n_per_m: ArrayLike | None = None, tension_rule: TensionRule | None = None, target_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, cable_model: CableModel | None = None, assembly: Assembly = "consistent", in_plane_only: bool = False, winches: Winches = "as-given", samples_file: str | PathLike[str] | None = None, resume: bool = False, discard: bool = False, threads: SupportsIndex | None = None, progress: Callable[[int, int], object] | None = None, page: str | PathLike[str] | None = None) -> Uncertainty:
+    def uncertainty(self, /, deviations: Any = None, tolerances: Any = None, of: Result | Sequence[Result] | None = None, *, covariance: Any = None, hold: Hold = "lengths", below_hz: SupportsFloat | SupportsIndex | None = None, at_hz: ArrayLike | None = None, input: str | None = None, output: str | None = None, input_point_m: ArrayLike | None = None, output_point_m: ArrayLike | None = None, grid: Mapping[str, ArrayLike] | None = None, poses: ArrayLike | None = None, method: Method = "automatic", samples: SupportsIndex | None = None, seed: SupportsIndex | None = None, lengths_m: ArrayLike | None = None, pose: Pose | ArrayLike | None = None, hold_lengths_of_pose: bool = False, mass_kg: SupportsFloat | SupportsIndex | None = None, static_model: StaticModel = "catenary", force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, wind_m_s: ArrayLike | None = None, cable_load_n_per_m: ArrayLike | None = None, tension_rule: TensionRule | None = None, target_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, cable_model: CableModel | None = None, assembly: Assembly = "consistent", in_plane_only: bool = False, winches: Winches = "as-given", samples_file: str | PathLike[str] | None = None, resume: bool = False, discard: bool = False, threads: SupportsIndex | None = None, progress: Callable[[int, int], object] | None = None, page: str | PathLike[str] | None = None) -> Uncertainty:
         """
         Computes the deviations of results from deviations or tolerances of numbers of the robot file.
 
@@ -1871,6 +2035,9 @@ class Robot(Analyses):
         of
             Results, separated by commas: pose, lengths, tensions, rope-length, rope-mass, stiffness-min, load-factor,
             frequencies, damping, response; pose, tensions if not given.
+        covariance
+            Numbers that deviate together: a list of mappings with `first`, `second` (paths) and `covariance`, as the key
+            `covariance` of the results of `calibrate`.
         hold
             Quantity that is held while the numbers deviate; with the pose held, the tensions parallel to the chords of
             more cables than degrees of freedom change least, or follow their rule: `lengths` (the unstrained lengths;
@@ -1889,6 +2056,9 @@ class Robot(Analyses):
             Point where the force acts, platform frame [m]; if not given: the origin.
         output_point_m
             Point whose motion is measured, platform frame [m]; if not given: the origin.
+        grid
+            Axis of the grid: x, y, z [m], roll, pitch, yaw [degrees], with N values from A to B, or with listed values
+            (repeatable); an axis that is not given keeps the value of the robot's state or of `pose`.
         poses
             Several poses, (n, 3) or (n, 6): x, y, z [m], roll, pitch, yaw [degrees].
         method
@@ -1980,7 +2150,7 @@ class Robot(Analyses):
         StaticsError
             No pose holds every required load.
         """
-    def workspace(self, /, at_least: Mapping[str, SupportsFloat | SupportsIndex] | None = None, at_most: Mapping[str, SupportsFloat | SupportsIndex] | None = None, grid: Mapping[str, ArrayLike] | None = None, *, step_m: SupportsFloat | SupportsIndex | None = None, orientations: Literal['all', 'some'] = "all", vertex_tolerance_m: SupportsFloat | SupportsIndex | None = None, rays: SupportsIndex | None = None, center_m: ArrayLike | None = None, section: Mapping[str, ArrayLike] | None = None, up_to_hz: SupportsFloat | SupportsIndex | None = None, platform_share: SupportsFloat | SupportsIndex | None = None, payload_center_m: ArrayLike | None = None, required_force_n: ArrayLike | None = None, required_moment_n_m: ArrayLike | None = None, required_shape: Literal['box', 'ellipsoid'] | None = None, required_payload_min_kg: SupportsFloat | SupportsIndex | None = None, required_payload_max_kg: SupportsFloat | SupportsIndex | None = None, required_payload_center_m: ArrayLike | None = None, required_payload_center_reach_m: ArrayLike | None = None, required_acceleration_m_s2: ArrayLike | None = None, required_angular_acceleration_rad_s2: ArrayLike | None = None, required_wind_speed_m_s: SupportsFloat | SupportsIndex | None = None, required_velocity_m_s: ArrayLike | None = None, required_angular_velocity_rad_s: ArrayLike | None = None, required_velocity_shape: Literal['box', 'ellipsoid'] | None = None, pose: Pose | ArrayLike | None = None, mass_kg: SupportsFloat | SupportsIndex | None = None, static_model: StaticModel = "catenary", force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, wind_m_s: ArrayLike | None = None, cable_load_n_per_m: ArrayLike | None = None, tension_rule: TensionRule | None = None, target_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, cable_model: CableModel | None = None, assembly: Assembly = "consistent", in_plane_only: bool = False, winches: Winches = "as-given", compare: Robot | None = None, threads: SupportsIndex | None = None, progress: Callable[[int, int], object] | None = None, figure: str | PathLike[str] | None = None, surface: str | PathLike[str] | Sequence[str | PathLike[str]] | None = None, page: str | PathLike[str] | None = None) -> WorkspaceResults:
+    def workspace(self, /, at_least: Mapping[str, SupportsFloat | SupportsIndex] | None = None, at_most: Mapping[str, SupportsFloat | SupportsIndex] | None = None, grid: Mapping[str, ArrayLike] | None = None, *, step_m: SupportsFloat | SupportsIndex | None = None, orientations: Literal['all', 'some'] = "all", vertex_tolerance_m: SupportsFloat | SupportsIndex | None = None, rays: SupportsIndex | None = None, center_m: ArrayLike | None = None, section: Mapping[str, ArrayLike] | None = None, prove: bool = False, boxes: SupportsIndex | None = None, undecided: SupportsFloat | SupportsIndex | None = None, time_s: SupportsFloat | SupportsIndex | None = None, up_to_hz: SupportsFloat | SupportsIndex | None = None, platform_share: SupportsFloat | SupportsIndex | None = None, payload_center_m: ArrayLike | None = None, required_force_n: ArrayLike | None = None, required_moment_n_m: ArrayLike | None = None, required_shape: Literal['box', 'ellipsoid'] | None = None, required_payload_min_kg: SupportsFloat | SupportsIndex | None = None, required_payload_max_kg: SupportsFloat | SupportsIndex | None = None, required_payload_center_m: ArrayLike | None = None, required_payload_center_reach_m: ArrayLike | None = None, required_acceleration_m_s2: ArrayLike | None = None, required_angular_acceleration_rad_s2: ArrayLike | None = None, required_wind_speed_m_s: SupportsFloat | SupportsIndex | None = None, required_velocity_m_s: ArrayLike | None = None, required_angular_velocity_rad_s: ArrayLike | None = None, required_velocity_shape: Literal['box', 'ellipsoid'] | None = None, pose: Pose | ArrayLike | None = None, mass_kg: SupportsFloat | SupportsIndex | None = None, static_model: StaticModel = "catenary", force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, wind_m_s: ArrayLike | None = None, cable_load_n_per_m: ArrayLike | None = None, tension_rule: TensionRule | None = None, target_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None, cable_model: CableModel | None = None, assembly: Assembly = "consistent", in_plane_only: bool = False, winches: Winches = "as-given", compare: Robot | None = None, threads: SupportsIndex | None = None, progress: Callable[[int, int], object] | None = None, figure: str | PathLike[str] | None = None, surface: str | PathLike[str] | Sequence[str | PathLike[str]] | None = None, page: str | PathLike[str] | None = None, proved: str | PathLike[str] | Sequence[str | PathLike[str]] | None = None, certificate: str | PathLike[str] | None = None) -> WorkspaceResults:
         """
         Finds all positions at which quantities keep their limits: surface, volume, parts and holes.
 
@@ -2010,6 +2180,14 @@ class Robot(Analyses):
             Point from which the rays go out [m]; if not given: the centroid of the set.
         section
             Sections: a mapping from x, y or z to a list of coordinates [m].
+        prove
+            Prove as well in which parts of the box required loads are held at every position, not only at the nodes.
+        boxes
+            Maximum number of boxes into which the box is divided; if not given: 1 for `prove`, or 20000.
+        undecided
+            Share of the set that may be undecided: undecided volume over the volume that is not proved outside.
+        time_s
+            Time after which the division ends [s].
         up_to_hz
             Upper limit of the search for natural frequencies [Hz]; 1000 if not given.
         platform_share
@@ -2059,13 +2237,19 @@ class Robot(Analyses):
             Write the closed surface of the set [m] to FILE.stl, FILE.ply or FILE.vtp (ParaView) (.stl, .ply, .vtp).
         page
             Write a page with the surface in space, the volumes and the sections (.html).
+        proved
+            Write the surface of what is proved inside [m] to FILE.stl, FILE.ply or FILE.vtp (ParaView) (.stl, .ply,
+            .vtp).
+        certificate
+            Write a certificate as lines of JSON, which scripts/check_certificate.py checks with rational numbers
+            (.jsonl).
 
         The other parameters are those of `Robot.equilibrium` and of `Equilibrium.stiffness`.
 
         Returns
         -------
         The keys of the program's JSON: `volumes` with the steps or the number of rays of each, `parts`, `holes`,
-        `touches`, `bounds_m`, `inner_box`, `sections`, `rays`, `compared`; `vertices_m` (n, 3) and `triangles` (m, 3) of the closed
+        `touches`, `bounds_m`, `inner_box`, `sections`, `rays`, `compared`, `proof`; `vertices_m` (n, 3) and `triangles` (m, 3) of the closed
         surface, whose first `triangles_of_surface` lie on the set and the others on the box of the grid.
 
         Raises
@@ -2098,6 +2282,11 @@ class Simulation:
     def acceleration_m_s2(self, /) -> NDArray[float64]:
         """
         Acceleration of the platform origin, world axes [m/s²].
+        """
+    @property
+    def anchors_m(self, /) -> list[list[float]]:
+        """
+        Places of the anchors, world axes [m]: a row per cable.
         """
     @property
     def angular_acceleration_rad_s2(self, /) -> NDArray[float64]:
@@ -2149,7 +2338,7 @@ class Simulation:
     def energy_j(self, /) -> dict[str, Any]:
         """
         Energies at the present time and works since the start [J]: `kinetic`, `strain`, `potential`, `winches`,
-        `loads`, `dissipated`, `payloads`, `defect`.
+        `anchors`, `loads`, `dissipated`, `payloads`, `defect`.
         """
     def hold_tensions(self, /, tensions_n: dict[str, Any] | ArrayLike, duration_s: SupportsFloat | SupportsIndex) -> None:
         """
@@ -2222,7 +2411,7 @@ class Simulation:
         """
         Returns the state as bytes, for `restore`.
         """
-    def step(self, /, dt_s: SupportsFloat | SupportsIndex, *, lengths_m: dict[str, Any] | ArrayLike | None = None, rates_m_s: dict[str, Any] | ArrayLike | None = None, accelerations_m_s2: dict[str, Any] | ArrayLike | None = None, force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, force_rate_n_s: ArrayLike | None = None, moment_rate_n_m_s: ArrayLike | None = None, wind_m_s: ArrayLike | None = None) -> None:
+    def step(self, /, dt_s: SupportsFloat | SupportsIndex, *, lengths_m: dict[str, Any] | ArrayLike | None = None, rates_m_s: dict[str, Any] | ArrayLike | None = None, accelerations_m_s2: dict[str, Any] | ArrayLike | None = None, force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, force_rate_n_s: ArrayLike | None = None, moment_rate_n_m_s: ArrayLike | None = None, wind_m_s: ArrayLike | None = None, anchors_m: dict[str, Any] | None = None, anchor_velocities_m_s: dict[str, Any] | None = None, anchor_accelerations_m_s2: dict[str, Any] | None = None) -> None:
         """
         Advances by an interval. What is left out goes on as it is: lengths with their last rates, force and moment with
         their last rates, the wind.
@@ -2247,6 +2436,12 @@ class Simulation:
             Rate of the moment [N m/s]; zero if a moment is given without.
         wind_m_s
             Mean velocity of the wind, world axes [m/s].
+        anchors_m
+            Places of anchors at the end of the interval, world axes [m]: a dictionary from names of cables to x, y, z.
+        anchor_velocities_m_s
+            Velocities of these anchors at the end [m/s]. Without them an anchor may move by a micrometre.
+        anchor_accelerations_m_s2
+            Accelerations of these anchors at the end [m/s²]; without them the course is a cubic polynomial.
 
         Raises
         ------

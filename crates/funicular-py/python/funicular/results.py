@@ -1196,7 +1196,7 @@ class PoleRow(Row):
     """Std [Hz]."""
 
 
-class HistoryRow(Row):
+class HistoryOfPoles(Row):
     """Time history with what was found in it."""
 
     channels: list[str]
@@ -1554,7 +1554,7 @@ class BoxRow(Row):
     """Verdict: inside, outside or undecided."""
 
 
-class SettleResultsHistoryRow(Row):
+class HistoryRow(Row):
     """Displacement of the point at one time from where the lengths of this time hold it at rest, and the bound of its
     distance."""
 
@@ -1660,7 +1660,7 @@ class Robustness(Row):
 class Shaping(Row):
     """Shaper and what it does."""
 
-    history_without: list[SettleResultsHistoryRow]
+    history_without: list[HistoryRow]
     """Motion from the end of the command without it."""
     impulses: list[ImpulseRow]
     """Impulses."""
@@ -1679,7 +1679,7 @@ class Shaping(Row):
     """Time from which on the sum of all amplitudes without the shaper is within the tolerance; absent if it never is [s]."""
 
     _PARTS: ClassVar[dict[str, type[Row]]] = {
-        "history_without": SettleResultsHistoryRow,
+        "history_without": HistoryRow,
         "impulses": ImpulseRow,
         "robustness": Robustness,
     }
@@ -3293,7 +3293,7 @@ class IdentifyResults(Results):
     """Root mean square of the relative differences of all natural frequencies."""
     frequency_rms_before: float | None
     """Root mean square before the fit, with the same modes as partners."""
-    histories: list[HistoryRow] | None
+    histories: list[HistoryOfPoles] | None
     """Time histories with the natural frequencies that were found in them."""
     measurements_needed: int | None
     """Least number of proposed measurements that reaches the wanted deviation; absent if none was wanted or no number
@@ -3326,7 +3326,7 @@ class IdentifyResults(Results):
     _PARTS: ClassVar[dict[str, type[Row]]] = {
         "assignment": ModeAssignment,
         "frequencies": FrequencyRow,
-        "histories": HistoryRow,
+        "histories": HistoryOfPoles,
         "proposals": ProposedMeasurement,
         "responses": FittedResponse,
         "starts": StartRow,
@@ -3571,14 +3571,14 @@ class SettleResults(Results):
     """True if a count proves that every mode has its damped mode."""
     duration_s: float | None
     """Time from its start to its end, with the shaper [s]."""
-    during: list[SettleResultsHistoryRow] | None
+    during: list[HistoryRow] | None
     """Motion while the command runs, at negative times."""
     held_exact_m: NDArray[np.float64] | None
     """Displacement between the equilibria with the wrench and without it; absent if there is none with it, and with ideal
     cables [m]."""
     held_m: NDArray[np.float64] | None
     """Displacement of the point under the wrench, linear, world axes [m]."""
-    history: list[SettleResultsHistoryRow]
+    history: list[HistoryRow]
     """Motion from the release or the end of the command on."""
     history_up_to_hz: float | None
     """Frequency up to which modes are in the history; absent if all are [Hz]."""
@@ -3624,8 +3624,8 @@ class SettleResults(Results):
     """Winches in vibration; absent if they are as in the robot file."""
 
     _PARTS: ClassVar[dict[str, type[Row]]] = {
-        "during": SettleResultsHistoryRow,
-        "history": SettleResultsHistoryRow,
+        "during": HistoryRow,
+        "history": HistoryRow,
         "lengths": LengthsRow,
         "lowest_tension": LowestTension,
         "modes": SettlingMode,
