@@ -219,17 +219,17 @@ fn logs_with_a_fault_are_refused_with_its_place() {
     assert!(refused(&no_time, 2).contains("no column `t_s`"), "{}", refused(&no_time, 2));
     let millimetres = log_with(
         |_| true,
-        |_, name, value| match name.starts_with("length_") {
-            true => (1e3 * value.parse::<f64>().unwrap()).to_string(),
-            false => value.to_owned(),
+        |_, name, value| {
+            let factor = if name.starts_with("length_") { 1e3 } else { return value.to_owned() };
+            (factor * value.parse::<f64>().unwrap()).to_string()
         },
     );
     assert!(refused(&millimetres, 2).contains("length_NAME_mm"), "{}", refused(&millimetres, 2));
     let gravities = log_with(
         |_| true,
-        |_, name, value| match name.starts_with("accelerometer_") {
-            true => (value.parse::<f64>().unwrap() / 9.81).to_string(),
-            false => value.to_owned(),
+        |_, name, value| {
+            let gravity = if name.starts_with("accelerometer_") { 9.81 } else { return value.to_owned() };
+            (value.parse::<f64>().unwrap() / gravity).to_string()
         },
     );
     assert!(refused(&gravities, 2).contains("multiples of the earth's gravity"), "{}", refused(&gravities, 2));

@@ -149,7 +149,9 @@ fn add_peaks(
             *largest = largest.max(rate.abs());
         }
     };
-    sampled.iter().for_each(|(_, motion)| raise(&mut largest, motion));
+    for (_, motion) in sampled.iter() {
+        raise(&mut largest, motion);
+    }
 
     let duration = planned.path.duration();
     let (mut k, mut added) = (0, 0);

@@ -62,7 +62,7 @@ fn at_row(row: usize, reason: &str) -> anyhow::Error {
 
 /// Number of a robot at a path.
 fn number<'a>(path: &str, original: &Parameters, candidates: &'a [Parameter]) -> Result<&'a Parameter, String> {
-    let keys = set_values::path(path).map_err(|error| error.to_string())?.keys().to_vec();
+    let keys = set_values::path(path)?.keys().to_vec();
     let own = original.find(&keys).map_or(keys, |index| original.list()[index].keys.clone());
     candidates.iter().find(|candidate| candidate.keys == own).ok_or_else(|| {
         let known: Vec<String> = candidates.iter().map(Parameter::path).collect();
