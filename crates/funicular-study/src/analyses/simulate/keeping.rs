@@ -58,8 +58,8 @@ mod tests {
     #[test]
     fn a_row_is_read_from_the_numbers_of_its_columns() {
         let names = RowNames { cables: vec!["1".into(), "2".into()], points: vec!["hook".into()], has_distances: true };
-        let count = 1 + 6 + 12 + 4 * 2 + 6 + 1 + 8;
-        let numbers: Vec<f64> = (1..=count).map(f64::from).collect();
+        let count = SimulatedRow::columns(&names).described().len();
+        let numbers: Vec<f64> = (1..=count).map(|number| number as f64).collect();
         let row = SimulatedRow::of_numbers(&numbers, &names).unwrap();
         let again: Vec<f64> = SimulatedRow::columns(&names)
             .cells(&row)
