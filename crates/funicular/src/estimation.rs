@@ -27,8 +27,7 @@ mod state;
 
 pub use consistency::{Consistency, chi2_quantile};
 pub use estimator::{Estimator, UpdateNotes};
-pub use faults::{FaultAlarm, FaultHypothesis, FaultKind, FaultVerdict};
-
+pub use faults::{FaultAlarm, FaultHypothesis, FaultKind, FaultVerdict, MAX_CORRELATION, UNDECIDED};
 pub use readings::{SensorGroup, SensorReadings};
 pub use settings::{EstimationSettings, ProcessNoise, SensorNoise, StatePriors};
 pub use start::EstimationError;

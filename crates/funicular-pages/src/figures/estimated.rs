@@ -15,7 +15,7 @@ const HEIGHT: f64 = 0.28;
 const TENSION_HEIGHT: f64 = 0.4;
 
 /// Largest residual that the panel of the residuals shows whole [deviations].
-const MOST_RESIDUAL: f64 = 10.0;
+const MAX_RESIDUAL: f64 = 10.0;
 
 /// Colour of the band of two deviations.
 const BAND: Colour = [0xd6, 0xe2, 0xf0];
@@ -27,7 +27,7 @@ pub(super) fn chart(found: &Estimated) -> Chart {
     let of_axis: Vec<Stroke> = (0..3).map(axis_stroke).collect();
     let of_cable: Vec<Stroke> = (0..found.cables.len()).map(style::curve).collect();
     let residual = |row: &EstimateRow, i: usize| {
-        row.residuals.as_ref().map_or(f64::NAN, |all| all[i].clamp(-MOST_RESIDUAL, MOST_RESIDUAL))
+        row.residuals.as_ref().map_or(f64::NAN, |all| all[i].clamp(-MAX_RESIDUAL, MAX_RESIDUAL))
     };
     let mut panels = vec![
         over_time(found, "displacement [mm]", HEIGHT, &of_axis, &|row, k| 1e3 * (row.pose.position_m[k] - begin[k])),

@@ -11,7 +11,7 @@ use crate::control_loop::MAX_CABLES;
 const ALLOWANCE: f64 = 0.5;
 
 /// Correlation of successive innovations above which the tests do not hold their rate.
-const MAX_CORRELATION: f64 = 0.3;
+pub const MAX_CORRELATION: f64 = 0.3;
 
 /// Number of quiet readings after which the deviation of z is known within 10 %.
 const MIN_QUIET: usize = 50;
@@ -27,7 +27,7 @@ const NOT_ITS_OWN: f64 = 1e-3;
 const KEPT_SAMPLES: usize = 32;
 
 /// Difference of −2 ln L below which the second hypothesis is as good as the first.
-const UNDECIDED: f64 = 10.0;
+pub const UNDECIDED: f64 = 10.0;
 
 /// Deviation of a slip within one step [m].
 const SLIP: f64 = 5e-3;

@@ -109,7 +109,7 @@ fn own_spring<'n>(xml: &'n Xml<'n>, options: &MujocoOptions<'n>, node: Node<'n, 
     if stiffness < 0.0 {
         bail!(xml.error(node, format!("attribute `stiffness` is {stiffness} N/m, it must be positive")));
     }
-    // Of two lengths the spring pulls beyond the second.
+    // The spring pulls beyond the second of two lengths.
     let rest = numbers("springlength")?.and_then(|lengths| lengths.last().copied()).filter(|length| *length > 0.0);
     match rest {
         Some(rest_length) => Ok(Some(TendonSpring { stiffness, rest_length, axial_stiffness: None })),

@@ -12,7 +12,7 @@ use crate::text::significant;
 use anyhow::{Context, Result, anyhow};
 use funicular::estimation::{
     Estimate, EstimatedState, EstimationError, EstimationSettings, Estimator, FaultAlarm, FaultHypothesis, FaultKind,
-    FaultVerdict, SensorGroup, Slackness, UpdateNotes, chi2_quantile,
+    FaultVerdict, SensorGroup, Slackness, UNDECIDED, UpdateNotes, chi2_quantile,
 };
 use funicular::robot::Robot;
 
@@ -194,7 +194,7 @@ impl<'a> LogRun<'a> {
         let Some(FaultVerdict { hypotheses, is_decided }) = self.estimator.explain() else { return };
         let found: Vec<FaultHypothesis> = hypotheses.into_iter().flatten().collect();
         let Some(first) = found.first() else { return };
-        let near = if is_decided { 1 } else { found.iter().filter(|of| of.worse_by <= words::UNDECIDED).count() };
+        let near = if is_decided { 1 } else { found.iter().filter(|of| of.worse_by <= UNDECIDED).count() };
         let names = |of: &FaultHypothesis| words::fault(of, |i| self.name(i));
         let (fault, cable, text) = if is_decided {
             (words::fault_name(first.kind), first.cable, names(first))
@@ -204,7 +204,7 @@ impl<'a> LogRun<'a> {
         };
         self.push(now, fault, cable, is_decided.then_some(Estimate { value: first.size, std: first.std }), text);
 
-        // What changed is unknown again; otherwise the filter would go on with what is wrong.
+        // The number that changed is unknown again; otherwise the filter would go on with a wrong one.
         for of in &found[..near] {
             match (of.kind, of.cable) {
                 (FaultKind::Slip | FaultKind::Cut, Some(i)) => self.estimator.reopen_offset(i, NEW_OFFSET),

@@ -4,16 +4,13 @@ use super::log::EstimateLog;
 use super::log_run::LogRun;
 use super::rows::{CableErrors, SensorFit};
 use crate::text::significant;
-use funicular::estimation::{Consistency, EstimationSettings, SensorGroup};
+use funicular::estimation::{Consistency, EstimationSettings, MAX_CORRELATION, SensorGroup};
 
 /// Part of the prior deviation from which on a number counts as not determined.
 const AS_BEFORE: f64 = 0.9;
 
 /// Part of outliers from which on a sensor is called faulty.
 const MANY_OUTLIERS: f64 = 0.05;
-
-/// Correlation of successive residuals above which the alarms do not keep their rate.
-const MAX_CORRELATION: f64 = 0.3;
 
 /// Ratio of residuals to their noise that is worth a sentence.
 const WORTH_TELLING: f64 = 1.2;

@@ -3,9 +3,6 @@
 use crate::text::significant;
 use funicular::estimation::{FaultHypothesis, FaultKind};
 
-/// Difference of −2 ln L up to which another explanation is told as well.
-pub(super) const UNDECIDED: f64 = 10.0;
-
 /// Name of a kind of fault.
 pub(super) fn fault_name(kind: FaultKind) -> &'static str {
     match kind {

@@ -8,10 +8,12 @@ use anyhow::{Result, anyhow, bail};
 use funicular::math::DMat;
 use funicular::robot::parameters::{Parameter, Parameters};
 
-/// Least eigenvalue of a matrix of correlations that counts as rounding of its entries, which files have to six digits
-/// at least; combinations below the second one are none.
-const LEAST_EIGENVALUE: f64 = -1e-5;
-const LEAST_VARIANCE: f64 = 1e-12;
+/// Minimum eigenvalue of a matrix of correlations that counts as rounding of its entries, which files have to six
+/// digits at least.
+const MIN_EIGENVALUE: f64 = -1e-5;
+
+/// Minimum eigenvalue of a combination that deviates.
+const MIN_VARIANCE: f64 = 1e-12;
 
 /// Difference of two entries of one pair that is more than rounding, relative to their size.
 const ROUNDING: f64 = 1e-9;
@@ -106,14 +108,14 @@ fn combinations(covariance: &DMat, members: &[Parameter]) -> Result<Vec<Vec<f64>
     };
     let eigen = DMat::from_fn(count, count, correlation).symmetric_eigen();
     let least = eigen.eigenvalues.iter().copied().fold(f64::INFINITY, f64::min);
-    if least < LEAST_EIGENVALUE {
+    if least < MIN_EIGENVALUE {
         bail!(
             "⟪covariance⟫: no random numbers have these covariances, because the least eigenvalue of their \
              correlations is {}: write all entries with all digits",
             significant(least, 3)
         );
     }
-    let mut order: Vec<usize> = (0..count).filter(|k| eigen.eigenvalues[*k] > LEAST_VARIANCE).collect();
+    let mut order: Vec<usize> = (0..count).filter(|k| eigen.eigenvalues[*k] > MIN_VARIANCE).collect();
     order.sort_by(|a, b| eigen.eigenvalues[*b].total_cmp(&eigen.eigenvalues[*a]));
     let combination = |k: usize| {
         let size = eigen.eigenvalues[k].sqrt();
