@@ -315,3 +315,27 @@ fn a_log_that_does_not_fit_says_so_first_and_names_the_sensor() {
     let right = found(&log_text(), &PRIORS);
     assert!(!right["fit"].as_str().unwrap().contains("does not fit"), "{right}");
 }
+
+#[test]
+fn sensors_determine_what_the_table_of_the_document_says() {
+    let document = fs::read_to_string(project("docs/estimation.md")).unwrap();
+    let stated = |row: &str| {
+        let line = document.lines().find(|line| line.starts_with(row)).unwrap().to_owned();
+        line.split('±').skip(1).map(|part| part.split_whitespace().next().unwrap().to_owned()).collect::<Vec<_>>()
+    };
+    let at_rest = |keeps: &dyn Fn(&str) -> bool, words: &[&str]| {
+        let text: Vec<String> =
+            log_with(|name| name == "t_s" || keeps(name), same).lines().map(str::to_owned).collect();
+        found(&(text[..3].join("\n") + "\n"), words)["rows"][0].clone()
+    };
+    let millimetres = |row: &serde_json::Value| format!("{:.1}", 1e3 * number(&row["position_std_m"][2]));
+
+    let lengths = at_rest(&|name| name.starts_with("length_"), &[]);
+    assert_eq!(stated("| lengths alone"), [millimetres(&lengths)]);
+    let cells = at_rest(
+        &|name| name.starts_with("length_") || name.starts_with("tension_"),
+        &["--tension-std-n", "1", "--tension-bias-std-n", "5"],
+    );
+    let payload = format!("{:.1}", number(&cells["payload_std_kg"]));
+    assert_eq!(stated("| and load cells"), [payload, millimetres(&cells)]);
+}
