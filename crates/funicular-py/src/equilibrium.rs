@@ -263,7 +263,8 @@ impl PyEquilibrium {
     /// degree
     ///     Degree of the polynomials of each element; 8 if not given.
     /// damping_frequency_hz
-    ///     Frequency at which the damping ratio of the ropes holds [Hz]; the first natural frequency if not given.
+    ///     Frequency at which the damping ratio of the ropes and their loss factor hold [Hz]; if not given, the first
+    ///     natural frequency, for a loss factor that of the mode with most stretch.
     /// stretch_damping_time_s
     ///     Damping time of the stretch of all ropes [s] in place of that of the robot file.
     /// hold_platform

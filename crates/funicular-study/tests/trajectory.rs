@@ -56,6 +56,28 @@ fn largest_values_do_not_depend_on_the_rows() {
     }
 }
 
+/// The rule `stiffest` bends at 7.79 s, where two stiffnesses meet: no limit is reached, and no tension jumps.
+#[test]
+fn a_bend_of_a_rule_between_rows_is_found() {
+    let of = |step: f64| {
+        moved(&json!({
+            "pose": [0.0, 0.0, 2.0, 0.0, 0.0, 0.0], "move_to": [-2.7277, 0.0411, 1.9895, 0.0, 0.0, 0.0],
+            "speed_m_s": 0.3, "acceleration_m_s2": 1.0, "jerk_m_s3": 40.0, "tension_rule": "stiffest",
+            "sample_time_s": step,
+        }))
+    };
+    for step in [0.1, 0.02] {
+        let found = of(step);
+        // Rows of 0.1 ms have 0.2830 m/s with differences of a noise of 0.0003 m/s.
+        let speed = extreme(&found, "largest speed").0;
+        assert!((speed - 0.2825).abs() < 0.001, "{step} {speed}");
+        let acceleration = found["extremes"].as_array().unwrap().iter();
+        let acceleration = acceleration.into_iter().find(|of| of["what"] == "largest acceleration").unwrap();
+        let why = acceleration["no_bound"].as_str().unwrap();
+        assert!(acceleration.get("value").is_none() && why.contains("stiffnesses meet or part"), "{why}");
+    }
+}
+
 #[test]
 fn steps_are_exact_and_the_last_is_shorter() {
     let of = moved(&json!({ "sample_time_s": 0.03 }));

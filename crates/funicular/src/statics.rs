@@ -95,8 +95,8 @@ pub(crate) use tension::{
     TensionCurve,
 };
 pub use tension::{
-    CentreCertificate, CentreMotion, CentreRates, LimitAtCable, PayloadBound, PayloadSide, RequestedPayload,
-    TensionCentre, TensionRule, centre_rates, distribute_tensions, payload_bound, tension_centre,
+    CentreCertificate, CentreMotion, CentreRates, HeldTensions, LimitAtCable, PayloadBound, PayloadSide,
+    RequestedPayload, TensionCentre, TensionRule, centre_rates, distribute_tensions, payload_bound, tension_centre,
 };
 pub(crate) use tension_gain::tension_gain_exceeds;
 pub use tension_gain::{inverse_condition, tension_gain};

@@ -12,14 +12,12 @@ use crate::gradient::{GradientError, LengthRates};
 use crate::math::{Vec3, Vec6};
 use crate::path::PathPoint;
 use crate::robot::{Constraint, Robot, State};
-use crate::statics::{
-    self, CableState, Equilibrium, Limit, StaticModel, StaticsError, TensionMargin, TensionRange, TensionRule,
-};
+use crate::statics::{self, Equilibrium, HeldTensions, StaticModel, StaticsError, TensionRule};
 use std::f64::consts::PI;
 
 /// Time over which differences stand for derivatives that do not exist in closed form [s]. Their error is a third of
 /// its square times the third derivative of the lengths; the lengths have an error of 1e-12 m, over this time 1e-8 m/s.
-const DIFFERENCE: f64 = 1e-4;
+pub const RATE_DIFFERENCE: f64 = 1e-4;
 
 /// Difference of the rates on both sides of a time, over the smaller of them, from which on the tensions jump on one
 /// side, and least rate that is compared [m/s]: a jump of 1 N in 10 m of rope with 1 MN is 0.1 m/s over this time.
@@ -29,9 +27,6 @@ const MIN_JUMP: f64 = 0.01;
 /// Part of the load of a rope that swings with the platform about its fixed anchor: a uniform load with the same force
 /// at the platform as `μ (1 − s/l) a`.
 const UNIFORM: f64 = 2.0 / 3.0;
-
-/// Relative distance of a tension from its limit within which the limit is reached.
-const AT_LIMIT: f64 = 1e-6;
 
 /// Robot that follows a path, with what it needs at every time of it.
 ///
@@ -76,10 +71,10 @@ pub struct InMotion {
     pub length_rates: Vec<f64>,
     /// Reason why the rates are differences of lengths at neighbouring times, if they are.
     pub no_exact_rates: Option<GradientError>,
-    /// Limit of its tension that each cable has reached.
-    pub at_limit: Vec<Option<Limit>>,
-    /// Distances of the tensions of each cable from its minimum and from its maximum [N].
-    pub from_limits: Vec<[f64; 2]>,
+    /// Conditions that hold the tensions of the rule.
+    pub held: HeldTensions,
+    /// Distances from the further conditions that could hold them, see [`HeldTensions::of`].
+    pub distances: Vec<f64>,
 }
 
 impl<'a> AlongPath<'a> {
@@ -100,12 +95,8 @@ impl<'a> AlongPath<'a> {
             Ok(rates) => (self.rates(point, &rates), None),
             Err(reason) => (self.differences(point)?, Some(reason)),
         };
-        let margin =
-            |(i, cable): (usize, &CableState)| TensionRange::of(&self.loaded, i, &cable.chord_w()).margin(cable);
-        let margins: Vec<TensionMargin> = equilibrium.cables.iter().enumerate().map(margin).collect();
-        let at_limit = margins.iter().map(limit_of).collect();
-        let from_limits = margins.iter().map(|of| [of.min - of.range.minimum, of.range.maximum - of.max]).collect();
-        Ok(InMotion { point: *point, equilibrium, length_rates, no_exact_rates, at_limit, from_limits })
+        let (held, distances) = HeldTensions::of(&self.loaded, &equilibrium, &self.rule);
+        Ok(InMotion { point: *point, equilibrium, length_rates, no_exact_rates, held, distances })
     }
 
     /// Robot with the loads of the motion at the last time.
@@ -162,10 +153,10 @@ impl<'a> AlongPath<'a> {
             *rate += by_load.dot(&load_rate);
         }
         if self.rope_inertia {
-            let [before, after] = [-DIFFERENCE, DIFFERENCE].map(|time| point.shifted(time));
+            let [before, after] = [-RATE_DIFFERENCE, RATE_DIFFERENCE].map(|time| point.shifted(time));
             let rope_rate = |i| {
                 let of = |point| rope_inertia(self.at_rest, i, point);
-                (of(&after) - of(&before)) / (2.0 * DIFFERENCE)
+                (of(&after) - of(&before)) / (2.0 * RATE_DIFFERENCE)
             };
             let rope_rates: Vec<Vec3> = (0..self.loaded.cables.len()).map(rope_rate).collect();
             for (rate, by_rope_load) in found.iter_mut().zip(&rates.by_rope_load) {
@@ -178,34 +169,24 @@ impl<'a> AlongPath<'a> {
     /// Rates of the lengths as differences over a short time; those of the smoother side if the tensions jump on the
     /// other.
     fn differences(&mut self, point: &PathPoint) -> Result<Vec<f64>, StaticsError> {
-        let [before, here, after] = [-DIFFERENCE, 0.0, DIFFERENCE].map(|time| self.equilibrium(&point.shifted(time)));
+        let [before, here, after] =
+            [-RATE_DIFFERENCE, 0.0, RATE_DIFFERENCE].map(|time| self.equilibrium(&point.shifted(time)));
         self.load(point);
         let [before, here, after] = [before?, here?, after?];
         let rates = |from: &Equilibrium, to: &Equilibrium, time: f64| -> Vec<f64> {
             let pairs = from.cables.iter().zip(&to.cables);
             pairs.map(|(from, to)| (to.unstrained_length - from.unstrained_length) / time).collect()
         };
-        let [backward, forward] = [rates(&before, &here, DIFFERENCE), rates(&here, &after, DIFFERENCE)];
+        let [backward, forward] = [rates(&before, &here, RATE_DIFFERENCE), rates(&here, &after, RATE_DIFFERENCE)];
         let size = |of: &[f64]| of.iter().fold(0.0, |most: f64, rate| most.max(rate.abs()));
         let difference = backward.iter().zip(&forward).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
         Ok(if difference <= JUMP * size(&backward).min(size(&forward)).max(MIN_JUMP) {
-            rates(&before, &after, 2.0 * DIFFERENCE)
+            rates(&before, &after, 2.0 * RATE_DIFFERENCE)
         } else if size(&backward) < size(&forward) {
             backward
         } else {
             forward
         })
-    }
-}
-
-/// Limit that the tensions of a cable have reached.
-fn limit_of(margin: &TensionMargin) -> Option<Limit> {
-    if margin.max >= margin.range.maximum * (1.0 - AT_LIMIT) {
-        Some(Limit::Maximum)
-    } else if margin.min <= margin.range.minimum * (1.0 + AT_LIMIT) {
-        Some(Limit::Minimum)
-    } else {
-        None
     }
 }
 

@@ -130,7 +130,8 @@ rows! {
         /// Name of the number.
         pub what: &'static str;
         /// Largest beside the jumps where the number has no bound; absent where rates jump because tensions reach
-        /// limits, near which they change too fast for a number that does not depend on the rows.
+        /// limits, or other conditions hold them, near which they change too fast for a number that does not depend on
+        /// the rows.
         pub value: Option<f64>;
         pub unit: &'static str;
         pub cable: String;
@@ -416,7 +417,7 @@ fn extremes(planned: &Planned, samples: &MotionSamples) -> Vec<Extreme> {
         let (k, i, value) = each.max_by(|a, b| a.2.total_cmp(&b.2))?;
         Some(Extreme {
             what,
-            value: (!told::jumps_at_limits(samples, what)).then_some(value.abs()),
+            value: (!told::jumps_at_kinks(samples, what)).then_some(value.abs()),
             unit,
             cable: robot.cables[i].name.clone(),
             t_s: samples.times[k],

@@ -13,10 +13,10 @@ pub(crate) use wind::robots_under_required_loads;
 use super::equilibrium::Equilibrium;
 use super::error::StaticsError;
 use super::exit_points;
-use super::limits::{LimitViolation, TensionRange};
+use super::limits::LimitViolation;
 use super::model::StaticModel;
 use super::solve::inverse;
-use super::tension::{TensionRule, cables_at, with_weight};
+use super::tension::{TensionRule, cables_at, tension_margins, with_weight};
 use super::wrench_set::{AvailableWrenches, BulgeSearch, CableAtPose, Facet};
 use crate::math::Vec6;
 use crate::platform::{Coordinates, load_wrench, wrench_of};
@@ -258,10 +258,7 @@ fn with_lightest_payload<'a>(robot: &'a Robot, pose: &Pose) -> Cow<'a, Robot> {
 
 /// True if no tension of an equilibrium is beyond its limits, for a search that ends at one.
 fn keeps_limits(robot: &Robot, rest: &Equilibrium) -> bool {
-    rest.cables
-        .iter()
-        .enumerate()
-        .all(|(i, cable)| TensionRange::of(robot, i, &cable.chord_w()).margin(cable).distance() >= 0.0)
+    tension_margins(robot, rest).iter().all(|margin| margin.distance() >= 0.0)
 }
 
 /// Equilibrium whose tensions are within their limits, but for [`BEYOND`].
@@ -271,8 +268,7 @@ fn keeps_limits(robot: &Robot, rest: &Equilibrium) -> bool {
 fn within_limits(robot: &Robot, rest: Equilibrium) -> Result<Equilibrium, StaticsError> {
     let none = Vec::new;
     let mut miss = LimitViolation { by: 0.0, minimum_of: none(), maximum_of: none(), obstacle: None, missing: None };
-    for (i, cable) in rest.cables.iter().enumerate() {
-        let margin = TensionRange::of(robot, i, &cable.chord_w()).margin(cable);
+    for (i, margin) in tension_margins(robot, &rest).iter().enumerate() {
         let distance = margin.distance();
         if distance >= -BEYOND * margin.max.max(margin.range.minimum) {
             continue;

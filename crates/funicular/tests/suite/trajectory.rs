@@ -32,7 +32,7 @@ fn check_rates(robot: &Robot, around: &Pose, reach: f64, rule: &TensionRule, rop
         let (time, step) = (0.3 + 0.29 * f64::from(k), 2e-4);
         let [before, here, after] = [-step, 0.0, step].map(|by| along.at(&path.at(time + by)).unwrap());
         assert_eq!(here.no_exact_rates, None);
-        if before.at_limit != here.at_limit || after.at_limit != here.at_limit {
+        if !before.held.are_alike(&here.held) || !after.held.are_alike(&here.held) {
             continue;
         }
         checked += 1;
@@ -136,10 +136,10 @@ fn limits_that_are_reached_are_told() {
     let minimum = 1.002 * least_of(&free).into_iter().fold(f64::INFINITY, f64::min);
     let limits = funicular::robot::TensionLimits { minimum: Some(minimum), maximum: Some(5000.0) };
     let found = at(&robot.with_tension_limits(limits));
-    for (at_limit, least) in found.at_limit.iter().zip(least_of(&found)) {
+    for (at_limit, least) in found.held.at_limit.iter().zip(least_of(&found)) {
         assert_eq!(*at_limit == Some(Limit::Minimum), least < minimum * (1.0 + 1e-6), "{least} {minimum}");
     }
-    assert!(found.at_limit.contains(&Some(Limit::Minimum)) && !free.at_limit.contains(&Some(Limit::Minimum)));
+    assert!(found.held.at_limit.contains(&Some(Limit::Minimum)) && !free.held.at_limit.contains(&Some(Limit::Minimum)));
 }
 
 #[test]

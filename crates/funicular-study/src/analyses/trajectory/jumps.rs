@@ -9,7 +9,7 @@ use anyhow::Result;
 use funicular::path::{PathCorner, Side};
 use funicular::robot::Robot;
 use funicular::statics::{Limit, TensionRule};
-use funicular::trajectory::{AlongPath, InMotion};
+use funicular::trajectory::{AlongPath, InMotion, RATE_DIFFERENCE};
 
 /// Number of halvings of the time between two samples in which a tension reaches a limit.
 const HALVINGS: usize = 20;
@@ -22,11 +22,11 @@ pub(super) const MAX_CHANGES: usize = 100;
 /// One that is reached for less than an eighth of the time changes the rates by little.
 const PROBES: [f64; 7] = [0.5, 0.25, 0.75, 0.375, 0.625, 0.125, 0.875];
 
-/// Multiple of the last change of a tension by which the next one may be larger: a parabola has up to 3 between samples
-/// of equal distance about its end.
+/// Multiple of the last change of a distance by which the next one may be larger: a parabola has up to 3 between
+/// samples of equal distance about its end.
 const NEXT_CHANGE: f64 = 3.0;
 
-/// Part of the time between two samples that is too short to tell how a tension goes on.
+/// Part of the time between two samples that is too short to tell how a distance goes on.
 const SHORT: f64 = 0.01;
 
 /// Jump of a rate [m/s] and of a length [m] that counts: within the period of a servo, 1 ms, the first is 0.01 m/s² and
@@ -37,6 +37,13 @@ const MIN_LENGTH: f64 = 1e-8;
 /// Difference between the change of a length and the integral of its rate from which on a jump is looked for [m]: one
 /// of 1 N in 10 m of rope with 1 MN is 10 µm.
 const MIN_WAY: f64 = 1e-6;
+
+/// Distance from a kink at which differences tell the rates on its side, over half the time between their ends.
+const BESIDE: f64 = 1.5;
+
+/// Least jump of rates that are differences [m/s], whose noise is 3e-4, and multiple of their change beside it.
+const MIN_BEND: f64 = 3e-3;
+const STEEPER: f64 = 3.0;
 
 /// Largest number of jumps of a rule that are looked for inside each other.
 const MAX_DEPTH: usize = 4;
@@ -65,6 +72,9 @@ pub(super) enum JumpCause {
     Limits(Vec<(usize, Limit, bool)>),
     /// Rule of tensions goes over to other tensions.
     Rule,
+    /// Other conditions hold the tensions of a rule, none of them a limit: other margins are the smallest, or
+    /// eigenvalues of the stiffness meet.
+    Conditions,
 }
 
 impl LengthJump {
@@ -97,9 +107,14 @@ impl LengthJump {
         sample == self.before || sample == self.before + 1
     }
 
+    /// True if lengths go on, because only the conditions change that hold the tensions.
+    pub(super) fn is_kink(&self) -> bool {
+        matches!(self.cause, JumpCause::Limits(_) | JumpCause::Conditions)
+    }
+
     /// True if the length of a cable jumps.
     pub(super) fn has_length_jump(&self, cable: usize) -> bool {
-        !matches!(self.cause, JumpCause::Limits(_)) && self.lengths[cable] > MIN_LENGTH
+        !self.is_kink() && self.lengths[cable] > MIN_LENGTH
     }
 
     /// True if the rate of a cable has no bound, or jumps: its acceleration has none then.
@@ -128,6 +143,10 @@ impl LengthJump {
             JumpCause::Path(2) => "the acceleration of the platform jumps".to_owned(),
             JumpCause::Path(_) => "the jerk of the platform jumps".to_owned(),
             JumpCause::Rule => format!("the rule `{}` jumps to other tensions", planned.rule.name()),
+            JumpCause::Conditions => match &planned.rule {
+                TensionRule::Stiffest => "stiffnesses meet or part under the rule `stiffest`".to_owned(),
+                rule => format!("other margins become the smallest under the rule `{}`", rule.name()),
+            },
             JumpCause::Limits(changes) => {
                 let (cable, limit, reached) = changes[0];
                 format!(
@@ -185,8 +204,13 @@ pub(super) fn between(
         return Ok(Vec::new());
     }
 
-    let Some(inside) = reached_between(along, planned, before.last(), [last, next])? else {
-        return of_changes(along, planned, last, next);
+    let comes_near = may_change(before.last(), [last, next]);
+    let Some(inside) = reached_between(along, planned, comes_near, [last, next])? else {
+        let mut samples = of_changes(along, planned, last, next)?;
+        if samples.is_empty() && comes_near == Some(true) && next.1.no_exact_rates.is_some() {
+            samples = bent_between(along, planned, [last, next])?;
+        }
+        return Ok(samples);
     };
     let mut samples = of_changes(along, planned, last, &inside)?;
     samples.push((inside.clone(), None));
@@ -194,40 +218,82 @@ pub(super) fn between(
     Ok(samples)
 }
 
-/// Sample between two at which a tension has reached a limit that it has at neither of them, or has left one; `None` if
-/// no tension comes so near, as their changes since the sample before tell.
+/// True if other conditions come so near that they may hold the tensions for a moment between two samples, as the changes
+/// since the sample before tell; `None` without that sample.
+fn may_change(before: Option<&Sample>, [last, next]: [&Sample; 2]) -> Option<bool> {
+    let whole = next.0.time - last.0.time;
+    // Both sides of a jump tell no change, and the path bends at its corners.
+    let before = before.filter(|of| of.0.phase == last.0.phase && last.0.time - of.0.time > SHORT * whole)?;
+    let times = whole / (last.0.time - before.0.time);
+    let mut pairs = before.1.distances.iter().zip(&last.1.distances);
+    let is_near = |(before, last): (&f64, &f64)| *last < NEXT_CHANGE * times * (before - last);
+    Some(!before.1.held.are_alike(&last.1.held) || pairs.any(is_near))
+}
+
+/// Sample between two at which other conditions hold the tensions than at both of them: a limit is reached and left, say.
+/// `None` if there is none.
 fn reached_between(
     along: &mut AlongPath,
     planned: &Planned,
-    before: Option<&Sample>,
+    comes_near: Option<bool>,
     [last, next]: [&Sample; 2],
 ) -> Result<Option<Sample>> {
-    if last.1.at_limit != next.1.at_limit {
+    if !last.1.held.are_alike(&next.1.held) {
         return Ok(None);
     }
 
     let whole = next.0.time - last.0.time;
-    // Both sides of a jump tell no change, and the path bends at its corners.
-    let before = before.filter(|of| of.0.phase == last.0.phase && last.0.time - of.0.time > SHORT * whole);
-    let comes_near = |before: &Sample, i: usize| {
-        let times = whole / (last.0.time - before.0.time);
-        let distances = before.1.from_limits[i].iter().zip(last.1.from_limits[i]);
-        distances.into_iter().any(|(before, last)| last < NEXT_CHANGE * times * (before - last))
-    };
-    let free = || (0..last.1.at_limit.len()).filter(|i| last.1.at_limit[*i].is_none());
-    let probes = match before {
-        Some(before) if free().any(|i| comes_near(before, i)) => &PROBES[..],
-        Some(_) => &[],
+    let probes = match comes_near {
+        Some(true) => &PROBES[..],
+        Some(false) => &[],
         None => &PROBES[..1],
     };
     for part in probes {
         let time = last.0.time + part * whole;
         let at = (Instant { time, is_row: false, ..last.0 }, in_motion(along, planned, time, Side::After)?);
-        if at.1.at_limit != last.1.at_limit {
+        if !at.1.held.are_alike(&last.1.held) {
             return Ok(Some(at));
         }
     }
     Ok(None)
+}
+
+/// Samples on both sides of a bend of tensions whose rates are differences: stiffnesses that touch for a moment are the
+/// same ones before and after.
+fn bent_between(
+    along: &mut AlongPath,
+    planned: &Planned,
+    [last, next]: [&Sample; 2],
+) -> Result<Vec<(Sample, Option<LengthJump>)>> {
+    let mut at = |time: f64| -> Result<Sample> {
+        let instant = Instant { time, is_row: false, side: Side::After, ..last.0 };
+        Ok((instant, in_motion(along, planned, time, Side::After)?))
+    };
+    let (mut from, mut to) = (last.clone(), next.clone());
+    let beside = BESIDE * RATE_DIFFERENCE;
+    while to.0.time - from.0.time > 2.0 * beside {
+        let middle = at(0.5 * (from.0.time + to.0.time))?;
+        if rate_change(&from, &middle) > rate_change(&middle, &to) { to = middle } else { from = middle }
+    }
+
+    let time = 0.5 * (from.0.time + to.0.time);
+    let ends = [time - 3.0 * beside, time - beside, time + beside, time + 3.0 * beside];
+    if ends[0] <= last.0.time || ends[3] >= next.0.time {
+        return Ok(Vec::new());
+    }
+    let [before, from, to, after] = [at(ends[0])?, at(ends[1])?, at(ends[2])?, at(ends[3])?];
+    let smooth = rate_change(&before, &from).max(rate_change(&to, &after));
+    if rate_change(&from, &to) < MIN_BEND + STEEPER * smooth {
+        return Ok(Vec::new());
+    }
+    let jump = LengthJump::of(&from.1, &to.1, time, JumpCause::Conditions, 0);
+    Ok(vec![(from, Some(jump)), (to, None)])
+}
+
+/// Largest change of a rate between two samples [m/s].
+fn rate_change(a: &Sample, b: &Sample) -> f64 {
+    let pairs = a.1.length_rates.iter().zip(&b.1.length_rates);
+    pairs.map(|(a, b)| (b - a).abs()).fold(0.0, f64::max)
 }
 
 /// Samples on both sides of the jumps between two samples, as [`between`] returns them.
@@ -243,19 +309,23 @@ fn of_changes(
     }
     let mut last = samples.last().map_or_else(|| last.clone(), |(sample, _): &(Sample, _)| sample.clone());
     for _ in 0..MAX_CHANGES_BETWEEN {
-        if last.1.at_limit == next.1.at_limit {
+        if last.1.held.are_alike(&next.1.held) {
             break;
         }
         let (mut from, mut to) = (last.clone(), next.clone());
         for _ in 0..HALVINGS {
             let time = 0.5 * (from.0.time + to.0.time);
             let at = (Instant { time, is_row: false, ..from.0 }, in_motion(along, planned, time, Side::After)?);
-            if at.1.at_limit == last.1.at_limit { from = at } else { to = at }
+            if at.1.held.are_alike(&from.1.held) { from = at } else { to = at }
+        }
+        if from.1.held.are_alike(&to.1.held) {
+            break;
         }
         let limits = changes(&from.1, &to.1);
+        let cause = if limits.is_empty() { JumpCause::Conditions } else { JumpCause::Limits(limits) };
         let told = to.clone();
         let (from, to) = around_kink(along, planned, (&last, next), (from, to))?;
-        let jump = LengthJump::of(&from.1, &to.1, to.0.time, JumpCause::Limits(limits), 0);
+        let jump = LengthJump::of(&from.1, &to.1, to.0.time, cause, 0);
         // A limit that is left counts as reached for a moment after the kink.
         last = if told.0.time > to.0.time { told } else { to.clone() };
         samples.push((from, Some(jump)));
@@ -272,16 +342,19 @@ fn around_kink(
     (first, end): (&Sample, &Sample),
     near: (Sample, Sample),
 ) -> Result<(Sample, Sample)> {
-    let change = |a: &Sample, b: &Sample| {
-        let pairs = a.1.length_rates.iter().zip(&b.1.length_rates);
-        pairs.map(|(a, b)| (b - a).abs()).fold(0.0, f64::max)
-    };
     let mut at = |time: f64| -> Result<Sample> {
         // At the end of a phase the motion before it counts.
         let side = if time < end.0.time { Side::After } else { end.0.side };
         let instant = Instant { time, side, is_row: false, ..first.0 };
         Ok((instant, in_motion(along, planned, time, side)?))
     };
+
+    // Rates that are differences have to lie on their side.
+    if near.0.1.no_exact_rates.is_some() || near.1.1.no_exact_rates.is_some() {
+        let beside = BESIDE * RATE_DIFFERENCE;
+        let ends = [(near.0.0.time - beside).max(first.0.time), (near.1.0.time + beside).min(end.0.time)];
+        return Ok((at(ends[0])?, at(ends[1])?));
+    }
 
     // The rates of a smooth motion change in proportion to the time, those at a kink by as much in less of it.
     let whole = end.0.time - first.0.time;
@@ -290,7 +363,7 @@ fn around_kink(
         let beside = whole * 0.5_f64.powi(i32::try_from(halvings).unwrap_or(i32::MAX));
         let ends = [(near.0.0.time - beside).max(first.0.time), (near.1.0.time + beside).min(end.0.time)];
         let (from, to) = (at(ends[0])?, at(ends[1])?);
-        let steepness = change(&from, &to) / (ends[1] - ends[0]);
+        let steepness = rate_change(&from, &to) / (ends[1] - ends[0]);
         if best.as_ref().is_none_or(|(last, ..)| steepness > *last) {
             best = Some((steepness, from, to));
         }
@@ -301,7 +374,7 @@ fn around_kink(
             break;
         }
         let middle = at(0.5 * (from.0.time + to.0.time))?;
-        if change(&from, &middle) > change(&middle, &to) { to = middle } else { from = middle }
+        if rate_change(&from, &middle) > rate_change(&middle, &to) { to = middle } else { from = middle }
     }
     Ok((from, to))
 }
@@ -359,7 +432,7 @@ fn fits(last: &Sample, next: &Sample) -> bool {
 
 /// Limits that are left and reached between two samples.
 fn changes(before: &InMotion, after: &InMotion) -> Vec<(usize, Limit, bool)> {
-    let pairs = before.at_limit.iter().zip(&after.at_limit).enumerate();
+    let pairs = before.held.at_limit.iter().zip(&after.held.at_limit).enumerate();
     let each = pairs
         .filter(|(_, (before, after))| before != after)
         .flat_map(|(i, (before, after))| [before.map(|limit| (i, limit, false)), after.map(|limit| (i, limit, true))]);

@@ -102,11 +102,11 @@ impl MotionSamples {
         let lengths: Vec<Vec<f64>> = motions.iter().map(lengths).collect();
         let rates: Vec<Vec<f64>> = motions.iter().map(|motion| motion.length_rates.clone()).collect();
         let is_smooth = |k: usize| {
-            // Every change of limits is a jump, up to their largest number.
+            // Every change of what holds the tensions is a jump, up to their largest number.
             let are_known = !planned.judged.choice || jumps.len() < MAX_CHANGES;
-            let same_limits = are_known || motions[k].at_limit == motions[k + 1].at_limit;
+            let held_alike = are_known || motions[k].held.are_alike(&motions[k + 1].held);
             let jumps = || jumps.iter().any(|jump| jump.before == k);
-            instants[k].phase == instants[k + 1].phase && same_limits && !jumps()
+            instants[k].phase == instants[k + 1].phase && held_alike && !jumps()
         };
         let mut accelerations = length_accelerations(&times, &lengths, &rates, is_smooth);
         for (row, _) in accelerations.iter_mut().zip(&instants).filter(|(_, instant)| instant.is_rest) {

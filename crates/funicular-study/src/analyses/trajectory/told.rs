@@ -56,10 +56,10 @@ pub(super) fn no_bound(planned: &Planned, samples: &MotionSamples, what: &str) -
     Some(format!("because {} ({})", worst.because(planned), worst.told(planned.robot)))
 }
 
-/// True if the rates of lengths jump where tensions reach limits, so that the acceleration has no number.
-pub(super) fn jumps_at_limits(samples: &MotionSamples, what: &str) -> bool {
-    let is_at_limit = |jump: &LengthJump| matches!(jump.cause, JumpCause::Limits(_)) && jump.rate_jumps().is_some();
-    what == ACCELERATION && samples.jumps.iter().any(is_at_limit)
+/// True if the rates of lengths jump where other conditions hold the tensions, so that the acceleration has no number.
+pub(super) fn jumps_at_kinks(samples: &MotionSamples, what: &str) -> bool {
+    let jumps = |jump: &LengthJump| jump.is_kink() && jump.rate_jumps().is_some();
+    what == ACCELERATION && samples.jumps.iter().any(jumps)
 }
 
 /// Warning about a rule that goes over to other tensions on the way.
