@@ -62,7 +62,8 @@ def wheel_faults(path: Path, version: str, platform: str) -> list[str]:
         names = {name for name in archive.namelist() if not name.endswith("/")}
         files = {name: archive.read(name) for name in names if name.startswith(info)}
     wanted = python_files() | {"funicular/_funicular.abi3.so"}
-    wanted |= {f"{info}/{name}" for name in ("METADATA", "RECORD", "WHEEL", *(f"licenses/{name}" for name in licences))}
+    described = ("METADATA", "RECORD", "WHEEL", "entry_points.txt")
+    wanted |= {f"{info}/{name}" for name in (*described, *(f"licenses/{name}" for name in licences))}
     # List of the crates in the compiled part, which maturin writes.
     stray = {name for name in names - wanted if not name.startswith(f"{info}/sboms/")}
 

@@ -12,6 +12,7 @@ from sphinx.cmd.build import main as sphinx
 
 import gallery
 import links
+import machines
 import messages
 import notebooks
 import pages
@@ -58,13 +59,14 @@ FOR_ALL = [
 
 
 def made_reachable(site: Path) -> None:
-    """Gives headings their level, and lets keys scroll wide code and tables."""
+    """Gives headings their level, lets keys scroll wide code and tables, and names the Markdown of each page."""
     for page in site.rglob("*.html"):
         if "_static" in page.relative_to(site).parts:
             continue
         text = page.read_text(encoding="utf-8")
         for before, after in FOR_ALL:
             text = text.replace(before, after)
+        text = machines.linked(page, text)
         page.write_text(text, encoding="utf-8")
 
 
@@ -93,6 +95,7 @@ def main() -> int:
     print(f"sources of the site after {time.perf_counter() - started:.0f} s", flush=True)
     if sphinx(["-q", "-W", "--keep-going", "-c", str(HERE), "-b", "html", str(sources), str(site)]) != 0:
         return 1
+    machines.write(program, sources, site)
     made_reachable(site)
     copied(target, site)
     dead = links.dead(site)

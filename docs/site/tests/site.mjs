@@ -4,7 +4,7 @@
 
 import assert from "node:assert/strict";
 import { spawnSync } from "node:child_process";
-import { existsSync, mkdirSync, readFileSync } from "node:fs";
+import { existsSync, mkdirSync, readFileSync, readdirSync } from "node:fs";
 import { join, resolve } from "node:path";
 import { after, before, test } from "node:test";
 import { pathToFileURL } from "node:url";
@@ -233,6 +233,36 @@ test("a message that is pasted leads to its cause and cure", async () => {
     assert.equal(await page.locator(".message-answers h3").count(), 0);
     assert.match(page.url(), /#a-cable-is-slack$/);
     await closed(page);
+  }
+});
+
+test("programs find every page as Markdown, and the schemas of the program", () => {
+  const text = (name) => readFileSync(join(site, name), "utf8");
+  const short = text("llms.txt");
+  const full = text("llms-full.txt");
+  assert.ok(short.startsWith("# funicular\n\n> ") && full.startsWith("# funicular\n\n> "));
+
+  const links = [...short.matchAll(/^- \[([^\]]+)\]\(([^)]+)\): (.*)$/gm)];
+  const names = links.map(([, , name]) => name);
+  assert.equal(new Set(names).size, names.length, "each page once");
+  for (const [, title, name, about] of links.filter(([, , name]) => name.endsWith(".md"))) {
+    const page = text(name);
+    assert.ok(title.length > 0 && about.length < 700 && !about.includes("```"), `${name}: ${about}`);
+    assert.ok(!/\{(math|toctree|raw)\}/.test(page), `${name} has words of the builder`);
+    assert.ok(full.includes(page.trim()), name);
+  }
+  // Pages with a source; the index of the search and notebooks have none.
+  const pages = readdirSync(site, { recursive: true }).filter((name) => /\.html$/.test(name) && !name.startsWith("_static"));
+  const without = pages.filter((name) => !existsSync(join(site, name.replace(/html$/, "md"))));
+  assert.deepEqual(without.filter((name) => !/^(notebooks\/|genindex|search)/.test(name)), []);
+  for (const name of pages.filter((one) => !without.includes(one) && one !== "index.html")) {
+    assert.ok(names.includes(name.replace(/html$/, "md")), `${name} is in llms.txt`);
+    assert.match(text(name), /<link rel="alternate" type="text\/markdown"/);
+  }
+  for (const of of ["robot-file", "request", "results"]) {
+    const { stdout } = spawnSync(program, ["schema", "--of", of], { encoding: "utf8", maxBuffer: 2 ** 26 });
+    assert.deepEqual(JSON.parse(text(`schema/${of}.json`)), JSON.parse(stdout), of);
+    assert.ok(names.includes(`schema/${of}.json`));
   }
 });
 
