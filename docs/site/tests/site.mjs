@@ -98,6 +98,40 @@ test("search shows first where a reader has to look, with an excerpt", async () 
   await closed(page);
 });
 
+/** Plain questions of newcomers, with pages of which one has to be among the first two. */
+const QUESTIONS = {
+  jupyter: /^jupyter/,
+  cite: /^cite/,
+  "install windows": /^install/,
+  "how do I install it on a mac": /^install/,
+  "google colab": /^jupyter/,
+  bibtex: /^cite/,
+  "cable lengths for a path CSV": /trajectory|simulation|export|commands/,
+  "how exact is the tension in simulate": /^simulation|^validation/,
+  "what is the heaviest load my robot can carry": /^workspace|payload|loads/,
+  "what happens if a cable breaks": /^simulation|simulate/,
+  "can I use it in gazebo": /^export|^import/,
+  "run on slurm": /^tutorials\/cluster|^sweeps/,
+  "how strong must the motors be": /^workspace|winches|speeds/,
+  "do the cables collide": /^workspace|clearance/,
+  "how accurate must the anchors be": /^uncertainty|^calibration|^tutorials\/anchors/,
+  "why does the camera shake": /settle|gust|first-result|measuring|commands|quick-start/,
+  "use with chatgpt": /^python/,
+  "excel table of tensions": /commands|export|conventions|sweeps|robot-file|statics/,
+  "my robot from matlab": /^matlab|^coming-from/,
+  "where are the pulleys of my machine": /^pulleys|^tutorials\/anchors|^calibration/,
+  "wind on a stadium camera": /gust|robots|commands|gallery|theory/,
+};
+
+test("search answers plain questions among its first two pages", async () => {
+  const missed = [];
+  for (const [words, wanted] of Object.entries(QUESTIONS)) {
+    const links = await found(words).catch(() => ["nothing"]);
+    if (!links.slice(0, 2).some((link) => wanted.test(link))) missed.push(`${words}: ${links.slice(0, 4).join(" ")}`);
+  }
+  assert.deepEqual(missed, []);
+});
+
 test("search finds what a reader looks for, from files alone", async () => {
   const negative = await found("negative tension");
   assert.ok(
