@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Writes codemeta.json and .zenodo.json from CITATION.cff and the descriptions of the crates, so that one file is kept by
-hand. With `--check` it writes nothing and fails if they differ from it; both need ruamel.yaml. With `--publish` it fails
-while places that only the authors can fill are open: names, affiliations, date, DOI, how the work was made.
+"""Writes codemeta.json and .zenodo.json from CITATION.cff and the descriptions of the crates, so that one file is kept
+by hand. With `--check` it writes nothing and fails if they differ from it; both need ruamel.yaml. With `--publish` it
+fails while places that only the authors can fill are open: names, affiliations, date, DOI, how the work was made.
 
 Usage: scripts/citation.py [--check | --publish]"""
 

@@ -1,5 +1,5 @@
-"""Files of the site for programs that read it: each page as Markdown beside it, `llms.txt` and `llms-full.txt`, and the JSON
-Schemas of robot files, requests and results in `schema/`."""
+"""Files of the site for programs that read it: each page as Markdown beside it, `llms.txt` and `llms-full.txt`, and the
+JSON Schemas of robot files, requests and results in `schema/`."""
 
 import re
 from pathlib import Path, PurePosixPath
@@ -14,30 +14,34 @@ SCHEMAS = {
 }
 
 SUMMARY = (
-    "funicular computes cable-driven parallel robots whose cables sag, stretch and vibrate: equilibrium, stiffness, natural "
-    "frequencies, responses, workspaces, simulation, identification, design. It is a program, a Python package, a WebAssembly "
-    "module and a Rust library. Units are SI units, and every name of a value ends with its unit."
+    "funicular computes cable-driven parallel robots whose cables sag, stretch and vibrate: equilibrium, stiffness, "
+    "natural frequencies, responses, workspaces, simulation, identification, design. It is a program, a Python package, "
+    "a WebAssembly module and a Rust library. Units are SI units, and every name of a value ends with its unit."
 )
 HOW = (
-    "`funicular COMMAND ROBOT.toml --key value` prints text; `--format json` prints what `schema/results.json` describes. "
+    "`funicular COMMAND ROBOT.toml --key value` prints text; `--format json` prints what `schema/results.json` "
+    "describes. "
     "`funicular request FILE.json` runs a request that `schema/request.json` describes. "
     "`funicular-mcp`, a script of the Python package with the extra `mcp`, offers the same commands as tools. "
     "Links below lead to Markdown; the same pages are there with the ending `.html`."
 )
 
-_BLOCK = re.compile(r"^(?P<ticks>```+|:::+)\{(?P<name>[\w-]+)\}[^\n]*\n(?P<body>.*?)^(?P=ticks)[ \t]*\n?", re.DOTALL | re.MULTILINE)
+_BLOCK = re.compile(
+    r"^(?P<ticks>```+|:::+)\{(?P<name>[\w-]+)\}[^\n]*\n(?P<body>.*?)^(?P=ticks)[ \t]*\n?", re.DOTALL | re.MULTILINE
+)
 _FENCE = re.compile(r"^```[^\n]*\n.*?^```[ \t]*$", re.DOTALL | re.MULTILINE)
 _TITLE = re.compile(r"^# +(.+?) *$", re.MULTILINE)
 
 
 def plain(text: str) -> str:
-    """Text of a page without the words of the builder of the site: mathematics as GitHub writes it, no lists of pages."""
+    """Text of a page without the words of the site's builder: mathematics as GitHub writes it, no lists of pages."""
 
     def block(found: re.Match[str]) -> str:
         if found["name"] == "math":
             return f"```math\n{found['body']}```\n"
         # Cards and pictures of the site: their text stays, their options do not.
-        return "" if found["name"] in ("toctree", "raw") else re.sub(r"^:\w+:.*\n", "", found["body"], flags=re.MULTILINE)
+        is_left_out = found["name"] in ("toctree", "raw")
+        return "" if is_left_out else re.sub(r"^:\w+:.*\n", "", found["body"], flags=re.MULTILINE)
 
     before = None
     while before != text:

@@ -1,5 +1,5 @@
-"""Examples that run in the pages of the site: the program as a WebAssembly module, where scripts/web-program has built it,
-with the files of the documents."""
+"""Examples that run in the pages of the site: the program as a WebAssembly module, where scripts/web-program has built
+it, with the files of the documents."""
 
 import base64
 import gzip
@@ -26,7 +26,7 @@ NOT_HERE = {
     "fmu3": "a unit for co-simulation needs a compiler",
 }
 NO_COMMANDS = {
-    "live": "the live page is the page [Drag the platform] of this site".replace("[", "“").replace("]", "”"),
+    "live": "the live page is the page “Drag the platform” of this site",
     "validate": "all comparisons together take minutes in a browser",
     "paper": "all comparisons of the paper take minutes in a browser",
 }
@@ -61,10 +61,12 @@ def write(target: Path, site: Path) -> bool:
     folder = site / "_static/run"
     folder.mkdir(parents=True, exist_ok=True)
     loader = (ROOT / "crates/funicular-wasm/web/program.js").read_text(encoding="utf-8")
+    worker = (HERE / "static/run_worker.js").read_text(encoding="utf-8")
     # A worker from a text cannot import: the loader comes before it.
-    code = re.sub(r"^export ", "", loader, flags=re.MULTILINE) + (HERE / "static/run_worker.js").read_text(encoding="utf-8")
+    code = re.sub(r"^export ", "", loader, flags=re.MULTILINE) + worker
     texts = files()
-    data = {"wasm": base64.b64encode(gzip.compress(module.read_bytes(), mtime=0)).decode(), "files": texts, "code": code}
+    packed = base64.b64encode(gzip.compress(module.read_bytes(), mtime=0)).decode()
+    data = {"wasm": packed, "files": texts, "code": code}
     (folder / "program_data.js").write_text(f"const PROGRAM_DATA = {json.dumps(data)};\n", encoding="utf-8")
     known = {"files": sorted(texts), "writes": writing(), "endings": NOT_HERE, "commands": NO_COMMANDS}
     about = f"const RUNNABLE = {json.dumps(known)};\n"

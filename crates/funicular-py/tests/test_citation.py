@@ -26,7 +26,12 @@ def test_the_files_are_those_of_the_citation_and_name_persons(citation: ModuleTy
     texts = citation.texts()
     assert texts == {name: (ROOT / name).read_text() for name in ("codemeta.json", ".zenodo.json")}
     authors = [
-        {"given-names": "Ada", "family-names": "Rope", "orcid": "https://orcid.org/0000-0001-2345-6789", "affiliation": "A"},
+        {
+            "given-names": "Ada",
+            "family-names": "Rope",
+            "orcid": "https://orcid.org/0000-0001-2345-6789",
+            "affiliation": "A",
+        },
         {"name": "The makers"},
     ]
     person, makers = citation.persons(authors)
@@ -41,7 +46,7 @@ def test_a_release_is_refused_while_places_are_open(citation: ModuleType) -> Non
     marks = PAPER.count(citation.MARK)
     assert (done.returncode == 1) == (marks > 0)
     assert done.stderr.count("paper/paper.md:") == marks
-    filled = "authors:\n  - family-names: Rope\nrepository-code: x\ndate-released: 2030-01-01\ndoi: 10.5281/zenodo.1\n"
+    filled = "authors:\n  - family-names: Rope\nrepository-code: x\ndate-released: 2030-01-01\ndoi: 10.5281/z.1\n"
     assert citation.open_places("# Summary", filled) == []
     assert len(citation.open_places("FILL IN: names", "authors:\n  - name: All\nrepository-code: x\n")) == 4
 

@@ -6,8 +6,9 @@ export type { Requests, Results } from "./schema.js";
 export type Command = keyof Requests;
 
 /** Request of a command; the robot may be given beside it. */
-export type Request<C extends Command = Command> = C extends Command ? Omit<Requests[C], "robot"> &
-  ("robot" extends keyof Requests[C] ? { robot?: Requests[C]["robot"] } : unknown) : never;
+export type Request<C extends Command = Command> = C extends Command
+  ? Omit<Requests[C], "robot"> & ("robot" extends keyof Requests[C] ? { robot?: Requests[C]["robot"] } : unknown)
+  : never;
 
 /** Results of a command, as the program prints them with `--format json`. */
 export type Answer<C extends Command> = C extends keyof Results ? Results[C] : unknown;

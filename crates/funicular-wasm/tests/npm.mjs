@@ -1,5 +1,5 @@
-// The npm package as its user meets it: packed, installed in an empty folder without a network, imported in Node, bundled,
-// and checked by TypeScript. Run by scripts/web. FUNICULAR_WEB: folder with the package `npm`.
+// The npm package as its user meets it: packed, installed in an empty folder without a network, imported in Node,
+// bundled, and checked by TypeScript. Run by scripts/web. FUNICULAR_WEB: folder with the package `npm`.
 
 import assert from "node:assert/strict";
 import { spawnSync } from "node:child_process";
@@ -83,7 +83,14 @@ test("it runs bundled", () => {
   const head = 'import { readFileSync } from "node:fs";\nimport { RequestError, load } from "funicular-cdpr";\n';
   const start = 'import bytes from "funicular-cdpr/funicular.wasm";\nconst funicular = await load(bytes);\n';
   writeFileSync(join(folder, "bundled.js"), head + start + SCRIPT);
-  const how = ["--bundle", "--format=esm", "--platform=node", "--target=node20", "--loader:.wasm=binary", "--outfile=bundle.mjs"];
+  const how = [
+    "--bundle",
+    "--format=esm",
+    "--platform=node",
+    "--target=node20",
+    "--loader:.wasm=binary",
+    "--outfile=bundle.mjs",
+  ];
   succeed(join(tools, "esbuild"), "bundled.js", ...how, "--log-level=warning");
   rmSync(join(folder, "node_modules/funicular-cdpr/funicular.wasm"));
   check(succeed(process.execPath, "bundle.mjs"));
@@ -92,7 +99,10 @@ test("it runs bundled", () => {
 test("TypeScript knows the requests and the results", () => {
   const options = ["--noEmit", "--strict", "--target", "es2022", "--module", "nodenext", "--lib", "es2022,dom"];
   const typed = (code) => {
-    writeFileSync(join(folder, "typed.ts"), `import { start } from "funicular-cdpr";\nconst it = await start();\n${code}`);
+    writeFileSync(
+      join(folder, "typed.ts"),
+      `import { start } from "funicular-cdpr";\nconst it = await start();\n${code}`,
+    );
     return run(join(tools, "tsc"), ...options, "typed.ts");
   };
   const right = typed(`const found = it.answer({ command: "statics", pose: [1, 2, 1.5] }, "");

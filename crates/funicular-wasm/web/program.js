@@ -1,5 +1,5 @@
-// The program funicular in a page, a worker or Node: a command line in; output, messages, exit code and written files out.
-// The files are in memory. No dependencies.
+// The program funicular in a page, a worker or Node: a command line in; output, messages, exit code and written files
+// out. The files are in memory. No dependencies.
 //
 //   const program = await loadProgram(await fetch("program.wasm"), { "robots/own.toml": text });
 //   const { code, output, written } = await program.run(["statics", "robots/own.toml"]);
@@ -193,7 +193,10 @@ class System {
     return {
       args_sizes_get: (count, size) => {
         this.#number(count, this.words.length);
-        return this.#number(size, this.words.reduce((sum, word) => sum + word.length, 0));
+        return this.#number(
+          size,
+          this.words.reduce((sum, word) => sum + word.length, 0),
+        );
       },
       args_get: (pointers, text) => this.#words(this.words, pointers, text),
       environ_sizes_get: (count, size) => this.#number(count, 0) || this.#number(size, 0),
@@ -397,7 +400,8 @@ export class Program {
 
   /**
    * Runs a command line without the name of the program, such as `["statics", "robots/cogiro.toml"]`.
-   * @returns {Promise<{code: number, output: string, stdout: string, stderr: string, written: Record<string, Uint8Array>}>}
+   * @returns {Promise<{code: number, output: string, stdout: string, stderr: string,
+   *   written: Record<string, Uint8Array>}>}
    *   exit code; everything that a terminal shows, in its order; both parts of it; files that this run has written
    */
   async run(words) {

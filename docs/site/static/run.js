@@ -1,11 +1,12 @@
-// Runs the examples of a page in the page: the program as a WebAssembly module, with the files of the documents in memory.
-// Nothing is requested from a network. The site has this script where the program was built for it (runnable.py).
+// Runs the examples of a page in the page: the program as a WebAssembly module, with the files of the documents in
+// memory. Nothing is requested from a network. The site has this script where the program was built (runnable.py).
 
 (() => {
   const FOLDER = document.currentScript.src.replace(/[^/]*$/, "");
   const { files: NAMES, writes: WRITES, endings: NOT_HERE, commands: NO_COMMANDS } = RUNNABLE;
   const known = new Set(NAMES);
-  const FILE = /^[\w./-]+\.(toml|csv|tsv|json|jsonl|uff|unv|xml|yaml|yml|m|mat|dat|stl|txt|sdf|urdf|py|html|svg|pdf|vti|vtk|npz|tex|md|gcode)$/;
+  const ENDINGS = "toml csv tsv json jsonl uff unv xml yaml yml m mat dat stl txt sdf urdf py html svg pdf vti vtk npz tex md";
+  const FILE = new RegExp(`^[\\w./-]+\\.(${ENDINGS.replaceAll(" ", "|")}|nc|gcode)$`);
 
   /** Words of a command line as a shell reads them, and the file of `> FILE`. */
   function words(line) {
@@ -20,7 +21,9 @@
   function linesOf(text, isConsole) {
     const joined = text.replace(/\\\n\s*/g, " ").split("\n");
     const asked = isConsole ? joined.filter((line) => line.startsWith("$ ")).map((line) => line.slice(2)) : joined;
-    return asked.map((line) => line.replace(/\s+#\s.*$/, "").trim()).filter((line) => line !== "" && !line.startsWith("#"));
+    return asked
+      .map((line) => line.replace(/\s+#\s.*$/, "").trim())
+      .filter((line) => line !== "" && !line.startsWith("#"));
   }
 
   /** Why lines cannot run here, or an empty text. */
@@ -57,7 +60,11 @@
         try {
           const bytes = Uint8Array.from(atob(PROGRAM_DATA.wasm), (letter) => letter.charCodeAt(0));
           const unpacked = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"));
-          resolve({ wasm: await new Response(unpacked).arrayBuffer(), files: PROGRAM_DATA.files, code: PROGRAM_DATA.code });
+          resolve({
+            wasm: await new Response(unpacked).arrayBuffer(),
+            files: PROGRAM_DATA.files,
+            code: PROGRAM_DATA.code,
+          });
         } catch (error) {
           reject(error);
         }
@@ -106,9 +113,15 @@
     const list = made("ul", { className: "run-files" });
     for (const [path, bytes] of Object.entries(written)) {
       const ending = path.match(/\.(\w+)$/)?.[1] ?? "";
-      const type = { html: "text/html", svg: "image/svg+xml", pdf: "application/pdf" }[ending] ?? "application/octet-stream";
+      const type =
+        { html: "text/html", svg: "image/svg+xml", pdf: "application/pdf" }[ending] ?? "application/octet-stream";
       const href = URL.createObjectURL(new Blob([bytes], { type }));
-      const item = made("li", {}, made("a", { href, download: path.replace(/.*\//, "") }, path), ` (${bytes.length} bytes)`);
+      const item = made(
+        "li",
+        {},
+        made("a", { href, download: path.replace(/.*\//, "") }, path),
+        ` (${bytes.length} bytes)`,
+      );
       if (ending === "html") {
         const frame = made("iframe", { src: href, title: path, className: "run-page" });
         frame.setAttribute("sandbox", "allow-scripts allow-downloads");
@@ -122,7 +135,12 @@
 
   function begin(block, pre, lines) {
     const before = [...pre.childNodes];
-    const field = made("textarea", { className: "run-lines", spellcheck: false, rows: lines.length, value: lines.join("\n") });
+    const field = made("textarea", {
+      className: "run-lines",
+      spellcheck: false,
+      rows: lines.length,
+      value: lines.join("\n"),
+    });
     field.setAttribute("aria-label", "Command lines");
     const go = made("button", { type: "button" }, "Run");
     const end = made("button", { type: "button", disabled: true }, "Stop");
@@ -188,7 +206,11 @@
     const why = reason(lines);
     if (why !== "") {
       const told = made("p", { className: "run-not" });
-      told.append("Not run in this page: ", ...why.split("`").map((part, i) => (i % 2 ? made("code", {}, part) : part)), ".");
+      told.append(
+        "Not run in this page: ",
+        ...why.split("`").map((part, i) => (i % 2 ? made("code", {}, part) : part)),
+        ".",
+      );
       block.after(told);
       continue;
     }

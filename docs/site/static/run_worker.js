@@ -1,5 +1,5 @@
-// Worker of run.js: program.js stands before this text. The first message has the module and the files, each other one a
-// command line.
+// Worker of run.js: program.js stands before this text. The first message has the module and the files, each other one
+// a command line.
 
 let program = null;
 

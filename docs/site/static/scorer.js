@@ -95,7 +95,9 @@ var Scorer = (() => {
       .filter((word) => !stopwords.has(word.toLowerCase().replace(/[^\p{L}]/gu, "")));
     asked = [...new Set(stemmed(told.join(" ")))].map((stem) => {
       const stems = meanings(stem);
-      const count = all.filter((one) => stems.some((of) => one.inHeading.includes(` ${of} `) || one.inText.includes(` ${of} `)));
+      const count = all.filter((one) =>
+        stems.some((of) => one.inHeading.includes(` ${of} `) || one.inText.includes(` ${of} `)),
+      );
       return { stems, weight: Math.log(1 + all.length / (1 + count.length)) };
     });
     return asked;
@@ -107,7 +109,11 @@ var Scorer = (() => {
     const total = words.reduce((sum, { weight }) => sum + weight, 0);
     const sum = words.reduce((before, { stems, weight }) => {
       const values = stems.map((stem, i) => {
-        const place = section.inHeading.includes(` ${stem} `) ? IN_HEADING : section.inText.includes(` ${stem} `) ? 1 : 0;
+        const place = section.inHeading.includes(` ${stem} `)
+          ? IN_HEADING
+          : section.inText.includes(` ${stem} `)
+            ? 1
+            : 0;
         return place * (i === 0 ? 1 : OTHER_WORD);
       });
       return before + weight * Math.max(...values);

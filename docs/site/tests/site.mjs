@@ -287,9 +287,14 @@ test("programs find every page as Markdown, and the schemas of the program", () 
     assert.ok(full.includes(page.trim()), name);
   }
   // Pages with a source; the index of the search and notebooks have none.
-  const pages = readdirSync(site, { recursive: true }).filter((name) => /\.html$/.test(name) && !name.startsWith("_static"));
+  const pages = readdirSync(site, { recursive: true }).filter(
+    (name) => /\.html$/.test(name) && !name.startsWith("_static"),
+  );
   const without = pages.filter((name) => !existsSync(join(site, name.replace(/html$/, "md"))));
-  assert.deepEqual(without.filter((name) => !/^(notebooks\/|genindex|search)/.test(name)), []);
+  assert.deepEqual(
+    without.filter((name) => !/^(notebooks\/|genindex|search)/.test(name)),
+    [],
+  );
   for (const name of pages.filter((one) => !without.includes(one) && one !== "index.html")) {
     assert.ok(names.includes(name.replace(/html$/, "md")), `${name} is in llms.txt`);
     assert.match(text(name), /<link rel="alternate" type="text\/markdown"/);
@@ -322,7 +327,8 @@ test("the live page runs inside the site where it was built", async () => {
 /** Words of a text; numbers of the module differ by rounding: by one in the last digit, or zero but for rounding. */
 function same(a, b) {
   const words = (text) => text.split(/\s+/).filter(Boolean);
-  const number = (word) => (/^[(\[]?[-+]?\d[\d.]*(e[-+]?\d+)?[,%);.\]]*$/.test(word) ? parseFloat(word.replace(/^[(\[]/, "")) : NaN);
+  const number = (word) =>
+    /^[(\[]?[-+]?\d[\d.]*(e[-+]?\d+)?[,%);.\]]*$/.test(word) ? parseFloat(word.replace(/^[(\[]/, "")) : NaN;
   const digits = (word) => (word.match(/\.(\d+)/)?.[1] ?? "").length;
   const [left, right] = [words(a), words(b)];
   const differ = left.findIndex((word, i) => {
@@ -334,7 +340,8 @@ function same(a, b) {
   });
   if (differ < 0 && left.length === right.length) return "";
   const at = differ < 0 ? Math.min(left.length, right.length) : differ;
-  return `${left.slice(Math.max(0, at - 4), at + 4).join(" ")} in place of ${right.slice(Math.max(0, at - 4), at + 4).join(" ")}`;
+  const around = (all) => all.slice(Math.max(0, at - 4), at + 4).join(" ");
+  return `${around(left)} in place of ${around(right)}`;
 }
 
 /** What the program prints for command lines in an own folder, beside the files of the documents. */
@@ -354,78 +361,92 @@ function printed(lines) {
 // Where scripts/web-program has built the program.
 const runs = existsSync(join(site, "_static/run/run.js"));
 
-test("every example that claims to run prints what the program prints", { skip: !runs && "the program is not built" }, async () => {
-  const all = readdirSync(site, { recursive: true });
-  const names = all.filter((name) => name.endsWith(".html") && !name.startsWith("_static")).sort();
-  const wanted = names.filter((name) => readFileSync(join(site, name), "utf8").includes("_static/run/run.js"));
-  const wrong = [];
-  let count = 0;
-  for (const name of wanted.filter((one) => !process.env.FUNICULAR_PAGES || one.match(process.env.FUNICULAR_PAGES))) {
-    const page = await opened(name);
-    page.setDefaultTimeout(5 * PATIENCE_MS);
-    while ((await page.locator(".run-open").count()) > 0) {
-      const button = page.locator(".run-open").first();
-      const block = await button.evaluateHandle((one) => one.previousElementSibling);
-      const shown = await block.evaluate((one) => one.querySelector("pre").textContent);
-      const begin = performance.now();
-      await button.click();
-      const bar = await block.evaluateHandle((one) => one.previousElementSibling);
-      await page.waitForFunction((one) => /^(done|exit code)/.test(one.querySelector(".run-state").textContent), bar);
-      const text = await block.evaluate((one) => one.querySelector("pre").textContent);
-      const lines = (await bar.evaluate((one) => one.querySelector("textarea").value)).split("\n");
-      if (process.env.FUNICULAR_MEASURE) console.log(name, Math.round(performance.now() - begin), "ms", lines[0]);
-      count += 1;
-      // What the page shows is compared with the program by another test; a line alone is run.
-      const expected = shown.startsWith("$ ") ? shown : printed(lines).text;
-      const difference = same(text, expected);
-      if (difference !== "") wrong.push(`${name}: ${lines.join("; ")}: ${difference}`);
+test(
+  "every example that claims to run prints what the program prints",
+  { skip: !runs && "the program is not built" },
+  async () => {
+    const all = readdirSync(site, { recursive: true });
+    const names = all.filter((name) => name.endsWith(".html") && !name.startsWith("_static")).sort();
+    const wanted = names.filter((name) => readFileSync(join(site, name), "utf8").includes("_static/run/run.js"));
+    const wrong = [];
+    let count = 0;
+    for (const name of wanted.filter((one) => !process.env.FUNICULAR_PAGES || one.match(process.env.FUNICULAR_PAGES))) {
+      const page = await opened(name);
+      page.setDefaultTimeout(5 * PATIENCE_MS);
+      while ((await page.locator(".run-open").count()) > 0) {
+        const button = page.locator(".run-open").first();
+        const block = await button.evaluateHandle((one) => one.previousElementSibling);
+        const shown = await block.evaluate((one) => one.querySelector("pre").textContent);
+        const begin = performance.now();
+        await button.click();
+        const bar = await block.evaluateHandle((one) => one.previousElementSibling);
+        await page.waitForFunction((one) => /^(done|exit code)/.test(one.querySelector(".run-state").textContent), bar);
+        const text = await block.evaluate((one) => one.querySelector("pre").textContent);
+        const lines = (await bar.evaluate((one) => one.querySelector("textarea").value)).split("\n");
+        if (process.env.FUNICULAR_MEASURE) console.log(name, Math.round(performance.now() - begin), "ms", lines[0]);
+        count += 1;
+        // What the page shows is compared with the program by another test; a line alone is run.
+        const expected = shown.startsWith("$ ") ? shown : printed(lines).text;
+        const difference = same(text, expected);
+        if (difference !== "") wrong.push(`${name}: ${lines.join("; ")}: ${difference}`);
+      }
+      await closed(page);
     }
-    await closed(page);
-  }
-  assert.deepEqual(wrong, []);
-  assert.ok(count > 0 && (process.env.FUNICULAR_PAGES || count > 80), `${count} examples`);
-});
+    assert.deepEqual(wrong, []);
+    assert.ok(count > 0 && (process.env.FUNICULAR_PAGES || count > 80), `${count} examples`);
+  },
+);
 
-test("a reader changes an example, and gets messages, files and pages", { skip: !runs && "the program is not built" }, async () => {
-  for (const [viewport, name] of [
-    [DESKTOP, "desktop"],
-    [PHONE, "phone"],
-  ]) {
-    const page = await opened("quick-start.html", { viewport });
-    await page.locator(".run-open").first().click();
-    const state = page.locator(".run-state").first();
-    const field = page.locator(".run-lines").first();
-    const pre = page.locator(".run-bar + div pre").first();
-    const run = async (line, wanted) => {
-      await field.fill(line);
-      await page.locator(".run-bar button", { hasText: "Run" }).click();
-      await state.filter({ hasText: wanted }).waitFor();
-    };
-    await state.filter({ hasText: "done" }).waitFor();
+test(
+  "a reader changes an example, and gets messages, files and pages",
+  { skip: !runs && "the program is not built" },
+  async () => {
+    for (const [viewport, name] of [
+      [DESKTOP, "desktop"],
+      [PHONE, "phone"],
+    ]) {
+      const page = await opened("quick-start.html", { viewport });
+      await page.locator(".run-open").first().click();
+      const state = page.locator(".run-state").first();
+      const field = page.locator(".run-lines").first();
+      const pre = page.locator(".run-bar + div pre").first();
+      const run = async (line, wanted) => {
+        await field.fill(line);
+        await page.locator(".run-bar button", { hasText: "Run" }).click();
+        await state.filter({ hasText: wanted }).waitFor();
+      };
+      await state.filter({ hasText: "done" }).waitFor();
 
-    const second = performance.now();
-    await run("funicular statics docs/quick-start/hall.toml --poze 1,2,3", "exit code 2");
-    assert.ok(performance.now() - second < 2000, "an answer within two seconds once the program is there");
-    assert.match(await pre.innerText(), /unexpected argument '--poze'/);
-    assert.equal(same(await pre.innerText(), printed(["funicular statics docs/quick-start/hall.toml --poze 1,2,3"]).text), "");
-    await run("funicular statics --help", "done");
-    assert.equal(same(await pre.innerText(), printed(["funicular statics --help"]).text), "");
-    await run("funicular statics robots/cogiro.toml --pose '1, 2,1.5'", /done|exit/);
+      const second = performance.now();
+      await run("funicular statics docs/quick-start/hall.toml --poze 1,2,3", "exit code 2");
+      assert.ok(performance.now() - second < 2000, "an answer within two seconds once the program is there");
+      assert.match(await pre.innerText(), /unexpected argument '--poze'/);
+      assert.equal(
+        same(await pre.innerText(), printed(["funicular statics docs/quick-start/hall.toml --poze 1,2,3"]).text),
+        "",
+      );
+      await run("funicular statics --help", "done");
+      assert.equal(same(await pre.innerText(), printed(["funicular statics --help"]).text), "");
+      await run("funicular statics robots/cogiro.toml --pose '1, 2,1.5'", /done|exit/);
 
-    await run("funicular new --cables 4 -o own.toml\nfuniculer", "exit code 127");
-    const [download] = await Promise.all([page.waitForEvent("download"), page.locator(".run-files a").first().click()]);
-    assert.equal(download.suggestedFilename(), "own.toml");
-    await run("funicular report own.toml -o own.html", "done");
-    await page.frameLocator(".run-page").getByText("new robot").first().waitFor();
-    const wide = await page.evaluate(() => document.documentElement.scrollWidth - window.innerWidth);
-    assert.ok(wide <= 1, `${wide} pixels wider than the window`);
-    await page.screenshot({ path: join(pictures, `run-${name}.png`) });
+      await run("funicular new --cables 4 -o own.toml\nfuniculer", "exit code 127");
+      const [download] = await Promise.all([
+        page.waitForEvent("download"),
+        page.locator(".run-files a").first().click(),
+      ]);
+      assert.equal(download.suggestedFilename(), "own.toml");
+      await run("funicular report own.toml -o own.html", "done");
+      await page.frameLocator(".run-page").getByText("new robot").first().waitFor();
+      const wide = await page.evaluate(() => document.documentElement.scrollWidth - window.innerWidth);
+      assert.ok(wide <= 1, `${wide} pixels wider than the window`);
+      await page.screenshot({ path: join(pictures, `run-${name}.png`) });
 
-    await page.locator(".run-bar button", { hasText: "Reset" }).click();
-    assert.match(await pre.innerText(), /^\$ funicular check/);
-    await closed(page);
-  }
-});
+      await page.locator(".run-bar button", { hasText: "Reset" }).click();
+      assert.match(await pre.innerText(), /^\$ funicular check/);
+      await closed(page);
+    }
+  },
+);
 
 test("an example that cannot run says why", { skip: !runs && "the program is not built" }, async () => {
   const page = await opened("export.html");

@@ -50,7 +50,8 @@ class Text:
 
     def listed(self) -> types.Resource:
         """Entry of the list of resources."""
-        return types.Resource(name=self.uri.removeprefix(SCHEME), uri=self.uri, description=self.about, mime_type=self.kind)
+        name = self.uri.removeprefix(SCHEME)
+        return types.Resource(name=name, uri=self.uri, description=self.about, mime_type=self.kind)
 
 
 def _schema(of: Any) -> str:
@@ -193,7 +194,7 @@ def main() -> None:
     """Serves on standard input and output until the client ends."""
     parser = argparse.ArgumentParser(prog="funicular-mcp", description=(__doc__ or "").partition("\n\n")[0])
     parser.add_argument("--folder", type=Path, help="folder for pages; without it the server writes no file")
-    parser.add_argument("--docs", type=Path, help="folder with pages of the documentation (.md), to be read as resources")
+    parser.add_argument("--docs", type=Path, help="folder of pages (.md), which become resources")
     given = parser.parse_args()
     for folder in (given.folder, given.docs):
         if folder is not None and not folder.is_dir():
