@@ -15,6 +15,7 @@ import json
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -67,14 +68,14 @@ def texts(docs: Path | None) -> dict[str, Text]:
     """Texts by address: robots of the library, schemas, and pages below a folder."""
     found = []
     for name, text in library():
-        found.append(Text(f"{SCHEME}robots/{name}.toml", _robot_name(text), "application/toml", lambda text=text: text))
+        found.append(Text(f"{SCHEME}robots/{name}.toml", _robot_name(text), "application/toml", partial(str, text)))
     for of, about in (("robot-file", "robot files"), ("request", "requests"), ("results", "results of all commands")):
-        read = lambda of=of: _schema(of)  # noqa: E731
-        found.append(Text(f"{SCHEME}schemas/{of}.json", f"JSON Schema of {about}", "application/schema+json", read))
+        uri = f"{SCHEME}schemas/{of}.json"
+        found.append(Text(uri, f"JSON Schema of {about}", "application/schema+json", partial(_schema, of)))
     if docs is not None:
         for path in sorted([*docs.rglob("*.md"), *docs.glob("llms*.txt")]):
             name = path.relative_to(docs).as_posix()
-            read = lambda path=path: path.read_text(encoding="utf-8")  # noqa: E731
+            read = partial(path.read_text, encoding="utf-8")
             found.append(Text(f"{SCHEME}docs/{name}", "Page of the documentation", "text/markdown", read))
     return {text.uri: text for text in found}
 
