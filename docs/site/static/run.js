@@ -172,7 +172,7 @@
           code = null;
           break;
         }
-        pre.append(found.output);
+        pre.append(found.stderr + found.stdout); // messages first, as the documents show them
         files.append(shownFiles(found.written));
         code = found.code;
         if (code !== 0) break;

@@ -15,7 +15,7 @@ onmessage = async ({ data }) => {
       const bytes = new TextEncoder().encode(found.stdout);
       running.files.write(data.to, bytes);
       found.written[data.to] = bytes;
-      found.output = found.stderr;
+      found.stdout = "";
     }
     postMessage(found);
   } catch (error) {

@@ -373,6 +373,8 @@ test(
     for (const name of wanted.filter((one) => !process.env.FUNICULAR_PAGES || one.match(process.env.FUNICULAR_PAGES))) {
       const page = await opened(name);
       page.setDefaultTimeout(5 * PATIENCE_MS);
+    // Answers of exercises are folded.
+    await page.evaluate(() => document.querySelectorAll("details").forEach((one) => (one.open = true)));
       while ((await page.locator(".run-open").count()) > 0) {
         const button = page.locator(".run-open").first();
         const block = await button.evaluateHandle((one) => one.previousElementSibling);
