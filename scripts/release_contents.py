@@ -1,8 +1,10 @@
 #!/usr/bin/env python3
-"""Checks what a wheel and a source distribution contain: every file of the Python package, licences and types, a
-complete description, and nothing else.
+"""Checks what the files of a release contain. A wheel and a source distribution: every file of the Python package,
+licences and types, a complete description, and nothing else. The archive of the program: licences, robots, completions
+of three shells, and a page of the manual for each command that the program declares.
 
-Usage: scripts/release_contents.py VERSION PLATFORM WHEEL SDIST"""
+Usage: scripts/release_contents.py package VERSION PLATFORM WHEEL SDIST
+       scripts/release_contents.py program VERSION ARCHIVE"""
 
 import email.message
 import email.parser
@@ -60,7 +62,8 @@ def wheel_faults(path: Path, version: str, platform: str) -> list[str]:
         names = {name for name in archive.namelist() if not name.endswith("/")}
         files = {name: archive.read(name) for name in names if name.startswith(info)}
     wanted = python_files() | {"funicular/_funicular.abi3.so"}
-    wanted |= {f"{info}/{name}" for name in ("METADATA", "RECORD", "WHEEL", *(f"licenses/{name}" for name in licences))}
+    described = ("METADATA", "RECORD", "WHEEL", "entry_points.txt")
+    wanted |= {f"{info}/{name}" for name in (*described, *(f"licenses/{name}" for name in licences))}
     # List of the crates in the compiled part, which maturin writes.
     stray = {name for name in names - wanted if not name.startswith(f"{info}/sboms/")}
 
@@ -86,13 +89,41 @@ def sdist_faults(path: Path, version: str) -> list[str]:
     return found + description_faults(text, version, LICENCES)
 
 
+def commands() -> set[str]:
+    """Names of the commands, from the table of docs/commands.md, which a test compares with the program."""
+    text = (ROOT / "docs/commands.md").read_text(encoding="utf-8")
+    return set(re.findall(r"^\| `([a-z-]+)` \|", text, re.MULTILINE)) - {"request", "completions", "man"}
+
+
+def program_faults(path: Path, version: str) -> list[str]:
+    """Faults of the archive of the program."""
+    top = path.name.removesuffix(".tar.gz")
+    with tarfile.open(path) as archive:
+        files = {member.name.removeprefix(f"{top}/"): member.size for member in archive.getmembers() if member.isfile()}
+    robots = {f"robots/{robot.name}" for robot in (ROOT / "robots").glob("*.toml")} - {"robots/Cargo.toml"}
+    pages = {f"share/man/man1/funicular-{command}.1" for command in commands()} | {"share/man/man1/funicular.1"}
+    shells = {"bash-completion/completions/funicular", "zsh/site-functions/_funicular"}
+    shells |= {"fish/vendor_completions.d/funicular.fish"}
+    wanted = {"funicular", "README.md", "CHANGELOG.md", "LICENSE-THIRD-PARTY.txt", "robots/README.md"} | LICENCES
+    wanted |= robots | pages | {f"share/{name}" for name in shells}
+    found = [] if top.startswith(f"funicular-{version}-") else [f"is not named after version {version}"]
+    return found + differences(wanted - set(files), set(files) - wanted) + [
+        f"has the empty file {name}" for name, size in sorted(files.items()) if size == 0
+    ]
+
+
 def main() -> int:
-    """Checks both files; returns 1 if anything is wrong."""
-    if len(sys.argv) != 5:
-        print((__doc__ or "").split("\n\n")[1], file=sys.stderr)
-        return 2
-    version, platform = sys.argv[1:3]
-    wheel, sdist = map(Path, sys.argv[3:])
+    """Checks the files; returns 1 if anything is wrong."""
+    match sys.argv[1:]:
+        case ["package", version, platform, *files] if len(files) == 2:
+            wheel, sdist = map(Path, files)
+        case ["program", version, file]:
+            faults = [f"{Path(file).name} {fault}" for fault in program_faults(Path(file), version)]
+            print("\n".join(faults) or f"{Path(file).name} is complete")
+            return int(bool(faults))
+        case _:
+            print((__doc__ or "").split("\n\n")[1], file=sys.stderr)
+            return 2
     faults = [f"{wheel.name} {fault}" for fault in wheel_faults(wheel, version, platform)]
     faults += [f"{sdist.name} {fault}" for fault in sdist_faults(sdist, version)]
     print("\n".join(faults) or f"{wheel.name} and {sdist.name} are complete")

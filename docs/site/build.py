@@ -12,11 +12,13 @@ from sphinx.cmd.build import main as sphinx
 
 import gallery
 import links
+import machines
 import messages
 import notebooks
 import pages
 import reference_commands
 import reference_python
+import runnable
 
 HERE = Path(__file__).resolve().parent
 NO_PAGE = "The page is not part of this build. `scripts/web` builds it into `target/web`, and then `scripts/docs` shows it here."
@@ -57,14 +59,17 @@ FOR_ALL = [
 ]
 
 
-def made_reachable(site: Path) -> None:
-    """Gives headings their level, and lets keys scroll wide code and tables."""
+def made_reachable(site: Path, runs: bool) -> None:
+    """Gives headings their level, lets keys scroll wide code and tables, and names the Markdown of each
+    page. With `runs` the examples of a page run in it."""
     for page in site.rglob("*.html"):
         if "_static" in page.relative_to(site).parts:
             continue
         text = page.read_text(encoding="utf-8")
         for before, after in FOR_ALL:
             text = text.replace(before, after)
+        text = machines.linked(page, text)
+        text = runnable.linked(site, page, text) if runs else text
         page.write_text(text, encoding="utf-8")
 
 
@@ -93,7 +98,8 @@ def main() -> int:
     print(f"sources of the site after {time.perf_counter() - started:.0f} s", flush=True)
     if sphinx(["-q", "-W", "--keep-going", "-c", str(HERE), "-b", "html", str(sources), str(site)]) != 0:
         return 1
-    made_reachable(site)
+    machines.write(program, sources, site)
+    made_reachable(site, runnable.write(target, site))
     copied(target, site)
     dead = links.dead(site)
     for line in dead:

@@ -12,6 +12,37 @@ from sphinx.application import Sphinx
 
 # Pages whose tables have one subject per row: a row is found as a section of its own.
 ROWS = ("conventions", "glossary")
+# Words of users: a search for one word of a row finds the others, too.
+SYNONYMS = (
+    "jupyter notebook jupyterlab ipynb colab binder",
+    "cite citation bibtex doi reference",
+    "install installation setup download build",
+    "windows macos mac linux ubuntu debian system",
+    "path trajectory course",
+    "exact accurate accuracy precise error validation deviation",
+    "brake hold held drum",
+    "rope cable wire tendon line",
+    "motor winch drum drive actuator",
+    "strongest heaviest payload load capacity carry",
+    "breaks break broken cut snap fails failure",
+    "slack loose",
+    "force tension pull",
+    "eigenfrequency resonance frequency mode modal eigenvalue vibration oscillation",
+    "shake swing sway settle oscillate",
+    "speed velocity fast",
+    "spreadsheet excel csv table",
+    "cluster slurm mpi dask parallel",
+    "picture figure plot chart drawing",
+    "collision collide clearance interference crossing",
+    "reach workspace reachable",
+    "measure measurement sensor experiment identification",
+    "anchor pulley exit mast pole",
+    "position pose location orientation",
+    "gps log recording estimate estimation",
+    "chatgpt llm assistant mcp",
+    "storm gust wind turbulence",
+    "licence license mit apache",
+)
 # Characters of a section that the search knows. Longer ones are tables of numbers and listings.
 MAX_TEXT = 6000
 
@@ -42,7 +73,9 @@ def _write(app: Sphinx, exception: Exception | None) -> None:
     if exception is not None or app.builder.name != "html":
         return
     texts = {name: list(_sections(name, app.env.get_doctree(name))) for name in sorted(app.env.found_docs)}
-    script = f"const SEARCH_TEXTS = {json.dumps(texts, ensure_ascii=False, separators=(',', ':'))};\n"
+    rows = [words.split() for words in SYNONYMS]
+    script = f"const SEARCH_SYNONYMS = {json.dumps(rows)};\n"
+    script += f"const SEARCH_TEXTS = {json.dumps(texts, ensure_ascii=False, separators=(',', ':'))};\n"
     (Path(app.outdir) / "_static/search_texts.js").write_text(script, encoding="utf-8")
 
 

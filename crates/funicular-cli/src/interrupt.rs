@@ -21,10 +21,22 @@ pub(crate) static STOPPED: AtomicBool = AtomicBool::new(false);
 /// Flag that is set while an analysis computes and nothing is written.
 static COMPUTES: AtomicBool = AtomicBool::new(false);
 
+/// Calls a function at Ctrl-C and at the end of a job.
+#[cfg(not(target_family = "wasm"))]
+fn handle(work: impl FnMut() + Send + 'static) -> Result<(), ctrlc::Error> {
+    ctrlc::set_handler(work)
+}
+
+/// Drops a function for Ctrl-C: a page ends the worker in which the program runs.
+#[cfg(target_family = "wasm")]
+fn handle(_: impl FnMut() + Send + 'static) -> Result<(), std::convert::Infallible> {
+    Ok(())
+}
+
 /// Handles Ctrl-C for rows: the first one stops at the next row, the second one at once. With `otherwise` the program
 /// ends with this message if that row and all that follows it take too long.
 pub(crate) fn stop_at_next_row(otherwise: Option<String>) -> Result<()> {
-    ctrlc::set_handler(move || {
+    handle(move || {
         if STOPPED.swap(true, Ordering::Relaxed) {
             process::exit(errors::STOPPED.into());
         }
@@ -44,7 +56,7 @@ pub(crate) fn stop_at_next_row(otherwise: Option<String>) -> Result<()> {
 pub(crate) fn stop_analysis() -> Computes {
     COMPUTES.store(true, Ordering::Relaxed);
     // Without a handler Ctrl-C ends the program at once, which is no error of the analysis.
-    let _ = ctrlc::set_handler(|| {
+    let _ = handle(|| {
         if STOPPED.swap(true, Ordering::Relaxed) || !COMPUTES.load(Ordering::Relaxed) {
             process::exit(errors::STOPPED.into());
         }

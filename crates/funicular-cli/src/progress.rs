@@ -41,14 +41,15 @@ impl ProgressLines {
         note("");
         let (done, is_done) = mpsc::channel();
         let started = Instant::now();
-        let thread = thread::spawn(move || {
+        let thread = thread::Builder::new().spawn(move || {
             while is_done.recv_timeout(BETWEEN_LINES) == Err(RecvTimeoutError::Timeout) {
                 let shown = *SHOWN.lock().unwrap_or_else(PoisonError::into_inner);
                 let noted = NOTED.lock().unwrap_or_else(PoisonError::into_inner).clone();
                 errors::to_stderr(&line(shown, &noted, started.elapsed()));
             }
         });
-        Self { thread: Some((done, thread)) }
+        // A system without threads has no lines.
+        Self { thread: thread.ok().map(|thread| (done, thread)) }
     }
 }
 
@@ -190,7 +191,7 @@ pub(crate) struct WaitingSpinner {
 impl WaitingSpinner {
     pub(crate) fn for_(what: &'static str) -> Self {
         let (done, is_done) = mpsc::channel();
-        let thread = thread::spawn(move || {
+        let thread = thread::Builder::new().spawn(move || {
             if is_done.recv_timeout(PATIENCE) == Err(RecvTimeoutError::Timeout) {
                 let spinner = ProgressBar::new_spinner().with_message(what);
                 spinner.enable_steady_tick(Duration::from_millis(120));
@@ -199,7 +200,7 @@ impl WaitingSpinner {
                 spinner.finish_and_clear();
             }
         });
-        Self { done: Some((done, thread)), _lines: ProgressLines::new() }
+        Self { done: thread.ok().map(|thread| (done, thread)), _lines: ProgressLines::new() }
     }
 }
 

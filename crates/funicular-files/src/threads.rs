@@ -115,12 +115,13 @@ pub fn in_order<T: Send, E>(
     };
 
     let lead = AHEAD.saturating_mul(threads.get());
+    let mut started = 0;
     let (finished, arriving) = mpsc::channel::<(usize, T)>();
 
     thread::scope(|scope| {
         for _ in 0..threads.get().min(items.len()) {
             let (shared, items, compute, finished) = (&shared, &items, &compute, finished.clone());
-            scope.spawn(move || {
+            let thread = thread::Builder::new().spawn_scoped(scope, move || {
                 let _guard = StopOnPanic(shared);
                 let given_up = || cancel.load(Ordering::Relaxed) || shared.stop.load(Ordering::Relaxed);
                 while let Some(index) = take(shared, items, lead) {
@@ -130,8 +131,14 @@ pub fn in_order<T: Send, E>(
                     }
                 }
             });
+            // A system without threads, or one that has no more of them.
+            let Ok(_) = thread else { break };
+            started += 1;
         }
         drop(finished);
+        if started == 0 {
+            return alone(items.clone(), cancel, &compute, &mut deliver);
+        }
 
         // Items arrive in any order; an early item waits until the items before it have been delivered.
         let mut waiting = BTreeMap::new();
@@ -153,6 +160,22 @@ pub fn in_order<T: Send, E>(
         }
         Ok(if due == items.end { Outcome::Complete } else { Outcome::Cancelled { next: due } })
     })
+}
+
+/// Computes items one after the other on the calling thread and delivers each.
+fn alone<T, E>(
+    items: Range<usize>,
+    cancel: &AtomicBool,
+    compute: &impl Fn(usize, &dyn Fn() -> bool) -> Option<T>,
+    deliver: &mut impl FnMut(T) -> Result<(), E>,
+) -> Result<Outcome, E> {
+    let given_up = || cancel.load(Ordering::Relaxed);
+    for next in items {
+        let item = if given_up() { None } else { compute(next, &given_up) };
+        let Some(item) = item else { return Ok(Outcome::Cancelled { next }) };
+        deliver(item)?;
+    }
+    Ok(Outcome::Complete)
 }
 
 /// Returns the next item to compute; waits while it is too far ahead of the next item to deliver.
@@ -217,6 +240,29 @@ mod tests {
         );
         let Ok(Outcome::Cancelled { next }) = outcome else { panic!("{outcome:?}") };
         assert!(next >= 6 && delivered == (0..next).collect::<Vec<_>>(), "{next}");
+    }
+
+    #[test]
+    fn a_system_without_threads_delivers_the_same_items() {
+        let square = |index: usize, given_up: &dyn Fn() -> bool| (!given_up()).then_some(index * index);
+        let (cancel, mut delivered) = (AtomicBool::new(false), Vec::new());
+        let run = |stop_at: usize, delivered: &mut Vec<usize>| {
+            alone(3..200, &cancel, &square, &mut |found| {
+                delivered.push(found);
+                cancel.store(found == stop_at, Ordering::Relaxed);
+                if found == 10_000 && stop_at == 0 { Err(found) } else { Ok(()) }
+            })
+        };
+        assert_eq!(run(0, &mut delivered), Err(10_000));
+        assert_eq!(delivered, (3..=100).map(|i| i * i).collect::<Vec<usize>>());
+
+        delivered.clear();
+        assert_eq!(run(25, &mut delivered), Ok(Outcome::Cancelled { next: 6 }));
+        assert_eq!(delivered, [9, 16, 25]);
+        cancel.store(false, Ordering::Relaxed);
+        delivered.clear();
+        assert_eq!(run(1, &mut delivered), Ok(Outcome::Complete));
+        assert_eq!(delivered, squares(2, &AtomicBool::new(false), None).1);
     }
 
     #[test]

@@ -57,7 +57,7 @@ mod _funicular {
     #[pymodule_export]
     use crate::reading::{argument, declarations, interval, number, numbers, suggested, unit_of_name};
     #[pymodule_export]
-    use crate::robot::{PyRobot, robot_of_source};
+    use crate::robot::{PyRobot, library, robot_of_source};
     #[pymodule_export]
     use crate::simulation::PySimulation;
     #[pymodule_export]

@@ -246,3 +246,9 @@ impl PyRobot {
 pub(crate) fn robot_of_source(py: Python<'_>, source: &str) -> PyResult<Py<PyRobot>> {
     PyRobot::read(py, robot_text::of_json(source)?)
 }
+
+/// Returns the robots of the library: names, and texts of their files.
+#[pyfunction]
+pub(crate) fn library() -> Vec<(&'static str, &'static str)> {
+    funicular_robots::ALL.to_vec()
+}

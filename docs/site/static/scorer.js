@@ -8,7 +8,7 @@ var Scorer = (() => {
     [/^validation\//, 0.25],
     [/^(theory\/|reference\/messages|notebooks\/|reference\/python|speed|matlab)/, 0.6],
     [/^(reference\/|tutorials\/|python|web|export|import|coming-from|commands|sweeps)/, 0.8],
-    [/^(conventions|glossary|robot-file|pulleys)$/, 1.2],
+    [/^(conventions|glossary|robot-file|pulleys|install|jupyter|cite)$/, 1.2],
   ];
   const HEADING = 20; // the words in this order in a heading
   const WHOLE_HEADING = 10; // the heading begins with them
@@ -17,6 +17,10 @@ var Scorer = (() => {
   const ALL_WORDS = 4; // all words in one section
   const WORD_OF_HEADING = 3; // a word in the heading
   const WORD_OF_TITLE = 6; // a word in the title of the page
+  const MEANING = 14; // all words of a question in one section, or others of the same meaning
+  const IN_HEADING = 2; // a word in a heading counts as often in the text
+  const MIN_MEANING = 0.5; // part of a question that a page has to have
+  const OTHER_WORD = 0.7; // a word of the same meaning counts less than the word itself
   const BEFORE = 90; // characters of an excerpt before the words
   const EXCERPT = 240;
 
@@ -32,6 +36,20 @@ var Scorer = (() => {
       if (!stems.has(word)) stems.set(word, stemmer.stemWord(word));
       return stems.get(word);
     });
+  }
+
+  let groups = null;
+
+  /** Stems of a word and of others of the same meaning; the word itself first. */
+  function meanings(stem) {
+    if (groups === null) {
+      groups = new Map();
+      for (const row of typeof SEARCH_SYNONYMS === "undefined" ? [] : SEARCH_SYNONYMS) {
+        const stems = row.map((word) => stemmed(word)[0]);
+        for (const one of stems) groups.set(one, [...new Set([...(groups.get(one) ?? []), ...stems])]);
+      }
+    }
+    return [stem, ...(groups.get(stem) ?? []).filter((other) => other !== stem)];
   }
 
   const joined = (words) => ` ${words.join(" ")} `;
@@ -66,6 +84,43 @@ var Scorer = (() => {
     );
   }
 
+  let asked = null;
+
+  /** Words of the question that tell something, each with its meanings and its weight: rare words weigh more. */
+  function question() {
+    if (asked !== null) return asked;
+    const all = typeof SEARCH_TEXTS === "undefined" ? [] : Object.keys(SEARCH_TEXTS).flatMap(sectionsOf);
+    const told = query()
+      .split(/\s+/)
+      .filter((word) => !stopwords.has(word.toLowerCase().replace(/[^\p{L}]/gu, "")));
+    asked = [...new Set(stemmed(told.join(" ")))].map((stem) => {
+      const stems = meanings(stem);
+      const count = all.filter((one) =>
+        stems.some((of) => one.inHeading.includes(` ${of} `) || one.inText.includes(` ${of} `)),
+      );
+      return { stems, weight: Math.log(1 + all.length / (1 + count.length)) };
+    });
+    return asked;
+  }
+
+  /** Part of the question that a section answers: 0 to 1, up to 2 if its words are in the heading. */
+  function meaningOf(section) {
+    const words = question();
+    const total = words.reduce((sum, { weight }) => sum + weight, 0);
+    const sum = words.reduce((before, { stems, weight }) => {
+      const values = stems.map((stem, i) => {
+        const place = section.inHeading.includes(` ${stem} `)
+          ? IN_HEADING
+          : section.inText.includes(` ${stem} `)
+            ? 1
+            : 0;
+        return place * (i === 0 ? 1 : OTHER_WORD);
+      });
+      return before + weight * Math.max(...values);
+    }, 0);
+    return total > 0 ? sum / total : 0;
+  }
+
   /** Piece of a text around the first of the words. */
   function excerpt(text, query) {
     const lower = text.toLowerCase();
@@ -90,7 +145,7 @@ var Scorer = (() => {
     let best = sections[0];
     let most = -1;
     for (const section of sections) {
-      const value = valueOf(section, words);
+      const value = valueOf(section, words) + MEANING * meaningOf(section);
       if (value > most) [best, most] = [section, value];
     }
     // One result per page, which leads to its best section.
@@ -101,6 +156,22 @@ var Scorer = (() => {
     result[3] = null;
     excerpts.set(`${name}.html${result[2]}`, excerpt(best.text, query()));
     return (most + ofTitle * WORD_OF_TITLE) * weight;
+  }
+
+  /** Lets the search also find pages that have most of a question, in its words or in others of the same meaning. */
+  function widen(search) {
+    const strict = search.performTermsSearch;
+    search.performTermsSearch = (words, excluded) => {
+      const found = strict(words, excluded);
+      const names = new Set(found.map(([name]) => name));
+      const { docnames, titles, filenames } = search._index;
+      docnames.forEach((name, i) => {
+        if (names.has(name) || excluded.size > 0) return;
+        const best = Math.max(0, ...sectionsOf(name).map(meaningOf));
+        if (best >= MIN_MEANING) found.push([name, titles[i], "", null, 1, filenames[i], "text"]);
+      });
+      return found;
+    };
   }
 
   /** Puts the excerpt below each result that appears. */
@@ -126,6 +197,7 @@ var Scorer = (() => {
 
   return {
     score,
+    widen,
     objNameMatch: 11,
     objPartialMatch: 6,
     objPrio: { 0: 15, 1: 5, 2: -5 },

@@ -4,7 +4,8 @@
 
 import assert from "node:assert/strict";
 import { spawnSync } from "node:child_process";
-import { existsSync, mkdirSync, readFileSync } from "node:fs";
+import { existsSync, mkdirSync, mkdtempSync, readFileSync, readdirSync, rmSync, symlinkSync } from "node:fs";
+import { tmpdir } from "node:os";
 import { join, resolve } from "node:path";
 import { after, before, test } from "node:test";
 import { pathToFileURL } from "node:url";
@@ -95,6 +96,40 @@ test("search shows first where a reader has to look, with an excerpt", async () 
   assert.match(await page.locator("#search-results .excerpt").first().innerText(), /K_11 or Kxx is force along x/);
   await page.screenshot({ path: join(pictures, "search-K_11-desktop.png") });
   await closed(page);
+});
+
+/** Plain questions of newcomers, with pages of which one has to be among the first two. */
+const QUESTIONS = {
+  jupyter: /^jupyter/,
+  cite: /^cite/,
+  "install windows": /^install/,
+  "how do I install it on a mac": /^install/,
+  "google colab": /^jupyter/,
+  bibtex: /^cite/,
+  "cable lengths for a path CSV": /trajectory|simulation|export|commands/,
+  "how exact is the tension in simulate": /^simulation|^validation/,
+  "what is the heaviest load my robot can carry": /^workspace|payload|loads/,
+  "what happens if a cable breaks": /^simulation|simulate/,
+  "can I use it in gazebo": /^export|^import/,
+  "run on slurm": /^tutorials\/cluster|^sweeps/,
+  "how strong must the motors be": /^workspace|winches|speeds/,
+  "do the cables collide": /^workspace|clearance/,
+  "how accurate must the anchors be": /^uncertainty|^calibration|^tutorials\/anchors/,
+  "why does the camera shake": /settle|gust|first-result|measuring|commands|quick-start/,
+  "use with chatgpt": /^python/,
+  "excel table of tensions": /commands|export|conventions|sweeps|robot-file|statics/,
+  "my robot from matlab": /^matlab|^coming-from/,
+  "where are the pulleys of my machine": /^pulleys|^tutorials\/anchors|^calibration/,
+  "wind on a stadium camera": /gust|robots|commands|gallery|theory/,
+};
+
+test("search answers plain questions among its first two pages", async () => {
+  const missed = [];
+  for (const [words, wanted] of Object.entries(QUESTIONS)) {
+    const links = await found(words).catch(() => ["nothing"]);
+    if (!links.slice(0, 2).some((link) => wanted.test(link))) missed.push(`${words}: ${links.slice(0, 4).join(" ")}`);
+  }
+  assert.deepEqual(missed, []);
 });
 
 test("search finds what a reader looks for, from files alone", async () => {
@@ -236,6 +271,41 @@ test("a message that is pasted leads to its cause and cure", async () => {
   }
 });
 
+test("programs find every page as Markdown, and the schemas of the program", () => {
+  const text = (name) => readFileSync(join(site, name), "utf8");
+  const short = text("llms.txt");
+  const full = text("llms-full.txt");
+  assert.ok(short.startsWith("# funicular\n\n> ") && full.startsWith("# funicular\n\n> "));
+
+  const links = [...short.matchAll(/^- \[([^\]]+)\]\(([^)]+)\): (.*)$/gm)];
+  const names = links.map(([, , name]) => name);
+  assert.equal(new Set(names).size, names.length, "each page once");
+  for (const [, title, name, about] of links.filter(([, , name]) => name.endsWith(".md"))) {
+    const page = text(name);
+    assert.ok(title.length > 0 && about.length < 700 && !about.includes("```"), `${name}: ${about}`);
+    assert.ok(!/\{(math|toctree|raw)\}/.test(page), `${name} has words of the builder`);
+    assert.ok(full.includes(page.trim()), name);
+  }
+  // Pages with a source; the index of the search and notebooks have none.
+  const pages = readdirSync(site, { recursive: true }).filter(
+    (name) => /\.html$/.test(name) && !name.startsWith("_static"),
+  );
+  const without = pages.filter((name) => !existsSync(join(site, name.replace(/html$/, "md"))));
+  assert.deepEqual(
+    without.filter((name) => !/^(notebooks\/|genindex|search)/.test(name)),
+    [],
+  );
+  for (const name of pages.filter((one) => !without.includes(one) && one !== "index.html")) {
+    assert.ok(names.includes(name.replace(/html$/, "md")), `${name} is in llms.txt`);
+    assert.match(text(name), /<link rel="alternate" type="text\/markdown"/);
+  }
+  for (const of of ["robot-file", "request", "results"]) {
+    const { stdout } = spawnSync(program, ["schema", "--of", of], { encoding: "utf8", maxBuffer: 2 ** 26 });
+    assert.deepEqual(JSON.parse(text(`schema/${of}.json`)), JSON.parse(stdout), of);
+    assert.ok(names.includes(`schema/${of}.json`));
+  }
+});
+
 test("the live page runs inside the site where it was built", async () => {
   const page = await opened("live.html");
   if (existsSync(join(site, "_static/live.html"))) {
@@ -251,6 +321,139 @@ test("the live page runs inside the site where it was built", async () => {
   } else {
     assert.match(await page.locator("article").innerText(), /scripts\/web/);
   }
+  await closed(page);
+});
+
+/** Words of a text; numbers of the module differ by rounding: by one in the last digit, or zero but for rounding. */
+function same(a, b) {
+  const words = (text) => text.split(/\s+/).filter(Boolean);
+  const number = (word) =>
+    /^[(\[]?[-+]?\d[\d.]*(e[-+]?\d+)?[,%);.\]]*$/.test(word) ? parseFloat(word.replace(/^[(\[]/, "")) : NaN;
+  const digits = (word) => (word.match(/\.(\d+)/)?.[1] ?? "").length;
+  const [left, right] = [words(a), words(b)];
+  const differ = left.findIndex((word, i) => {
+    if (word === right[i]) return false;
+    const [x, y] = [number(word), number(right[i] ?? "")];
+    if (Number.isNaN(x) || Number.isNaN(y)) return true;
+    if (word.includes("e")) return Math.abs(x) > 1e-9 || Math.abs(y) > 1e-9;
+    return digits(word) !== digits(right[i]) || Math.abs(x - y) >= 1.5 * 10 ** -Math.min(digits(word), 6);
+  });
+  if (differ < 0 && left.length === right.length) return "";
+  const at = differ < 0 ? Math.min(left.length, right.length) : differ;
+  const around = (all) => all.slice(Math.max(0, at - 4), at + 4).join(" ");
+  return `${around(left)} in place of ${around(right)}`;
+}
+
+/** What the program prints for command lines in an own folder, beside the files of the documents. */
+function printed(lines) {
+  const folder = mkdtempSync(join(tmpdir(), "funicular-site-"));
+  for (const name of ["robots", "docs"]) symlinkSync(join(repository, name), join(folder, name));
+  // As a terminal shows it: messages first, progress left out, which depends on the machine.
+  const told = (text) => text.replace(/^(computing for \d+ s|.* after \d+ s.*)\n/gm, "");
+  const found = lines.map((line) => {
+    const both = spawnSync("bash", ["-c", line.replace(/^funicular/, program)], { cwd: folder, encoding: "utf8" });
+    return { code: both.status, text: `$ ${line}\n${told(both.stderr)}${both.stdout}` };
+  });
+  rmSync(folder, { recursive: true });
+  return { text: found.map(({ text }) => text).join(""), code: found.at(-1).code };
+}
+
+// Where scripts/web-program has built the program.
+const runs = existsSync(join(site, "_static/run/run.js"));
+
+test(
+  "every example that claims to run prints what the program prints",
+  { skip: !runs && "the program is not built" },
+  async () => {
+    const all = readdirSync(site, { recursive: true });
+    const names = all.filter((name) => name.endsWith(".html") && !name.startsWith("_static")).sort();
+    const wanted = names.filter((name) => readFileSync(join(site, name), "utf8").includes("_static/run/run.js"));
+    const wrong = [];
+    let count = 0;
+    for (const name of wanted.filter((one) => !process.env.FUNICULAR_PAGES || one.match(process.env.FUNICULAR_PAGES))) {
+      const page = await opened(name);
+      page.setDefaultTimeout(5 * PATIENCE_MS);
+    // Answers of exercises are folded.
+    await page.evaluate(() => document.querySelectorAll("details").forEach((one) => (one.open = true)));
+      while ((await page.locator(".run-open").count()) > 0) {
+        const button = page.locator(".run-open").first();
+        const block = await button.evaluateHandle((one) => one.previousElementSibling);
+        const shown = await block.evaluate((one) => one.querySelector("pre").textContent);
+        const begin = performance.now();
+        await button.click();
+        const bar = await block.evaluateHandle((one) => one.previousElementSibling);
+        await page.waitForFunction((one) => /^(done|exit code)/.test(one.querySelector(".run-state").textContent), bar);
+        const text = await block.evaluate((one) => one.querySelector("pre").textContent);
+        const lines = (await bar.evaluate((one) => one.querySelector("textarea").value)).split("\n");
+        if (process.env.FUNICULAR_MEASURE) console.log(name, Math.round(performance.now() - begin), "ms", lines[0]);
+        count += 1;
+        // What the page shows is compared with the program by another test; a line alone is run.
+        const expected = shown.startsWith("$ ") ? shown : printed(lines).text;
+        const difference = same(text, expected);
+        if (difference !== "") wrong.push(`${name}: ${lines.join("; ")}: ${difference}`);
+      }
+      await closed(page);
+    }
+    assert.deepEqual(wrong, []);
+    assert.ok(count > 0 && (process.env.FUNICULAR_PAGES || count > 80), `${count} examples`);
+  },
+);
+
+test(
+  "a reader changes an example, and gets messages, files and pages",
+  { skip: !runs && "the program is not built" },
+  async () => {
+    for (const [viewport, name] of [
+      [DESKTOP, "desktop"],
+      [PHONE, "phone"],
+    ]) {
+      const page = await opened("quick-start.html", { viewport });
+      await page.locator(".run-open").first().click();
+      const state = page.locator(".run-state").first();
+      const field = page.locator(".run-lines").first();
+      const pre = page.locator(".run-bar + div pre").first();
+      const run = async (line, wanted) => {
+        await field.fill(line);
+        await page.locator(".run-bar button", { hasText: "Run" }).click();
+        await state.filter({ hasText: wanted }).waitFor();
+      };
+      await state.filter({ hasText: "done" }).waitFor();
+
+      const second = performance.now();
+      await run("funicular statics docs/quick-start/hall.toml --poze 1,2,3", "exit code 2");
+      assert.ok(performance.now() - second < 2000, "an answer within two seconds once the program is there");
+      assert.match(await pre.innerText(), /unexpected argument '--poze'/);
+      assert.equal(
+        same(await pre.innerText(), printed(["funicular statics docs/quick-start/hall.toml --poze 1,2,3"]).text),
+        "",
+      );
+      await run("funicular statics --help", "done");
+      assert.equal(same(await pre.innerText(), printed(["funicular statics --help"]).text), "");
+      await run("funicular statics robots/cogiro.toml --pose '1, 2,1.5'", /done|exit/);
+
+      await run("funicular new --cables 4 -o own.toml\nfuniculer", "exit code 127");
+      const [download] = await Promise.all([
+        page.waitForEvent("download"),
+        page.locator(".run-files a").first().click(),
+      ]);
+      assert.equal(download.suggestedFilename(), "own.toml");
+      await run("funicular report own.toml -o own.html", "done");
+      await page.frameLocator(".run-page").getByText("new robot").first().waitFor();
+      const wide = await page.evaluate(() => document.documentElement.scrollWidth - window.innerWidth);
+      assert.ok(wide <= 1, `${wide} pixels wider than the window`);
+      await page.screenshot({ path: join(pictures, `run-${name}.png`) });
+
+      await page.locator(".run-bar button", { hasText: "Reset" }).click();
+      assert.match(await pre.innerText(), /^\$ funicular check/);
+      await closed(page);
+    }
+  },
+);
+
+test("an example that cannot run says why", { skip: !runs && "the program is not built" }, async () => {
+  const page = await opened("export.html");
+  const told = await page.locator(".run-not").allInnerTexts();
+  assert.ok(told.length > 0 && told.every((text) => /^Not run in this page: .{10,}\.$/.test(text)), told.join("\n"));
   await closed(page);
 });
 

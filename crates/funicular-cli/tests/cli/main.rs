@@ -4,6 +4,7 @@ mod bad_input;
 mod cable;
 mod calibrate;
 mod clearance;
+mod coming_from;
 mod compare;
 mod defaults;
 mod design;

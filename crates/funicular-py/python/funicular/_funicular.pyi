@@ -2668,6 +2668,11 @@ def interval(name: str, value: Any) -> tuple[float, float]:
     Python.
     """
 
+def library() -> list[tuple[str, str]]:
+    """
+    Returns the robots of the library: names, and texts of their files.
+    """
+
 def matlab_file(matrices: SupportsGetItem[int, tuple[str, SupportsIndex, SupportsGetItem[int, SupportsFloat | SupportsIndex]]], texts: SupportsGetItem[int, tuple[str, SupportsGetItem[int, str]]]) -> bytes:
     """
     Makes the bytes of a file of MATLAB from matrices (name, number of rows, entries by columns) and columns of texts.
