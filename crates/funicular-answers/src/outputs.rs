@@ -30,6 +30,7 @@ use funicular_study::at_rest;
 use funicular_study::request::{OfferedWinch, Request};
 use funicular_study::wording::{Words, worded};
 use funicular_study::{Results, Watch};
+use funicular_validation::Validated;
 use serde_json::{Map, Value};
 use std::path::Path;
 
@@ -79,8 +80,10 @@ enum Make {
 pub struct Answered<'a> {
     /// Request.
     pub request: &'a Request,
-    /// Results; none for a command whose result is a file.
+    /// Results; none for a command whose result is a file, and for `validate`.
     pub results: Option<&'a Results>,
+    /// Results of `validate`, which the study does not know.
+    pub validated: Option<&'a Validated>,
     /// Command or code that makes the file again, for pages.
     pub call: &'a str,
     /// Words for the names of options.
@@ -127,6 +130,14 @@ macro_rules! of {
             _ => bail!("`{}` has no such file", $at.request.command()),
         }
     };
+}
+
+/// File of the results of `validate`.
+fn of_validated(at: &Answered<'_>, make: fn(&Validated) -> String) -> Result<Made> {
+    match at.validated {
+        Some(found) => Ok(make(found).into_bytes().into()),
+        None => bail!("`{}` has no such file", at.request.command()),
+    }
 }
 
 /// Request of one command, from that of any.
@@ -481,6 +492,31 @@ static OUTPUTS: &[(&str, &[Output])] = &[
                 |at| of!(Prove, at, found => pages::prove::page(found, at.call.to_owned())),
             ),
             certificate(|at, _| of!(Prove, at, found => certificate_of(Some(&**found)))),
+        ],
+    ),
+    (
+        "validate",
+        &[
+            Output {
+                by_ending: true,
+                ..file(
+                    "junit",
+                    "Write a report for build servers in the format of JUnit, one test per comparison",
+                    ["the report", "a report of tests"],
+                    &[Kind::Xml],
+                    Make::Bytes(|at, _| of_validated(at, funicular_validation::junit)),
+                )
+            },
+            Output {
+                by_ending: true,
+                ..file(
+                    "badge",
+                    "Write a badge that says how many comparisons pass",
+                    ["the badge", "a badge"],
+                    &[Kind::Svg],
+                    Make::Bytes(|at, _| of_validated(at, funicular_validation::badge)),
+                )
+            },
         ],
     ),
     (

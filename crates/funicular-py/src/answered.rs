@@ -99,7 +99,13 @@ impl PyAnswered {
     /// Makes the page in HTML; `call` is the code that makes it again.
     fn page(&self, py: Python<'_>, call: String) -> PyResult<String> {
         let found = self.found(py)?;
-        let at = Answered { request: &self.request, results: Some(found), call: &call, words: Words::Python };
+        let at = Answered {
+            request: &self.request,
+            results: Some(found),
+            validated: None,
+            call: &call,
+            words: Words::Python,
+        };
         outputs::page_of(&at).map_err(|error| errors::study(&error))
     }
 
@@ -109,10 +115,23 @@ impl PyAnswered {
         let wanted = wanted(files);
         let opened = Opened::open(&self.request, &wanted, FigureOptions::default(), &mut Guard::default());
         let opened = opened.map_err(|error| errors::of_file(&error))?;
-        let found = if opened.needs_results() { Some(self.found(py)?) } else { None };
+        // The study does not know the results of `validate`.
+        let validated = match &self.request {
+            Request::Validate(of) => Some(py.detach(|| funicular_validation::run(of))),
+            _ => None,
+        };
+        let validated = validated.transpose().map_err(|error| errors::study(&error))?;
+        let needs = opened.needs_results() && validated.is_none();
+        let found = if needs { Some(self.found(py)?) } else { None };
         let mut sentences = Vec::new();
         let written = py.detach(|| {
-            let at = Answered { request: &self.request, results: found, call: &call, words: Words::Python };
+            let at = Answered {
+                request: &self.request,
+                results: found,
+                validated: validated.as_ref(),
+                call: &call,
+                words: Words::Python,
+            };
             let mut watch = CtrlC::new();
             let made = opened.make(at, &mut watch);
             watch.result(made)

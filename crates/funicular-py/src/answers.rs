@@ -119,7 +119,7 @@ pub(crate) fn answer(py: Python<'_>, request: &str) -> PyResult<String> {
 
 fn json_of(request: &Request, watch: &mut dyn Watch) -> Result<Vec<u8>, Error> {
     match request {
-        Request::Validate(_) => json::of_results(&funicular_validation::run()?, Words::Python),
+        Request::Validate(of) => json::of_results(&funicular_validation::run(of)?, Words::Python),
         _ => run(request, watch)?.to_json(Words::Python),
     }
 }

@@ -13,12 +13,12 @@ import funicular
 
 # Options for the place and the form of a result, which do not change the computation.
 OUTPUT = {"--format", "-o", "--output-file", "--print-request", "--help", "--matrices", "--resume", "--discard", "--part", "--threads"}
-OUTPUT |= {"--figure-width-mm", "--font-size-pt", "--figure-mode", "--fitted", "--designed", "--calibrated", "--calibrated-covariance", "--page", "--pdf", "--proved", "--certificate", "--samples-file", "--lengths", "--surface", "--animation", "--figure", "--universal-file", "--quiet"}
+OUTPUT |= {"--figure-width-mm", "--font-size-pt", "--figure-mode", "--fitted", "--designed", "--calibrated", "--calibrated-covariance", "--page", "--pdf", "--proved", "--certificate", "--samples-file", "--junit", "--badge", "--lengths", "--surface", "--animation", "--figure", "--universal-file", "--quiet"}
 # Options without a value.
 SWITCHES = {
     *("--log", "--adaptive", "--all", "--in-plane-only", "--print-request", "--resume", "--discard"),
     *("--platform", "--hold-lengths-of-pose", "--friction-interval", "--rigid-cables", "--rope-inertia", "--fastest", "--once", "--hold-platform"),
-    *("--find-way", "--in-gusts", "--quiet", "--summary", "--reconnect", "--prove"),
+    *("--find-way", "--in-gusts", "--quiet", "--summary", "--reconnect", "--prove", "--controls"),
 }
 # Options that may be given several times.
 LISTS = {"reduce": {"--input", "--output"}, "gust": {"--output"}, "identify": {"--profile"}}

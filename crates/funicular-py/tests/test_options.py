@@ -60,7 +60,7 @@ COMMANDS: dict[str, tuple[str, list[Callable[..., Any]]]] = {
     "schema": ("`funicular.schema()`", [funicular.schema]),
     "import": ("`funicular.import_robot(files, …)`", [funicular.import_robot]),
     "export": ("`robot.equilibrium(…).export(to, path, …)`", [Robot.equilibrium, Equilibrium.export]),
-    "validate": ("`funicular.validate()`", [funicular.validate]),
+    "validate": ("`funicular.validate(…)`", [funicular.validate]),
     "request": ("`funicular.run(request)`", [funicular.run, Robot.map, Robot.sweep]),
 }
 

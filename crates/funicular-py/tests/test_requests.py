@@ -578,6 +578,15 @@ def test_every_comparison_of_the_validation_passes() -> None:
     assert found["passed"] == found["comparisons"] > 50
 
 
+def test_comparisons_are_chosen_and_written_for_build_servers(tmp_path: Path) -> None:
+    report, badge = tmp_path / "report.xml", tmp_path / "badge.svg"
+    found = funicular.validate(only="catenary/michalos-1962", level="published", junit=report, badge=badge)
+    assert [row["id"] for section in found["sections"] for row in section["rows"]] == ["catenary/michalos-1962/displacement-printed"]
+    assert 'tests="1" failures="0"' in report.read_text() and "1 of 1 pass" in badge.read_text()
+    with pytest.raises(funicular.InputError, match="did you mean"):
+        funicular.validate(only="catenery")
+
+
 @pytest.mark.parametrize(
     ("request_", "told"),
     [

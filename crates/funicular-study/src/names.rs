@@ -565,6 +565,16 @@ named! {
     }
 }
 
+named! {
+    /// Kinds of reference numbers, by what stands behind them.
+    enum ValidationLevel, "level" {
+        Exact "exact", "Closed form or equation, solved to many more digits than are compared";
+        Program "program", "Another program, which shares no code with this one";
+        Published "published", "Number printed in a publication or in the manual of another program";
+        Measured "measured", "Measurement";
+    }
+}
+
 /// Serialises a choice as its name: for `#[serde(with = "…")]`.
 pub(crate) fn serialize<T: Named, S: Serializer>(choice: &T, to: S) -> Result<S::Ok, S::Error> {
     to.serialize_str(choice.name())

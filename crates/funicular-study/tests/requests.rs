@@ -525,7 +525,7 @@ fn requests() -> Vec<Value> {
                 }),
             ],
         ),
-        of("validate", &[]),
+        of("validate", &[&json!({ "only": ["catenary/michalos-1962"], "level": "published", "controls": true })]),
     ]
 }
 

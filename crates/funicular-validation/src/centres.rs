@@ -1,7 +1,11 @@
 //! Centre of the tensions: tensions, limits, lengths and their derivatives.
 
-use super::reference::{CentreRow, ReferenceTable, library_text};
-use super::{Bound, Case, Comparison, DifferenceKind, Section, largest, largest_difference, over};
+use super::reference::{CentreRow, LengthsAtCentre, ReferenceTable, library_text};
+use super::section::WRONG;
+use super::{
+    Bound, Case, ComparedQuantity, Comparison, Control, Declared, DifferenceKind, Level, largest, largest_difference,
+    over, reference,
+};
 use anyhow::{Context, Result};
 use funicular::gradient::Gradients;
 use funicular::math::Vec3;
@@ -15,6 +19,9 @@ const SAME: f64 = 1e-9;
 /// in closed form.
 const DERIVATIVE: f64 = 1e-8;
 
+/// Maximum relative difference of lengths: the reference has them to 1e-12 m.
+const SAME_LENGTHS: f64 = 1e-10;
+
 /// Cause that bounds all differences.
 const ACCURACY: &str = "accuracy of both searches";
 
@@ -25,23 +32,84 @@ struct Found<'a> {
     centre: TensionCentre,
 }
 
-pub(super) fn section(reference: &ReferenceTable<CentreRow>) -> Result<Section> {
+pub(super) const SECTION: Declared = Declared {
+    id: "centres",
+    title: "Centre of the tensions, computed independently",
+    note: "The tension rule `centre`: minimum of the logarithms of the distances from the limits, with sagging \
+           cables, over fixed anchors and over pulleys; random poses, some near the border, some with a load.",
+    rows: || Ok([rows(&reference::centres()?)?, lengths(&reference::centre_lengths()?, 1.0)?].concat()),
+    controls: &[
+        Control {
+            id: "minimum",
+            wrong: "minimum tension 1 % too large",
+            proves: "the limits of the tensions",
+            rows: || {
+                let mut reference = reference::centres()?;
+                reference.rows.truncate(5);
+                reference
+                    .rows
+                    .iter_mut()
+                    .for_each(|row| row.minimum_tension_n = row.minimum_tension_n.map(|t| t * WRONG));
+                rows(&reference)
+            },
+        },
+        Control {
+            id: "maximum",
+            wrong: "maximum tension 1 % too large",
+            proves: "the limits of the tensions",
+            rows: || {
+                let mut reference = reference::centres()?;
+                reference.rows.truncate(5);
+                reference
+                    .rows
+                    .iter_mut()
+                    .for_each(|row| row.maximum_tension_n = row.maximum_tension_n.map(|t| t * WRONG));
+                rows(&reference)
+            },
+        },
+        Control {
+            id: "mass",
+            wrong: "mass of the platform 1 % too large",
+            proves: "the weight of the platform in the lengths of the centre",
+            rows: || {
+                let mut reference = reference::centre_lengths()?;
+                reference.rows.truncate(3);
+                lengths(&reference, WRONG)
+            },
+        },
+    ],
+};
+
+fn rows(reference: &ReferenceTable<CentreRow>) -> Result<Vec<Comparison>> {
     let mut rows = Vec::new();
     let mut names: Vec<&str> = reference.rows.iter().map(|row| row.robot.as_str()).collect();
     names.dedup();
     for name in names {
         let of_robot = reference.rows.iter().filter(|row| row.robot == name).map(found);
         let all = of_robot.collect::<Result<Vec<_>>>()?;
-        let case = Case { name: format!("{name}, {} poses", all.len()), source: &reference.source };
+        let case = Case::new(Level::Program, &reference.source, name, &format!("{name}, {} poses", all.len()));
         rows.extend(at_poses(&case, &all));
         rows.extend(derivatives(&case, &all)?);
     }
-    Ok(Section {
-        title: "Centre of the tensions, computed independently",
-        note: "The tension rule `centre`: minimum of the logarithms of the distances from the limits, with sagging \
-               cables, over fixed anchors and over pulleys; random poses, some near the border, some with a load.",
-        rows,
-    })
+    Ok(rows)
+}
+
+/// Unstrained lengths of CoGiRo at random positions, with its mass multiplied by a factor.
+fn lengths(reference: &ReferenceTable<LengthsAtCentre>, mass_factor: f64) -> Result<Vec<Comparison>> {
+    let robot = Robot::from_toml(library_text("cogiro")?)?;
+    let mass = mass_factor * robot.platform.mass;
+    let robot = robot.with_mass(mass);
+    let mut pairs: Vec<Pair> = Vec::new();
+    for row in &reference.rows {
+        let pose = Pose::new(row.position_m, [0.0; 3]);
+        let centre = tension_centre(&robot, &pose, StaticModel::Catenary, None)?;
+        let ours = centre.equilibrium.cables.iter().map(|cable| cable.unstrained_length).collect();
+        pairs.push((row.unstrained_length_m.clone(), ours));
+    }
+    let name = format!("cogiro, {} positions", pairs.len());
+    let case = Case::new(Level::Program, &reference.source, "cogiro-box", &name);
+    let quantity = case.of("lengths", "unstrained lengths [m], worst position");
+    Ok(compared(quantity, &pairs, SAME_LENGTHS).into_iter().collect())
 }
 
 fn found(row: &CentreRow) -> Result<Found<'_>> {
@@ -65,14 +133,15 @@ fn found(row: &CentreRow) -> Result<Found<'_>> {
 type Pair = (Vec<f64>, Vec<f64>);
 
 /// Quantity with its numbers at a pose.
-type Quantity<'a> = (&'static str, Box<dyn Fn(&Found) -> Pair + 'a>);
+type Quantity<'a> = (&'static str, &'static str, Box<dyn Fn(&Found) -> Pair + 'a>);
 
 /// Comparison of the pair with the largest difference, relative to its largest number.
-fn compared(case: &Case, quantity: &str, pairs: impl Iterator<Item = Pair>, tolerance: f64) -> Option<Comparison> {
+fn compared(quantity: ComparedQuantity, pairs: &[Pair], tolerance: f64) -> Option<Comparison> {
     let difference = |(theirs, ours): &Pair| over(largest_difference(theirs, ours), largest(theirs));
-    let worst = pairs.max_by(|a, b| difference(a).total_cmp(&difference(b)))?;
-    let kind = (difference(&worst), DifferenceKind::Relative);
-    Some(case.row(quantity, (&worst.0, &worst.1), kind, tolerance, Bound::Digits(ACCURACY)))
+    let numbers = pairs.iter().map(|(theirs, _)| theirs.len()).sum();
+    let worst = pairs.iter().max_by(|a, b| difference(a).total_cmp(&difference(b)))?;
+    let kind = (difference(worst), DifferenceKind::Relative);
+    Some(quantity.numbers(numbers).row((&worst.0, &worst.1), kind, tolerance, Bound::Digits(ACCURACY)))
 }
 
 fn at_poses(case: &Case, all: &[Found]) -> Vec<Comparison> {
@@ -82,24 +151,30 @@ fn at_poses(case: &Case, all: &[Found]) -> Vec<Comparison> {
     let limit = |found: &Found, side: usize| -> Vec<f64> { found.centre.limits.iter().map(|of| of[side]).collect() };
     let quantities: [Quantity; 5] = [
         (
+            "tensions",
             "tensions along the chords [N], worst pose",
             Box::new(|of| (of.row.tau_n.clone(), of.centre.tensions.clone())),
         ),
-        ("their lower limits [N], worst pose", Box::new(|of| (of.row.lower_n.clone(), limit(of, 0)))),
-        ("their upper limits [N], worst pose", Box::new(|of| (of.row.upper_n.clone(), limit(of, 1)))),
+        ("lower-limits", "their lower limits [N], worst pose", Box::new(|of| (of.row.lower_n.clone(), limit(of, 0)))),
+        ("upper-limits", "their upper limits [N], worst pose", Box::new(|of| (of.row.upper_n.clone(), limit(of, 1)))),
         (
+            "tensions-platform",
             "tensions at the platform [N], worst pose",
             Box::new(|of| (of.row.tension_platform_n.clone(), states(of, |cable| cable.tension_platform))),
         ),
         (
+            "lengths",
             "unstrained lengths [m], worst pose",
             Box::new(|of| (of.row.unstrained_length_m.clone(), states(of, |cable| cable.unstrained_length))),
         ),
     ];
-    let mut rows: Vec<Comparison> =
-        quantities.iter().filter_map(|(name, pair)| compared(case, name, all.iter().map(pair), SAME)).collect();
+    let of_quantity = |(id, name, pair): &Quantity| {
+        let pairs: Vec<Pair> = all.iter().map(pair).collect();
+        compared(case.of(id, name), &pairs, SAME)
+    };
+    let mut rows: Vec<Comparison> = quantities.iter().filter_map(of_quantity).collect();
     let proved = all.iter().filter(|found| found.centre.certificate.is_unique()).count();
-    rows.push(case.count("poses at which the centre is proved to be the only one", all.len(), proved));
+    rows.push(case.of("unique", "poses at which the centre is proved to be the only one").count(all.len(), proved));
     rows
 }
 
@@ -115,7 +190,7 @@ fn derivatives(case: &Case, all: &[Found]) -> Result<Option<Comparison>> {
         }
     }
     let quantity = format!("derivatives of the lengths by {} numbers, worst one", pairs.len());
-    Ok(compared(case, &quantity, pairs.into_iter(), DERIVATIVE))
+    Ok(compared(case.of("derivatives", &quantity), &pairs, DERIVATIVE))
 }
 
 /// Change of the robot or of its pose by one unit of a number.

@@ -1,7 +1,8 @@
 //! Point mass on eight strings.
 
 use super::reference::{Cube, CubeRow, Published, library};
-use super::{Bound, Case, Comparison, Section};
+use super::section::WRONG;
+use super::{Bound, Case, Comparison, Control, Declared, Level, reference, slug};
 use anyhow::Result;
 use funicular::cable::CableModel;
 use funicular::catenary::Rope;
@@ -13,25 +14,53 @@ use funicular::robot::Pose;
 use funicular::statics::{CableState, Equilibrium, Stability, StaticModel};
 use std::f64::consts::TAU;
 
-pub(super) fn section(published: &Published) -> Result<Section> {
+pub(super) const SECTION: Declared = Declared {
+    id: "cube",
+    title: "A point mass on eight strings",
+    note: "Eight straight cables and 30 kg in the middle of a cube of 2.5 m, every frequency with its \
+           multiplicity. The reference includes axial waves, which the model shallow-dynamic leaves out: the \
+           frequency of a mode that stretches the cables is too high by up to (ω l √(m/EA))²/6.",
+    rows: || rows(&reference::published()?),
+    controls: &[
+        Control {
+            id: "mass",
+            wrong: "mass per length of the ropes 1 % too large",
+            proves: "the mass of a vibrating string",
+            rows: || {
+                let mut published = reference::published()?;
+                published.cube_point_mass.mass_kg_per_m *= WRONG;
+                rows(&published)
+            },
+        },
+        Control {
+            id: "ea",
+            wrong: "axial stiffness EA of the ropes 1 % too large",
+            proves: "the stretch of the strings, and with it their tension",
+            rows: || {
+                let mut published = reference::published()?;
+                published.cube_point_mass.axial_stiffness_n *= WRONG;
+                rows(&published)
+            },
+        },
+    ],
+};
+
+fn rows(published: &Published) -> Result<Vec<Comparison>> {
     let cube = &published.cube_point_mass;
     let mut rows = Vec::new();
     for model in &cube.rows {
         rows.extend(frequencies(cube, model)?);
     }
-    Ok(Section {
-        title: "A point mass on eight strings",
-        note: "Eight straight cables and 30 kg in the middle of a cube of 2.5 m, every frequency with its \
-               multiplicity. The reference includes axial waves, which the model shallow-dynamic leaves out: the \
-               frequency of a mode that stretches the cables is too high by up to (ω l √(m/EA))²/6.",
-        rows,
-    })
+    Ok(rows)
 }
 
 /// Linearisation at the middle of the cube, without sag, with the tensions that follow from the lengths.
 fn held(cube: &Cube, model: &CubeRow) -> Result<Dynamics> {
     let (mut robot, _) = library("sap2000-8-cable-point-mass")?;
     robot.gravity_w = Vec3::zeros();
+    for rope in robot.cables.iter_mut().map(|cable| &mut cable.material) {
+        (rope.mass_per_length, rope.axial_stiffness) = (cube.mass_kg_per_m, cube.axial_stiffness_n);
+    }
     let pose = Pose::new(cube.position_m, [0.0; 3]);
     let mut cables = Vec::new();
 
@@ -70,10 +99,11 @@ fn held(cube: &Cube, model: &CubeRow) -> Result<Dynamics> {
 fn frequencies(cube: &Cube, model: &CubeRow) -> Result<Vec<Comparison>> {
     let dynamics = held(cube, model)?;
     let found = modes::below(&dynamics, cube.limit_hz);
-    let case = |name: String| Case { name, source: &cube.source };
+    let id = slug(&model.model);
+    let case = |id: &str, name: &str| Case::new(Level::Program, &cube.source, id, name);
     let certified = if found.certified { found.modes.len() } else { 0 };
     let quantity = format!("modes below {} Hz", cube.limit_hz);
-    let mut rows = vec![case(model.model.clone()).count(&quantity, model.frequencies_hz.len(), certified)];
+    let mut rows = vec![case(&id, &model.model).of("count", &quantity).count(model.frequencies_hz.len(), certified)];
     for (i, (mode, theirs)) in found.modes.iter().zip(&model.frequencies_hz).enumerate() {
         let axial = (TAU * theirs * cube.longest_cable_m).powi(2) * cube.mass_kg_per_m / cube.axial_stiffness_n;
         let (tolerance, bound) = if mode.platform_energy_fraction == 0.0 {
@@ -81,8 +111,8 @@ fn frequencies(cube: &Cube, model: &CubeRow) -> Result<Vec<Comparison>> {
         } else {
             (axial / 6.0, Bound::Model("axial inertia"))
         };
-        let case = case(format!("{}, mode {}", model.model, i + 1));
-        rows.push(case.relative("frequency [Hz]", &[*theirs], &[mode.frequency_hz], tolerance, bound));
+        let case = case(&format!("{id}/mode-{}", i + 1), &format!("{}, mode {}", model.model, i + 1));
+        rows.push(case.of("frequency", "frequency [Hz]").relative(&[*theirs], &[mode.frequency_hz], tolerance, bound));
     }
     Ok(rows)
 }

@@ -1,7 +1,8 @@
 //! Damped natural frequencies, responses of points on cables, and shapes of undamped modes.
 
 use super::reference::{Damped, DampedRobot, IndependentReference, PointRobot, ReferencePoint, RopeDamping, robot};
-use super::{Bound, Case, Comparison, DifferenceKind, Section, shapes, worst};
+use super::section::WRONG;
+use super::{Bound, Case, Comparison, Control, Declared, DifferenceKind, Level, reference, shapes, slug, worst};
 use anyhow::{Context, Result};
 use funicular::dynamics::{Dynamics, Linearisation};
 use funicular::math::Vec3;
@@ -10,7 +11,65 @@ use funicular::response::{self, Port, Quantity, Signal};
 use funicular::robot::{Damping, Robot};
 use funicular::statics::{self, StaticModel};
 
-pub(super) fn section(reference: &Damped, robots: &IndependentReference) -> Result<Section> {
+pub(super) const SECTION: Declared = Declared {
+    id: "damped",
+    title: "Damped modes, shapes and points on cables, computed independently",
+    note: "Complex natural frequencies with damping of ropes (constant ratio, viscous, both in one robot) and of \
+           the platform; responses whose force or motion is on a cable; energies, modal masses and shapes of \
+           undamped modes. The other program solves one eigenvalue problem of all unknowns in extended precision. \
+           The error of a mode shape is the error of its frequency divided by the relative gap to the next \
+           frequency. The differences of energies and modal masses are therefore divided by 1 + 0.001/gap. All \
+           values of a list are compared; the table shows the last one.",
+    rows: || rows(&reference::damped()?, &reference::independent()?),
+    controls: &[
+        Control {
+            id: "ratio",
+            wrong: "damping of every rope 1 % too large",
+            proves: "the loss in the cables, in the complex frequencies",
+            rows: || {
+                let mut damped = reference::damped()?;
+                damped.robots.truncate(1);
+                (damped.point_frf, damped.shapes) = (Vec::new(), Vec::new());
+                for of in damped.robots.iter_mut().flat_map(|of| of.cable_damping.values_mut()) {
+                    match of {
+                        RopeDamping::Ratio { damping_ratio: value }
+                        | RopeDamping::Viscous { viscous_damping_n_s_m2: value } => *value *= WRONG,
+                    }
+                }
+                rows(&damped, &reference::independent()?)
+            },
+        },
+        Control {
+            id: "place",
+            wrong: "points on the cables 1 % further from the platform",
+            proves: "the place of points on sagging cables",
+            rows: || {
+                let mut damped = reference::damped()?;
+                (damped.robots, damped.shapes) = (Vec::new(), Vec::new());
+                damped.point_frf.truncate(1);
+                for pair in damped.point_frf.iter_mut().flat_map(|of| &mut of.pairs) {
+                    pair.force.fraction *= WRONG;
+                }
+                rows(&damped, &reference::independent()?)
+            },
+        },
+        Control {
+            id: "shapes",
+            wrong: "places of the shapes 1 % further from the platform",
+            proves: "the shapes of the cables in the modes",
+            rows: || {
+                let mut damped = reference::damped()?;
+                (damped.robots, damped.point_frf) = (Vec::new(), Vec::new());
+                damped.shapes.truncate(1);
+                let places = damped.shapes.iter_mut().flat_map(|of| &mut of.fractions);
+                places.for_each(|place| *place *= if *place < 0.99 { WRONG } else { 1.0 });
+                rows(&damped, &reference::independent()?)
+            },
+        },
+    ],
+};
+
+fn rows(reference: &Damped, robots: &IndependentReference) -> Result<Vec<Comparison>> {
     let toml = |id: &str| {
         let case = robots.cases.iter().find(|other| other.id == id).context("a robot of independent.json")?;
         Ok::<_, anyhow::Error>(&case.toml)
@@ -27,20 +86,16 @@ pub(super) fn section(reference: &Damped, robots: &IndependentReference) -> Resu
         rows.extend(shapes::of_robot(&reference.about, of, toml(&of.robot)?)?);
     }
 
-    Ok(Section {
-        title: "Damped modes, shapes and points on cables, computed independently",
-        note: "Complex natural frequencies with damping of ropes (constant ratio, viscous, both in one robot) and of \
-               the platform; responses whose force or motion is on a cable; energies, modal masses and shapes of \
-               undamped modes. The other program solves one eigenvalue problem of all unknowns in extended precision. \
-               The error of a mode shape is the error of its frequency divided by the relative gap to the next \
-               frequency. The differences of energies and modal masses are therefore divided by 1 + 0.001/gap. All \
-               values of a list are compared; the table shows the last one.",
-        rows,
-    })
+    Ok(rows)
 }
 
 fn frequencies(source: &str, of: &DampedRobot, toml: &str) -> Result<Vec<Comparison>> {
-    let case = Case { name: format!("{}, {}", of.robot, of.case), source };
+    let case = Case::new(
+        Level::Program,
+        source,
+        &format!("{}/{}", of.robot, slug(&of.case)),
+        &format!("{}, {}", of.robot, of.case),
+    );
     let (mut robot, lengths) = robot(toml)?;
 
     for cable in &mut robot.cables {
@@ -77,17 +132,15 @@ fn frequencies(source: &str, of: &DampedRobot, toml: &str) -> Result<Vec<Compari
     let last = ours.last().map_or([f64::NAN; 2], |(re, im)| [*re, *im]);
 
     Ok(vec![
-        case.count(&format!("damped modes below {} Hz", of.below_hz), of.modes.len(), certified),
-        case.row(
-            "complex natural frequency, last [Hz]",
+        case.of("count", &format!("damped modes below {} Hz", of.below_hz)).count(of.modes.len(), certified),
+        case.of("frequencies", "complex natural frequency, last [Hz]").numbers(2 * of.modes.len()).row(
             (&theirs, &last),
             (worst(gaps.into_iter()), DifferenceKind::Relative),
             1e-11,
             Bound::Elements,
         ),
         // The imaginary part is some thousandths of the frequency and has the absolute error of the frequency.
-        case.row(
-            "its imaginary part alone, last [Hz]",
+        case.of("decay", "its imaginary part alone, last [Hz]").numbers(of.modes.len()).row(
             (&theirs[1..], &last[1..]),
             (worst(of_decay.into_iter()), DifferenceKind::Relative),
             1e-8,
@@ -98,7 +151,7 @@ fn frequencies(source: &str, of: &DampedRobot, toml: &str) -> Result<Vec<Compari
 
 /// Compares the responses of all pairs of points of one robot.
 fn points(source: &str, of: &PointRobot, toml: &str) -> Result<Comparison> {
-    let case = Case { name: of.robot.clone(), source };
+    let case = Case::new(Level::Program, source, &format!("{}/points", of.robot), &of.robot);
     let (robot, lengths) = robot(toml)?;
     let rest = statics::forward(&robot, &lengths, StaticModel::Catenary, None)?;
     let highest = of.frequency_hz.iter().copied().fold(0.0, f64::max);
@@ -119,13 +172,10 @@ fn points(source: &str, of: &PointRobot, toml: &str) -> Result<Comparison> {
         }
     }
 
-    Ok(case.row(
-        &format!("{} responses of points on cables, largest [m/N]", of.pairs.len()),
-        (&[shown.0], &[shown.1]),
-        (worst(gaps.into_iter()), DifferenceKind::Relative),
-        1e-8,
-        Bound::Elements,
-    ))
+    Ok(case
+        .of("responses", &format!("{} responses of points on cables, largest [m/N]", of.pairs.len()))
+        .numbers(2 * gaps.len())
+        .row((&[shown.0], &[shown.1]), (worst(gaps.into_iter()), DifferenceKind::Relative), 1e-8, Bound::Elements))
 }
 
 /// Signal for a point of the reference, at the platform's origin or on a cable.

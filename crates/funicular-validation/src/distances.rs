@@ -1,7 +1,8 @@
 //! Distances between cables, straight and sagging.
 
 use super::reference::{DistanceReference, MeasuredPairs, PairsAtPose, library_text};
-use super::{Bound, Case, Comparison, DifferenceKind, Section};
+use super::section::WRONG;
+use super::{Bound, Case, Comparison, Control, Declared, DifferenceKind, Level, reference, slug};
 use anyhow::{Result, bail};
 use funicular::clearance::{ClearancePair, Surroundings};
 use funicular::robot::{Pose, RequiredClearance, Robot, State, TensionLimits};
@@ -13,31 +14,47 @@ const STRAIGHT: f64 = 1e-11;
 /// Maximum difference of distances between sagging cables [m]: the other program ends its search at 2e-9 m.
 const SAGGING: f64 = 3e-9;
 
-pub(super) fn section(reference: &DistanceReference) -> Result<Section> {
+pub(super) const SECTION: Declared = Declared {
+    id: "distances",
+    title: "Distances between cables, computed independently",
+    note: "Least distance of the centre lines of every pair of cables at random poses, with tensions by the rule \
+           `lowest`. The other program halves arcs until bounds from their chords meet.",
+    rows: || rows(&reference::distances()?),
+    controls: &[Control {
+        id: "pose",
+        wrong: "positions 1 % too far from the origin",
+        proves: "the place of the cables",
+        rows: || {
+            let mut reference = reference::distances()?;
+            for of in &mut reference.robots {
+                of.rows.truncate(2);
+                of.rows.iter_mut().for_each(|row| row.pose[..3].iter_mut().for_each(|x| *x *= WRONG));
+            }
+            rows(&reference)
+        },
+    }],
+};
+
+fn rows(reference: &DistanceReference) -> Result<Vec<Comparison>> {
     let mut rows = Vec::new();
     for of in &reference.robots {
         let [minimum, maximum] = of.tension_limits_n.map(Some);
         let mut robot =
             Robot::from_toml(library_text(&of.robot)?)?.with_tension_limits(TensionLimits { minimum, maximum });
         robot.clearance = Some(RequiredClearance { from_end: Some(0.0), ..RequiredClearance::default() });
-        let case = Case { name: of.id.clone(), source: &reference.source };
+        let case = Case::new(Level::Program, &reference.source, &slug(&of.id), &of.id);
         rows.extend(distances(&case, &robot, of)?);
     }
-    Ok(Section {
-        title: "Distances between cables, computed independently",
-        note: "Least distance of the centre lines of every pair of cables at random poses, with tensions by the rule \
-               `lowest`. The other program halves arcs until bounds from their chords meet.",
-        rows,
-    })
+    Ok(rows)
 }
 
 /// Distances of straight and of sagging cables.
 fn distances(case: &Case, robot: &Robot, of: &MeasuredPairs) -> Result<[Comparison; 2]> {
     let kinds = [
-        ("distances of straight cables; the least is shown [m]", StaticModel::Ideal, STRAIGHT),
-        ("distances of sagging cables; the least is shown [m]", StaticModel::Catenary, SAGGING),
+        (("straight", "distances of straight cables; the least is shown [m]"), StaticModel::Ideal, STRAIGHT),
+        (("sagging", "distances of sagging cables; the least is shown [m]"), StaticModel::Catenary, SAGGING),
     ];
-    let compared = kinds.map(|(quantity, model, tolerance)| {
+    let compared = kinds.map(|((id, quantity), model, tolerance)| {
         let mut pairs: Vec<(f64, f64)> = Vec::new();
         for row in &of.rows {
             pairs.extend(at_pose(robot, row, model)?);
@@ -45,7 +62,8 @@ fn distances(case: &Case, robot: &Robot, of: &MeasuredPairs) -> Result<[Comparis
         let worst = super::worst(pairs.iter().map(|(their, our)| (our - their).abs()));
         let Some((their, our)) = pairs.iter().min_by(|a, b| a.0.total_cmp(&b.0)) else { bail!("no pairs") };
         let difference = (worst, DifferenceKind::Absolute);
-        Ok(case.row(quantity, (&[*their], &[*our]), difference, tolerance, Bound::Digits("end of the other search")))
+        let quantity = case.of(id, quantity).numbers(pairs.len());
+        Ok(quantity.row((&[*their], &[*our]), difference, tolerance, Bound::Digits("end of the other search")))
     });
     let [straight, sagging] = compared;
     Ok([straight?, sagging?])

@@ -1,7 +1,7 @@
 //! Vibration of cables and robots whose drives have inertia and control.
 
 use super::reference::{CableToWinch, DriveParts, DrivenCable, DrivenRobot, Drives, ServoDamped};
-use super::{Bound, Case, Comparison, drives};
+use super::{Bound, Case, Comparison, Level, drives, slug};
 use anyhow::{Result, anyhow};
 use funicular::cable::catenary_dynamic::DriveSignal;
 use funicular::cable::{CableModel, EndStiffness};
@@ -90,12 +90,22 @@ fn driven(row: &DrivenRobot, mut robot: Robot, source: &str) -> Result<Vec<Compa
     let found = modes::below(&dynamics, below_hz);
     let frequencies: Vec<f64> = found.modes.iter().map(|mode| mode.frequency_hz).collect();
     let certified = if found.certified { frequencies.len() } else { 0 };
-    let case = Case { name: format!("{}, moving drives", row.case), source };
+    let case = Case::new(
+        Level::Program,
+        source,
+        &format!("moving-robot/{}", slug(&row.case)),
+        &format!("{}, moving drives", row.case),
+    );
     let torque = control(&row.parts) == Control::Torque;
     let tolerance = if torque { AT_CONSTANT_TORQUE } else { FREQUENCIES };
     let mut rows = vec![
-        case.count("certified frequencies", row.frequencies_hz.len(), certified),
-        case.relative("frequencies [Hz]", &row.frequencies_hz, &frequencies, tolerance, Bound::Rounding),
+        case.of("count", "certified frequencies").count(row.frequencies_hz.len(), certified),
+        case.of("frequencies", "frequencies [Hz]").relative(
+            &row.frequencies_hz,
+            &frequencies,
+            tolerance,
+            Bound::Rounding,
+        ),
     ];
 
     // Responses of the platform to all commanded lengths, or to the forces of all motors.
@@ -109,16 +119,17 @@ fn driven(row: &DrivenRobot, mut robot: Robot, source: &str) -> Result<Vec<Compa
         .into_iter()
         .map(|port| (port, Quantity::Displacement))
         .collect();
-    let what = if torque { "motion per force of a motor" } else { "motion per commanded length" };
+    let what =
+        if torque { ("motor", "motion per force of a motor") } else { ("length", "motion per commanded length") };
     let base = axes.map(FrameInput::BaseAlong).into_iter().chain(axes.map(FrameInput::BaseAbout));
     let base: Vec<Signal> = base.map(Signal::Frame).collect();
     let base = Port::all(&robot, &rest, &dynamics, &base, false)?;
     let exact = (AT_CONSTANT_TORQUE, Bound::Rounding);
     let turned = (weight_on_wheels(&robot, &rest), Bound::Model("weight on turned wheels"));
-    for (what, inputs, columns, responses, (tolerance, bound)) in [
+    for ((id, what), inputs, columns, responses, (tolerance, bound)) in [
         (what, &inputs, 0..inputs.len(), &row.responses, exact),
-        ("motion per translation of the base", &base, 0..3, &row.base, exact),
-        ("motion per rotation of the base", &base, 3..6, &row.base, turned),
+        (("base-along", "motion per translation of the base"), &base, 0..3, &row.base, exact),
+        (("base-about", "motion per rotation of the base"), &base, 3..6, &row.base, turned),
     ] {
         for theirs in responses {
             let found = response::matrix(&dynamics, &[theirs.frequency_hz], inputs, &outputs)?;
@@ -130,8 +141,9 @@ fn driven(row: &DrivenRobot, mut robot: Robot, source: &str) -> Result<Vec<Compa
                     expected.extend([re[input], im[input]]);
                 }
             }
-            let quantity = format!("{what} at {} Hz", theirs.frequency_hz);
-            rows.push(case.together(&quantity, &expected, &ours, tolerance, bound));
+            let (id, quantity) =
+                (format!("{id}-{}hz", theirs.frequency_hz), format!("{what} at {} Hz", theirs.frequency_hz));
+            rows.push(case.of(&id, &quantity).together(&expected, &ours, tolerance, bound));
         }
     }
 
@@ -162,9 +174,8 @@ fn servo_damped(theirs: &ServoDamped, mut robot: Robot, rest: &Equilibrium, case
     let (theirs, ours_matched) = (pairs.iter().map(|pair| pair.0).collect(), pairs.iter().map(|pair| pair.1).collect());
     let certified = if damped.certified { damped.modes.len() } else { 0 };
     Ok(vec![
-        case.count("certified damped frequencies", zeros.len(), certified),
-        case.together(
-            "damped frequencies, real and imaginary [Hz]",
+        case.of("damped-count", "certified damped frequencies").count(zeros.len(), certified),
+        case.of("damped", "damped frequencies, real and imaginary [Hz]").together(
             &flat(theirs),
             &flat(ours_matched),
             FREQUENCIES,
@@ -190,42 +201,60 @@ fn cable(row: &DrivenCable, at_rest: &CableToWinch, source: &str) -> Result<Vec<
     let found = EndStiffness::new(&robot, 0, &rest.cables[0], model, false, WinchMode::AsGiven, limit)?;
     let EndStiffness::Dynamic(found) = found else { return Err(anyhow!("the cable has mass")) };
     let clamped: Vec<f64> = found.clamped_frequencies_below(limit * TAU).iter().map(|omega| omega / TAU).collect();
-    let case = Case { name: format!("{}, moving drive", row.case), source };
+    let case = Case::new(
+        Level::Program,
+        source,
+        &format!("moving-cable/{}", slug(&row.case)),
+        &format!("{}, moving drive", row.case),
+    );
     let point = rest.pose.position_w;
     let digits = Bound::Digits("12 printed digits");
     let mut rows = vec![
         // The force is printed with 12 digits, and the stiffness across a taut cable is small.
-        case.absolute("platform point [m]", &at_rest.platform_point_m, point.as_slice(), 1e-9, digits),
-        case.count("clamped frequencies", row.clamped_frequencies_hz.len(), clamped.len()),
-        case.relative("clamped frequencies [Hz]", &row.clamped_frequencies_hz, &clamped, FREQUENCIES, Bound::Rounding),
+        case.of("point", "platform point [m]").absolute(&at_rest.platform_point_m, point.as_slice(), 1e-9, digits),
+        case.of("clamped-count", "clamped frequencies").count(row.clamped_frequencies_hz.len(), clamped.len()),
+        case.of("clamped", "clamped frequencies [Hz]").relative(
+            &row.clamped_frequencies_hz,
+            &clamped,
+            FREQUENCIES,
+            Bound::Rounding,
+        ),
     ];
 
     // Dynamic stiffness, and forces by the inputs.
     let dynamics = Dynamics::about(&robot, &rest, Linearisation::default(), limit)?;
     let by_inputs = HeldPlatform::new(&robot, &rest, &dynamics)?;
     for theirs in &row.dynamic {
-        let at = format!("at {} Hz", theirs.frequency_hz);
+        let row_hz = theirs.frequency_hz;
+        let at = format!("at {row_hz} Hz");
         let k = found.damped(theirs.frequency_hz * TAU);
         let (re, im) = (k.map(|z| z.re).in_world(found.axes()), k.map(|z| z.im).in_world(found.axes()));
         let theirs_k = by_columns(&theirs.stiffness_re, &theirs.stiffness_im);
         let ours_k = joined(re.as_slice(), im.as_slice());
-        rows.push(case.together(&format!("stiffness {at} [N/m]"), &theirs_k, &ours_k, AT_CONSTANT_TORQUE, digits));
+        rows.push(case.of(&format!("stiffness-{}hz", theirs.frequency_hz), &format!("stiffness {at} [N/m]")).together(
+            &theirs_k,
+            &ours_k,
+            AT_CONSTANT_TORQUE,
+            digits,
+        ));
 
         let forces = by_inputs.forces(theirs.frequency_hz)?;
         let by_base = theirs.base_re.as_ref().zip(theirs.base_im.as_ref());
         let by_base = by_base.map(|(re, im)| {
-            ("motion of anchor and drum", by_columns(re, im), parts(&forces[4..7]), AT_CONSTANT_TORQUE)
+            (("base", "motion of anchor and drum"), by_columns(re, im), parts(&forces[4..7]), AT_CONSTANT_TORQUE)
         });
         let by_length = joined(&theirs.length_re, &theirs.length_im);
         let by_anchor = by_columns(&theirs.anchor_re, &theirs.anchor_im);
-        for (what, theirs, ours, tolerance) in [
-            ("length", by_length, parts(&forces[0..1]), AT_CONSTANT_TORQUE),
-            ("motion of the anchor", by_anchor, parts(&forces[1..4]), AT_MOVING_ANCHOR),
+        for ((id, what), theirs, ours, tolerance) in [
+            (("length", "length"), by_length, parts(&forces[0..1]), AT_CONSTANT_TORQUE),
+            (("anchor", "motion of the anchor"), by_anchor, parts(&forces[1..4]), AT_MOVING_ANCHOR),
         ]
         .into_iter()
         .chain(by_base)
         {
-            rows.push(case.together(&format!("force per {what} {at} [N/m]"), &theirs, &ours, tolerance, digits));
+            let id = format!("{id}-{row_hz}hz");
+            let quantity = format!("force per {what} {at} [N/m]");
+            rows.push(case.of(&id, &quantity).together(&theirs, &ours, tolerance, digits));
         }
     }
     Ok(rows)

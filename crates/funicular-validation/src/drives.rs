@@ -1,9 +1,11 @@
 //! Cables over pulleys and on winches.
 
 use super::reference::{
-    CableToWinch, Drives, FrictionCorner, FrictionHalfWidths, RobotWithWinches, SaggingOverPulley, StraightOverPulley,
+    CableToWinch, DriveParts, Drives, FrictionCorner, FrictionHalfWidths, RobotWithWinches, SaggingOverPulley,
+    StraightOverPulley,
 };
-use super::{Bound, Case, Comparison, Section};
+use super::section::WRONG;
+use super::{Bound, Case, Comparison, Control, Declared, Level, driven, reference, slug};
 use anyhow::{Result, anyhow};
 use funicular::drive::{CableAtRest, DriveFriction};
 use funicular::math::{Mat3, Vec3, rotation};
@@ -11,8 +13,78 @@ use funicular::robot::{Anchor, Cable, Constraint, Pulley, PulleyFriction, Robot,
 use funicular::statics::{self, CableState, Equilibrium, Held, Interval, StaticModel};
 use std::fmt::Write;
 
-/// Section of all drives; `moving` are the comparisons of their vibration.
-pub(super) fn section(drives: &Drives, moving: Vec<Comparison>) -> Result<Section> {
+pub(super) const SECTION: Declared = Declared {
+    id: "drives",
+    title: "Pulleys and winches",
+    note: "Straight cables over swivelling pulleys against the closed forms of other programs; sagging elastic \
+           cables over pulleys, whose weight begins at the entry point; cables to winches that yield; robots with \
+           pulleys and winches. The stiffness with a tilted swivel axis is exact to the square of the kink, \
+           theory (69). Friction of pulleys: equilibria after given last motions of the cables, solved without \
+           linearisation, and the first-order half widths of theory (74).",
+    rows: || rows(&reference::drives()?),
+    controls: &[
+        Control {
+            id: "radius",
+            wrong: "radius of every pulley 1 % too large",
+            proves: "the arc on the pulley",
+            rows: || {
+                of_changed(|of| {
+                    of.straight.rows.iter_mut().for_each(|row| row.radius_m *= WRONG);
+                    of.sagging.rows.iter_mut().for_each(|row| row.radius_m *= WRONG);
+                    of.cables.rows.iter_mut().for_each(|row| row.radius_m *= WRONG);
+                })
+            },
+        },
+        Control {
+            id: "drum-side",
+            wrong: "length of the rope between pulley and drum 1 % too large",
+            proves: "the stretch of the drum side",
+            rows: || of_changed(|of| of.cables.rows.iter_mut().for_each(|row| row.drum_side_length_m *= WRONG)),
+        },
+        Control {
+            id: "winch-stiffness",
+            wrong: "stiffness of every winch 1 % too small",
+            proves: "the yielding of the winch",
+            rows: || {
+                of_changed(|of| {
+                    let all = of.cables.rows.iter_mut().filter_map(|row| row.winch_stiffness_n_per_m.as_mut());
+                    all.for_each(|stiffness| *stiffness /= WRONG);
+                })
+            },
+        },
+        Control {
+            id: "friction",
+            wrong: "coefficient of friction of the pulleys 1 % too large",
+            proves: "the change of the tension over a pulley",
+            rows: || {
+                let mut drives = reference::drives()?;
+                only_friction(&mut drives);
+                drives.friction_corners.rows.iter_mut().for_each(|row| row.friction_coefficient *= WRONG);
+                rows(&drives)
+            },
+        },
+        Control {
+            id: "motor",
+            wrong: "mass of every motor at the cable 1 % too large",
+            proves: "the inertia of the drive",
+            rows: || of_vibration(|parts| parts.motor_mass_kg *= WRONG),
+        },
+        Control {
+            id: "wheel",
+            wrong: "inertia of every wheel 1 % too large",
+            proves: "the inertia of the pulleys",
+            rows: || of_vibration(|parts| parts.wheel_inertia_kg_m2 *= WRONG),
+        },
+        Control {
+            id: "gain",
+            wrong: "position gain of every servo 1 % too large",
+            proves: "the control of the motors",
+            rows: || of_vibration(|parts| parts.position_gain_n_per_m *= WRONG),
+        },
+    ],
+};
+
+fn rows(drives: &Drives) -> Result<Vec<Comparison>> {
     let mut rows = Vec::new();
     for row in &drives.straight.rows {
         rows.extend(straight(row, &drives.straight.source));
@@ -27,7 +99,7 @@ pub(super) fn section(drives: &Drives, moving: Vec<Comparison>) -> Result<Sectio
     for row in &drives.robots.rows {
         rows.extend(robot(row, &drives.robots.source)?);
     }
-    rows.extend(moving);
+    rows.extend(driven::comparisons(drives)?);
 
     for row in &drives.friction_corners.rows {
         let robot = with_friction(drives, &row.robot, row.friction_coefficient)?;
@@ -38,15 +110,39 @@ pub(super) fn section(drives: &Drives, moving: Vec<Comparison>) -> Result<Sectio
         rows.extend(friction_half_widths(row, &robot, &drives.friction_half_widths.source)?);
     }
 
-    Ok(Section {
-        title: "Pulleys and winches",
-        note: "Straight cables over swivelling pulleys against the closed forms of other programs; sagging elastic \
-               cables over pulleys, whose weight begins at the entry point; cables to winches that yield; robots with \
-               pulleys and winches. The stiffness with a tilted swivel axis is exact to the square of the kink, \
-               theory (69). Friction of pulleys: equilibria after given last motions of the cables, solved without \
-               linearisation, and the first-order half widths of theory (74).",
-        rows,
-    })
+    Ok(rows)
+}
+
+/// Comparisons of single cables with a change.
+fn of_changed(change: fn(&mut Drives)) -> Result<Vec<Comparison>> {
+    let mut drives = reference::drives()?;
+    change(&mut drives);
+    drives.robots.rows.clear();
+    drives.vibration.rows.clear();
+    drives.moving_cables.rows.clear();
+    drives.friction_corners.rows.clear();
+    drives.friction_half_widths.rows.clear();
+    rows(&drives)
+}
+
+/// Comparisons of the vibration of cables with a change of their drives.
+fn of_vibration(change: fn(&mut DriveParts)) -> Result<Vec<Comparison>> {
+    let mut drives = reference::drives()?;
+    drives.vibration.rows.clear();
+    drives.moving_cables.rows.iter_mut().for_each(|row| change(&mut row.parts));
+    driven::comparisons(&drives)
+}
+
+/// Leaves the equilibria with friction.
+fn only_friction(drives: &mut Drives) {
+    drives.straight.rows.clear();
+    drives.sagging.rows.clear();
+    drives.cables.rows.clear();
+    drives.vibration.rows.clear();
+    drives.moving_cables.rows.clear();
+    drives.friction_half_widths.rows.clear();
+    // Its robot stays, and is not compared again.
+    drives.friction_corners.rows.truncate(1);
 }
 
 /// Rounding of closed forms with lengths of some metres.
@@ -70,12 +166,18 @@ fn straight(row: &StraightOverPulley, source: &str) -> Vec<Comparison> {
     let wrap = anchor.contact(&end_w).map_or(f64::NAN, |contact| contact.wrap);
     let length = (end_w - exit_w).norm() + anchor.length_beyond(&end_w);
 
-    let case = Case { name: format!("straight, {}", row.case), source };
+    let case =
+        Case::new(Level::Exact, source, &format!("straight/{}", slug(&row.case)), &format!("straight, {}", row.case));
     let tolerance = row.printed_digits + CLOSED_FORM;
     let bound = if row.printed_digits > CLOSED_FORM { Bound::Digits("12 printed digits") } else { Bound::Rounding };
     vec![
-        case.absolute("wrap [rad], length [m]", &[row.wrap_rad, row.length_m], &[wrap, length], tolerance, bound),
-        case.absolute("exit point [m]", &row.exit_point_m, exit_w.as_slice(), tolerance, bound),
+        case.of("wrap-length", "wrap [rad], length [m]").absolute(
+            &[row.wrap_rad, row.length_m],
+            &[wrap, length],
+            tolerance,
+            bound,
+        ),
+        case.of("exit", "exit point [m]").absolute(&row.exit_point_m, exit_w.as_slice(), tolerance, bound),
     ]
 }
 
@@ -96,24 +198,34 @@ fn sagging(row: &SaggingOverPulley, source: &str) -> Result<Vec<Comparison>> {
     let drive = found.drive.as_ref().ok_or_else(|| anyhow!("a cable over a pulley has a drive"))?;
     let catenary = &found.span.catenary;
 
-    let case = Case { name: format!("sagging, {}", row.case), source };
+    let case =
+        Case::new(Level::Exact, source, &format!("sagging/{}", slug(&row.case)), &format!("sagging, {}", row.case));
     let wrap = drive.contact.map_or(f64::NAN, |contact| contact.wrap);
     let tensions = [catenary.tension_at_start(), catenary.tension_at_end(), drive.tension_drum];
     let their_tensions = [row.tension_platform_n, row.tension_exit_n, row.tension_drum_n];
     let entries = [k[(0, 0)], k[(0, 2)], k[(2, 2)], k[(1, 1)]];
     let free_length = catenary.rope().unstrained_length;
     Ok(vec![
-        case.together("force [N]", &row.force_at_platform_along_up_n, &[force_w.x, force_w.z], SOLVED, Bound::Rounding),
-        case.together("tensions [N]", &their_tensions, &tensions, SOLVED, Bound::Rounding),
-        case.absolute(
-            "wrap [rad], free length [m]",
+        case.of("force", "force [N]").together(
+            &row.force_at_platform_along_up_n,
+            &[force_w.x, force_w.z],
+            SOLVED,
+            Bound::Rounding,
+        ),
+        case.of("tensions", "tensions [N]").together(&their_tensions, &tensions, SOLVED, Bound::Rounding),
+        case.of("wrap-length", "wrap [rad], free length [m]").absolute(
             &[row.wrap_rad, row.free_length_m],
             &[wrap, free_length],
             SOLVED,
             Bound::Rounding,
         ),
-        case.absolute("exit point [m]", &row.exit_point_along_up_m, &[exit_w.x, exit_w.z], SOLVED, Bound::Rounding),
-        case.together("stiffness [N/m]", &row.stiffness_n_per_m, &entries, SOLVED, Bound::Rounding),
+        case.of("exit", "exit point [m]").absolute(
+            &row.exit_point_along_up_m,
+            &[exit_w.x, exit_w.z],
+            SOLVED,
+            Bound::Rounding,
+        ),
+        case.of("stiffness", "stiffness [N/m]").together(&row.stiffness_n_per_m, &entries, SOLVED, Bound::Rounding),
     ])
 }
 
@@ -138,7 +250,7 @@ fn to_winch(row: &CableToWinch, source: &str) -> Result<Vec<Comparison>> {
     let catenary = &found.span.catenary;
     let wrap = drive.contact.map_or(f64::NAN, |contact| contact.wrap);
 
-    let case = Case { name: row.case.clone(), source };
+    let case = Case::new(Level::Program, source, &format!("cable/{}", slug(&row.case)), &row.case);
     let digits = Bound::Digits("12 printed digits");
     // A tilted swivel axis.
     let kinked = row.kink_rad.abs() > 1e-12;
@@ -148,26 +260,29 @@ fn to_winch(row: &CableToWinch, source: &str) -> Result<Vec<Comparison>> {
     let theirs = Mat3::from_fn(|i, j| row.stiffness_n_per_m[i][j]);
     let lengths = [catenary.rope().unstrained_length, drive.arc_length, drive.drum_side_length];
     Ok(vec![
-        case.together("force [N]", &row.force_on_platform_n, found.force_w().as_slice(), SOLVED, digits),
-        case.together(
-            "tensions at exit and drum [N]",
+        case.of("force", "force [N]").together(&row.force_on_platform_n, found.force_w().as_slice(), SOLVED, digits),
+        case.of("tensions", "tensions at exit and drum [N]").together(
             &[row.tension_exit_n, row.tension_drum_n],
             &[catenary.tension_at_end(), drive.tension_drum],
             SOLVED,
             digits,
         ),
-        case.absolute("wrap, kink [rad]", &[row.wrap_rad, row.kink_rad], &[wrap, drive.kink], SOLVED, digits),
-        case.absolute("exit point [m]", &row.exit_point_m, found.span.end_w.as_slice(), SOLVED, digits),
-        case.absolute("lengths of span, arc, drum side [m]", &row.lengths_m, &lengths, SOLVED, digits),
-        case.together("stiffness [N/m]", theirs.as_slice(), k.as_slice(), stiffness, bound),
-        case.together(
-            "force per length [N/m]",
+        case.of("wrap-kink", "wrap, kink [rad]").absolute(
+            &[row.wrap_rad, row.kink_rad],
+            &[wrap, drive.kink],
+            SOLVED,
+            digits,
+        ),
+        case.of("exit", "exit point [m]").absolute(&row.exit_point_m, found.span.end_w.as_slice(), SOLVED, digits),
+        case.of("lengths", "lengths of span, arc, drum side [m]").absolute(&row.lengths_m, &lengths, SOLVED, digits),
+        case.of("stiffness", "stiffness [N/m]").together(theirs.as_slice(), k.as_slice(), stiffness, bound),
+        case.of("force-by-length", "force per length [N/m]").together(
             &row.force_per_unstrained_length_n_per_m,
             found.force_by_length_w().as_slice(),
             stiffness,
             bound,
         ),
-        case.relative("energy [J]", &[row.energy_j], &[found.energy()], SOLVED, digits),
+        case.of("energy", "energy [J]").relative(&[row.energy_j], &[found.energy()], SOLVED, digits),
     ])
 }
 
@@ -181,20 +296,25 @@ fn robot(row: &RobotWithWinches, source: &str) -> Result<Vec<Comparison>> {
 
     // The way back: lengths from the pose.
     let held = statics::inverse(&robot, &rest.pose, StaticModel::Catenary);
-    let case = Case { name: row.case.clone(), source };
+    let case = Case::new(Level::Program, source, &format!("robot/{}", slug(&row.case)), &row.case);
     let digits = Bound::Digits("12 printed digits");
     let angles = rotation::to_roll_pitch_yaw_deg(&rest.pose.rot_wp);
     let mut rows = vec![
-        case.absolute("position [m]", &row.position_m, rest.pose.position_w.as_slice(), 1e-11, digits),
-        case.absolute("orientation [°]", &row.roll_pitch_yaw_deg, &angles, 1e-9, digits),
-        case.together("tensions at the exit [N]", &row.tension_exit_n, &exit, SOLVED, digits),
-        case.together("tensions at the drum [N]", &row.tension_drum_n, &drum, SOLVED, digits),
-        case.together("stiffness", row.stiffness_6x6.as_flattened(), stiffness.as_slice(), SOLVED, digits),
+        case.of("position", "position [m]").absolute(&row.position_m, rest.pose.position_w.as_slice(), 1e-11, digits),
+        case.of("orientation", "orientation [°]").absolute(&row.roll_pitch_yaw_deg, &angles, 1e-9, digits),
+        case.of("tensions-exit", "tensions at the exit [N]").together(&row.tension_exit_n, &exit, SOLVED, digits),
+        case.of("tensions-drum", "tensions at the drum [N]").together(&row.tension_drum_n, &drum, SOLVED, digits),
+        case.of("stiffness", "stiffness").together(
+            row.stiffness_6x6.as_flattened(),
+            stiffness.as_slice(),
+            SOLVED,
+            digits,
+        ),
     ];
     // More cables than degrees of freedom have a choice.
     if let (Ok(held), true) = (held, robot.constraint() == Constraint::Fully) {
         let back: Vec<f64> = held.cables.iter().map(|cable| cable.unstrained_length).collect();
-        rows.push(case.absolute("lengths from the pose [m]", lengths, &back, 1e-11, Bound::Rounding));
+        rows.push(case.of("lengths", "lengths from the pose [m]").absolute(lengths, &back, 1e-11, Bound::Rounding));
     }
     Ok(rows)
 }
@@ -249,13 +369,13 @@ fn friction_corner(row: &FrictionCorner, robot: &Robot, source: &str) -> Result<
     let ours = rest.pose.rot_wp.to_rotation_matrix();
     // The reference lists rows.
     let ours: Vec<f64> = ours.matrix().transpose().as_slice().to_vec();
-    let case = Case { name: row.case.clone(), source };
+    let case = Case::new(Level::Program, source, &format!("friction/{}", slug(&row.case)), &row.case);
     let digits = Bound::Digits("12 printed digits");
     Ok(vec![
-        case.absolute("position [m]", &row.position_m, rest.pose.position_w.as_slice(), 1e-11, digits),
-        case.absolute("rotation matrix", &theirs, &ours, 1e-10, digits),
-        case.together("tensions at the exit [N]", &row.tension_exit_n, &exit, SOLVED, digits),
-        case.together("tensions at the drum [N]", &row.tension_drum_n, &drum, SOLVED, digits),
+        case.of("position", "position [m]").absolute(&row.position_m, rest.pose.position_w.as_slice(), 1e-11, digits),
+        case.of("rotation", "rotation matrix").absolute(&theirs, &ours, 1e-10, digits),
+        case.of("tensions-exit", "tensions at the exit [N]").together(&row.tension_exit_n, &exit, SOLVED, digits),
+        case.of("tensions-drum", "tensions at the drum [N]").together(&row.tension_drum_n, &drum, SOLVED, digits),
     ])
 }
 
@@ -269,12 +389,12 @@ fn friction_half_widths(row: &FrictionHalfWidths, robot: &Robot, source: &str) -
     let motion = found.motion.ok_or_else(|| anyhow!("the lengths are held"))?;
     let scaled = |intervals: [Interval; 3]| intervals.map(|interval| interval.half_width() / SMALL_FRICTION);
 
-    let case = Case { name: row.case.clone(), source };
+    let case = Case::new(Level::Program, source, &format!("friction-widths/{}", slug(&row.case)), &row.case);
     let bound = Bound::Model("strain of the cable on the wheel");
     let ours = [scaled(motion.translation_w), scaled(motion.rotation_w)];
     Ok(vec![
-        case.relative("translation [m]", &row.translation_m, &ours[0], ON_WHEEL, bound),
-        case.relative("rotation [rad]", &row.rotation_rad, &ours[1], ON_WHEEL, bound),
+        case.of("translation", "translation [m]").relative(&row.translation_m, &ours[0], ON_WHEEL, bound),
+        case.of("rotation", "rotation [rad]").relative(&row.rotation_rad, &ours[1], ON_WHEEL, bound),
     ])
 }
 

@@ -1,14 +1,60 @@
 //! Dynamic stiffness and clamped frequencies of one cable.
 
 use super::reference::{BesselRow, ClosedFormRow, Fig2, FiniteElementRow, Published};
-use super::{Bound, Case, Comparison, DifferenceKind, Section, over, worst};
+use super::section::WRONG;
+use super::{Bound, Case, Comparison, Control, Declared, DifferenceKind, Level, over, reference, slug, worst};
 use funicular::cable::shallow_dynamic::ShallowDynamic;
 use funicular::cable::{LocalAxes, Sag};
 use funicular::math::{Complex, Vec3};
 use funicular::robot::Damping;
 use std::f64::consts::{PI, TAU};
 
-pub(super) fn section(published: &Published) -> Section {
+pub(super) const SECTION: Declared = Declared {
+    id: "one-cable",
+    title: "Dynamics of one cable",
+    note: "The model shallow-dynamic is a closed-form theory of shallow sag, with one tension per string and \
+           without axial inertia. Compared with values of the same theory, only rounding remains. Compared with \
+           the exact vertical cable, the difference is of second order in the variation of tension along the \
+           cable. Compared with finite elements of the elastic catenary, the missing axial inertia causes a \
+           difference that grows with the square of the frequency, to 1.5 % at 10 Hz; beside a resonance the \
+           slightly shifted pole adds to it.",
+    rows: || Ok(rows(&reference::published()?)),
+    controls: &[
+        Control {
+            id: "mass",
+            wrong: "mass per length of the cable 1 % too large",
+            proves: "the mass of a vibrating cable",
+            rows: || {
+                let mut published = reference::published()?;
+                published.fig2_cable.mass_kg_per_m *= WRONG;
+                published.bessel_cable.mass_kg_per_m *= WRONG;
+                Ok(rows(&published))
+            },
+        },
+        Control {
+            id: "tension",
+            wrong: "tension of the cable 1 % too large",
+            proves: "the tension of a vibrating cable",
+            rows: || {
+                let mut published = reference::published()?;
+                published.fig2_cable.tension_n *= WRONG;
+                Ok(rows(&published))
+            },
+        },
+        Control {
+            id: "gravity",
+            wrong: "gravity 1 % too large",
+            proves: "the sag of the cable",
+            rows: || {
+                let mut published = reference::published()?;
+                published.fig2_cable.gravity_m_s2 *= WRONG;
+                Ok(rows(&published))
+            },
+        },
+    ],
+};
+
+fn rows(published: &Published) -> Vec<Comparison> {
     let mut rows = roots(published);
     for row in &published.bessel_cable.rows {
         rows.extend(bessel(published, row));
@@ -17,16 +63,7 @@ pub(super) fn section(published: &Published) -> Section {
     rows.extend(published.fig2_closed_form.rows.iter().map(|row| closed_form(published, source, row)));
     let source = &published.fig2_finite_elements.source;
     rows.extend(published.fig2_finite_elements.rows.iter().flat_map(|row| finite_elements(published, source, row)));
-    Section {
-        title: "Dynamics of one cable",
-        note: "The model shallow-dynamic is a closed-form theory of shallow sag, with one tension per string and \
-               without axial inertia. Compared with values of the same theory, only rounding remains. Compared with \
-               the exact vertical cable, the difference is of second order in the variation of tension along the \
-               cable. Compared with finite elements of the elastic catenary, the missing axial inertia causes a \
-               difference that grows with the square of the frequency, to 1.5 % at 10 Hz; beside a resonance the \
-               slightly shifted pole adds to it.",
-        rows,
-    }
+    rows
 }
 
 /// Sag of the cable of the paper's Fig. 2, with a mass per length [kg/m].
@@ -84,13 +121,10 @@ fn roots(published: &Published) -> Vec<Comparison> {
         let shown: Vec<f64> =
             expected.iter().zip(&found).filter(|((_, shown), _)| *shown).map(|(_, ours)| *ours).collect();
 
-        Case { name, source: &table.source }.row(
-            "first four Ω",
-            (&row.roots, &shown),
-            (difference, DifferenceKind::Relative),
-            1e-13,
-            Bound::Rounding,
-        )
+        Case::new(Level::Exact, &table.source, &format!("irvine-caughey-1974/{}", slug(&name)), &name)
+            .of("roots", "first four Ω")
+            .numbers(8)
+            .row((&row.roots, &shown), (difference, DifferenceKind::Relative), 1e-13, Bound::Rounding)
     });
 
     rows.collect()
@@ -105,7 +139,12 @@ fn bessel(published: &Published, row: &BesselRow) -> Vec<Comparison> {
     let sag = Sag::new(of.length_m, 0.0, tension, 1e9, of.mass_kg_per_m, of.mass_kg_per_m * of.gravity_m_s2);
     let axes = LocalAxes::of_chord(&Vec3::zeros(), &(Vec3::z() * of.length_m), &Vec3::z());
     let cable = ShallowDynamic::new(sag, axes, Damping::Ratio(0.0), false);
-    let case = Case { name: format!("vertical, {} N below", row.lower_tension_n), source: &of.source };
+    let case = Case::new(
+        Level::Exact,
+        &of.source,
+        &format!("bessel/{}n", row.lower_tension_n),
+        &format!("vertical, {} N below", row.lower_tension_n),
+    );
 
     let variation = (weight / tension).powi(2);
     let varies = Bound::Model("one tension per string: second order in its variation");
@@ -118,14 +157,24 @@ fn bessel(published: &Published, row: &BesselRow) -> Vec<Comparison> {
     let (at_rest, at_one) = (cable.undamped(0.0).out_of_plane, cable.undamped(1.0).out_of_plane);
 
     vec![
-        case.relative("stiffness at rest [N/m]", &[still], &[at_rest], 1e-12, Bound::Rounding),
-        case.relative("first clamped ω [rad/s]", &theirs, &found, 0.012 * variation, varies),
-        case.absolute("stiffness at 1 rad/s [N/m]", &[moving], &[at_one], 0.1 * variation * still, varies),
+        case.of("rest", "stiffness at rest [N/m]").relative(&[still], &[at_rest], 1e-12, Bound::Rounding),
+        case.of("clamped", "first clamped ω [rad/s]").relative(&theirs, &found, 0.012 * variation, varies),
+        case.of("stiffness", "stiffness at 1 rad/s [N/m]").absolute(
+            &[moving],
+            &[at_one],
+            0.1 * variation * still,
+            varies,
+        ),
     ]
 }
 
 fn closed_form(published: &Published, source: &str, row: &ClosedFormRow) -> Comparison {
-    let case = Case { name: format!("Fig. 2, {} Hz, ξ = {}", row.frequency_hz, row.damping_ratio), source };
+    let case = Case::new(
+        Level::Exact,
+        source,
+        &format!("starossek-1991/{}hz-xi{}", row.frequency_hz, row.damping_ratio),
+        &format!("Fig. 2, {} Hz, ξ = {}", row.frequency_hz, row.damping_ratio),
+    );
     let cable = fig2(&published.fig2_cable, true, Damping::Ratio(row.damping_ratio));
     let k = cable.damped(row.frequency_hz * TAU);
     let complex = |[re, im]: [f64; 2]| Complex::new(re, im);
@@ -136,8 +185,7 @@ fn closed_form(published: &Published, source: &str, row: &ClosedFormRow) -> Comp
     let moduli = |of: [Complex; 4]| of.map(Complex::norm);
     let shown = (&moduli(theirs)[..], &moduli(ours)[..]);
     // Fourteen digits are printed, of the larger of both parts.
-    case.row(
-        "moduli of k_a, k_b, k_c, k_o [N/m]",
+    case.of("moduli", "moduli of k_a, k_b, k_c, k_o [N/m]").row(
         shown,
         (difference, DifferenceKind::Relative),
         2e-11,
@@ -147,7 +195,12 @@ fn closed_form(published: &Published, source: &str, row: &ClosedFormRow) -> Comp
 
 fn finite_elements(published: &Published, source: &str, row: &FiniteElementRow) -> [Comparison; 2] {
     let (frequency, end) = (row.frequency_hz, if row.upper_end_moves { "upper" } else { "lower" });
-    let case = Case { name: format!("Fig. 2, {frequency} Hz, {end} end"), source };
+    let case = Case::new(
+        Level::Program,
+        source,
+        &format!("finite-elements/{frequency}hz-{end}"),
+        &format!("Fig. 2, {frequency} Hz, {end} end"),
+    );
     let cable = fig2(&published.fig2_cable, row.upper_end_moves, Damping::Ratio(0.0));
     let k = cable.undamped(frequency * TAU).in_world(&cable.axes);
     let [xx, xz, zz, yy] = row.stiffness_xx_xz_zz_yy_n_per_m;
@@ -165,7 +218,7 @@ fn finite_elements(published: &Published, source: &str, row: &FiniteElementRow) 
     let out_of_plane = Bound::Model("one tension per string; poles at multiples of 2.485 Hz");
 
     [
-        case.together("K_xx, K_xz, K_zz [N/m]", &[xx, xz, zz], &ours, tolerance, in_plane),
-        case.absolute("K_yy [N/m]", &[yy], &[k[(1, 1)]], across, out_of_plane),
+        case.of("in-plane", "K_xx, K_xz, K_zz [N/m]").together(&[xx, xz, zz], &ours, tolerance, in_plane),
+        case.of("out-of-plane", "K_yy [N/m]").absolute(&[yy], &[k[(1, 1)]], across, out_of_plane),
     ]
 }

@@ -1,7 +1,11 @@
 //! Cable model `catenary-dynamic`, of single cables and in robots.
 
 use super::reference::{ExactCable, ExactReference, ExactRobot, IndependentReference, Published, robot};
-use super::{Bound, Case, Comparison, DifferenceKind, Section, largest, worst};
+use super::section::WRONG;
+use super::{
+    Bound, Case, ComparedQuantity, Comparison, Control, Declared, DifferenceKind, Level, largest, reference, slug,
+    worst,
+};
 use anyhow::{Context, Result};
 use funicular::cable::CableModel;
 use funicular::cable::catenary_dynamic::CatenaryDynamic;
@@ -15,11 +19,50 @@ use funicular::robot::WinchMode;
 use funicular::statics::{self, StaticModel};
 use std::f64::consts::TAU;
 
-pub(super) fn section(
-    published: &Published,
-    reference: &ExactReference,
-    robots: &IndependentReference,
-) -> Result<Section> {
+pub(super) const SECTION: Declared = Declared {
+    id: "catenary-dynamic",
+    title: "Catenary-dynamic cables, computed independently",
+    note: "Vibration about the elastic catenary, of any sag, axial waves included. The other program uses finite \
+           elements in extended precision and transfer matrices; ours one element of high degree and its poles. Of \
+           lists and matrices the last or largest value is shown and all are compared. The vertical cable of the \
+           literature does not stretch; ours has an axial stiffness of 1e10 N.",
+    rows: || rows(&reference::published()?, &reference::exact()?, &reference::independent()?),
+    controls: &[
+        Control {
+            id: "axial-inertia",
+            wrong: "cable model shallow-dynamic, which has no axial inertia",
+            proves: "axial waves, and the shape of the sag",
+            rows: || of_first(CableModel::ShallowDynamic, |_| ()),
+        },
+        Control {
+            id: "ea",
+            wrong: "axial stiffness EA of the single cables 1 % too large",
+            proves: "the stretch of a vibrating cable",
+            rows: || of_first(CableModel::CatenaryDynamic, |of| of.axial_stiffness_n *= WRONG),
+        },
+        Control {
+            id: "mass",
+            wrong: "mass per length of the single cables 1 % too large",
+            proves: "the mass of a vibrating cable",
+            rows: || of_first(CableModel::CatenaryDynamic, |of| of.mass_kg_per_m *= WRONG),
+        },
+        Control {
+            id: "viscous",
+            wrong: "viscous damping of the single cables 1 % too large",
+            proves: "the loss in a vibrating cable",
+            rows: || of_first(CableModel::CatenaryDynamic, |of| of.end_stiffness.viscous_n_s_m2 *= WRONG),
+        },
+    ],
+};
+
+fn rows(published: &Published, reference: &ExactReference, robots: &IndependentReference) -> Result<Vec<Comparison>> {
+    let mut rows = of_exact(reference, robots, CableModel::CatenaryDynamic)?;
+    rows.extend(bessel(published)?);
+    Ok(rows)
+}
+
+/// Comparisons with the separate program.
+fn of_exact(reference: &ExactReference, robots: &IndependentReference, model: CableModel) -> Result<Vec<Comparison>> {
     let mut rows = Vec::new();
 
     for cable in &reference.cables {
@@ -27,22 +70,23 @@ pub(super) fn section(
     }
     for case in &reference.robots {
         let toml = &robots.cases.iter().find(|other| other.id == case.id).context("a robot of independent.json")?.toml;
-        rows.extend(in_robot(&reference.about, case, toml)?);
+        rows.extend(in_robot(&reference.about, case, toml, model)?);
     }
-    rows.extend(bessel(published)?);
 
-    Ok(Section {
-        title: "Catenary-dynamic cables, computed independently",
-        note: "Vibration about the elastic catenary, of any sag, axial waves included. The other program uses finite \
-               elements in extended precision and transfer matrices; ours one element of high degree and its poles. Of \
-               lists and matrices the last or largest value is shown and all are compared. The vertical cable of the \
-               literature does not stretch; ours has an axial stiffness of 1e10 N.",
-        rows,
-    })
+    Ok(rows)
+}
+
+/// Comparisons of the first cable with a change, and of the first robot with a cable model.
+fn of_first(model: CableModel, change: fn(&mut ExactCable)) -> Result<Vec<Comparison>> {
+    let (mut exact, independent) = (reference::exact()?, reference::independent()?);
+    exact.cables.truncate(1);
+    exact.robots.truncate(1);
+    exact.cables.iter_mut().for_each(change);
+    of_exact(&exact, &independent, model)
 }
 
 fn alone(source: &str, of: &ExactCable) -> Result<Vec<Comparison>> {
-    let case = Case { name: of.id.clone(), source };
+    let case = Case::new(Level::Program, source, &slug(&of.id), &of.id);
     let gravity = Vec3::from(of.gravity_m_s2);
     let rope = Rope {
         unstrained_length: of.unstrained_length_m,
@@ -58,19 +102,25 @@ fn alone(source: &str, of: &ExactCable) -> Result<Vec<Comparison>> {
     let (in_plane, across) = (hertz(&exact.in_plane.poles), hertz(&exact.out_of_plane.poles));
 
     Ok(vec![
-        last(&case, "clamped frequencies in plane, last [Hz]", &of.clamped_in_plane_hz, &in_plane, 1e-9),
-        last(&case, "clamped frequencies out of plane, last [Hz]", &of.clamped_out_of_plane_hz, &across, 1e-9),
+        last(case.of("in-plane", "clamped frequencies in plane, last [Hz]"), &of.clamped_in_plane_hz, &in_plane, 1e-9),
+        last(
+            case.of("out-of-plane", "clamped frequencies out of plane, last [Hz]"),
+            &of.clamped_out_of_plane_hz,
+            &across,
+            1e-9,
+        ),
         platform_end(&case, of, &hanging, &exact),
         both_ends(&case, of, &hanging, &exact),
     ])
 }
 
 /// Compares each frequency relative to itself. The program may find more frequencies than the reference lists.
-fn last(case: &Case, quantity: &str, theirs: &[f64], ours: &[f64], tolerance: f64) -> Comparison {
+fn last(quantity: ComparedQuantity, theirs: &[f64], ours: &[f64], tolerance: f64) -> Comparison {
     let gaps = theirs.iter().enumerate().map(|(i, a)| ours.get(i).map_or(f64::NAN, |b| (b / a - 1.0).abs()));
     let at = theirs.len().saturating_sub(1);
     let shown = (theirs.get(at..).unwrap_or_default(), ours.get(at..=at).unwrap_or_default());
-    case.row(quantity, shown, (worst(gaps), DifferenceKind::Relative), tolerance, Bound::Elements)
+    let numbers = theirs.len();
+    quantity.numbers(numbers).row(shown, (worst(gaps), DifferenceKind::Relative), tolerance, Bound::Elements)
 }
 
 /// Compares the stiffness of the start of the cable with the end fixed, at all frequencies.
@@ -94,8 +144,7 @@ fn platform_end(case: &Case, of: &ExactCable, hanging: &HangingCable, exact: &Ca
     }
 
     let quantity = "end stiffness, largest at the last frequency [N/m]";
-    case.row(
-        quantity,
+    case.of("end-stiffness", quantity).row(
         (&[shown.0], &[shown.1]),
         (worst(gaps.into_iter()), DifferenceKind::Relative),
         1e-9,
@@ -131,8 +180,7 @@ fn both_ends(case: &Case, of: &ExactCable, hanging: &HangingCable, exact: &Caten
 
     let quantity =
         format!("stiffness of both ends, undamped, ξ = {}, {} N s/m², last [N/m]", theirs.xi, theirs.viscous_n_s_m2);
-    case.row(
-        &quantity,
+    case.of("both-ends", &quantity).row(
         (&[shown.0], &[shown.1]),
         (worst(gaps.into_iter()), DifferenceKind::Relative),
         1e-9,
@@ -159,13 +207,13 @@ fn end_matrix(hanging: &HangingCable, exact: &CatenaryDynamic, square: Complex) 
     })
 }
 
-fn in_robot(source: &str, of: &ExactRobot, toml: &str) -> Result<Vec<Comparison>> {
-    let case = Case { name: of.id.clone(), source };
+fn in_robot(source: &str, of: &ExactRobot, toml: &str, cable_model: CableModel) -> Result<Vec<Comparison>> {
+    let case = Case::new(Level::Program, source, &slug(&of.id), &of.id);
     let (robot, lengths) = robot(toml)?;
     let rest = statics::forward(&robot, &lengths, StaticModel::Catenary, None)?;
 
     let linearisation = Linearisation {
-        cable_model: CableModel::CatenaryDynamic,
+        cable_model,
         assembly: Assembly::Consistent,
         in_plane_only: false,
         winches: WinchMode::AsGiven,
@@ -185,10 +233,9 @@ fn in_robot(source: &str, of: &ExactRobot, toml: &str) -> Result<Vec<Comparison>
     let modulus = |of: &[Complex]| [largest(&of.iter().map(|z| z.norm()).collect::<Vec<_>>())];
 
     Ok(vec![
-        case.count(&format!("modes below {} Hz", of.below_hz), of.frequencies_hz.len(), certified),
-        last(&case, "natural frequencies, last [Hz]", &of.frequencies_hz, &frequencies, 1e-9),
-        case.row(
-            "accelerance az/fz, largest [1/kg]",
+        case.of("count", &format!("modes below {} Hz", of.below_hz)).count(of.frequencies_hz.len(), certified),
+        last(case.of("frequencies", "natural frequencies, last [Hz]"), &of.frequencies_hz, &frequencies, 1e-9),
+        case.of("accelerance", "accelerance az/fz, largest [1/kg]").numbers(2 * theirs.len()).row(
             (&modulus(&theirs), &modulus(&ours)),
             (worst(gaps), DifferenceKind::Relative),
             1e-8,
@@ -208,9 +255,19 @@ fn bessel(published: &Published) -> Result<Vec<Comparison>> {
         let cable = Catenary::between(0.0, of.length_m * (1.0 + mean / STIFF), rope)?;
         let exact = CatenaryDynamic::new(&cable, of.mass_kg_per_m, 1.2 * row.clamped_rad_per_s[2])?;
         let found: Vec<f64> = exact.out_of_plane.poles.iter().take(3).map(|square| square.sqrt()).collect();
-        let case = Case { name: format!("vertical, {} N below", row.lower_tension_n), source: &of.source };
+        let case = Case::new(
+            Level::Exact,
+            &of.source,
+            &format!("bessel/{}n", row.lower_tension_n),
+            &format!("vertical, {} N below", row.lower_tension_n),
+        );
         let stretch = Bound::Model("stretch, T/EA");
-        rows.push(case.relative("first clamped ω [rad/s]", &row.clamped_rad_per_s, &found, 1e-7, stretch));
+        rows.push(case.of("clamped", "first clamped ω [rad/s]").relative(
+            &row.clamped_rad_per_s,
+            &found,
+            1e-7,
+            stretch,
+        ));
     }
     Ok(rows)
 }

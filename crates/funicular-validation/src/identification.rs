@@ -1,7 +1,8 @@
 //! Values of robots that `identify` finds, compared with those that the measurements have or that others identified.
 
 use super::reference::{IdentificationReference, MeasuredPose, MeasuredResponses, PlatformOfMakers, ReferenceTable};
-use super::{Bound, Case, Comparison, DifferenceKind, Section, worst};
+use super::section::WRONG;
+use super::{Bound, Case, Comparison, Control, Declared, DifferenceKind, Level, reference, slug, worst};
 use anyhow::{Result, ensure};
 use funicular::math::{Rotation, Vec3, rotation};
 use funicular::statics::StaticModel;
@@ -27,21 +28,34 @@ const INERTIA: f64 = 0.05;
 const RMS_OF_SEARCH: f64 = 2.11;
 const RMS_DIGITS: f64 = 0.005;
 
-pub(super) fn section(reference: &IdentificationReference, poses: &ReferenceTable<MeasuredPose>) -> Result<Section> {
+pub(super) const SECTION: Declared = Declared {
+    id: "identification",
+    title: "Identification",
+    note: "Values that `identify` finds. First, ten values of the six-cable robot from responses of a separate \
+           program with known noise, from a start that is wrong by up to 50 %: the differences are in deviations \
+           of the result, and χ²/n is 1 if the deviations are right. Second, the platform of Bologna's prototype \
+           from the 208 frequencies of the section above, with its mass held, because frequencies do not change if \
+           mass and inertia have a common factor. The makers identified the same platform from records over time, \
+           by another method. The fit lowers the root mean square of the differences to 2.11 % and no further: the \
+           oscillations were large, and each peak was looked for within 7 % of the makers' model. Poses without a \
+           published measurement are not part of it.",
+    rows: || rows(&reference::identification()?, &reference::measured()?.grab),
+    controls: &[Control {
+        id: "frequencies",
+        wrong: "frequencies of the responses 1 % too large",
+        proves: "the frequencies at which responses are compared",
+        rows: || {
+            let mut given = reference::identification()?.responses;
+            (given.from_hz, given.step_hz) = (WRONG * given.from_hz, WRONG * given.step_hz);
+            from_responses(&given)
+        },
+    }],
+};
+
+fn rows(reference: &IdentificationReference, poses: &ReferenceTable<MeasuredPose>) -> Result<Vec<Comparison>> {
     let mut rows = from_responses(&reference.responses)?;
     rows.extend(from_frequencies(&reference.makers, poses)?);
-    Ok(Section {
-        title: "Identification",
-        note: "Values that `identify` finds. First, ten values of the six-cable robot from responses of a separate \
-               program with known noise, from a start that is wrong by up to 50 %: the differences are in deviations \
-               of the result, and χ²/n is 1 if the deviations are right. Second, the platform of Bologna's prototype \
-               from the 208 frequencies of the section above, with its mass held, because frequencies do not change if \
-               mass and inertia have a common factor. The makers identified the same platform from records over time, \
-               by another method. The fit lowers the root mean square of the differences to 2.11 % and no further: the \
-               oscillations were large, and each peak was looked for within 7 % of the makers' model. Poses without a \
-               published measurement are not part of it.",
-        rows,
-    })
+    Ok(rows)
 }
 
 /// Search without any prior, from the values of the request.
@@ -78,21 +92,19 @@ fn from_responses(given: &MeasuredResponses) -> Result<Vec<Comparison>> {
     )?;
     ensure!(found.values.len() == given.values.len(), "a value is missing");
 
-    let case = Case { name: "six cables, three responses".to_owned(), source: &given.source };
+    let case = Case::new(Level::Program, &given.source, "responses", "six cables, three responses");
     let truth: Vec<f64> = given.values.iter().map(|value| value.truth).collect();
     let ours: Vec<f64> = found.values.iter().map(|row| row.value).collect();
     let apart =
         found.values.iter().zip(&truth).map(|(row, truth)| (row.value - truth).abs() / row.deviation.unwrap_or(0.0));
     Ok(vec![
-        case.row(
-            "ten values of the robot file [SI]; difference in deviations",
+        case.of("values", "ten values of the robot file [SI]; difference in deviations").row(
             (&truth, &ours),
             (worst(apart), DifferenceKind::Absolute),
             DEVIATIONS,
             Bound::Digits("noise of 2 %"),
         ),
-        case.absolute(
-            "χ² per degree of freedom",
+        case.of("chi2", "χ² per degree of freedom").absolute(
             &[1.0],
             &[found.chi2_per_degree],
             CHI2,
@@ -124,16 +136,27 @@ fn from_frequencies(
 
     let mut rows = Vec::new();
     for theirs in &makers.rows {
-        let case = Case { name: format!("GRAB prototype, {}", theirs.set), source: &makers.source };
+        let case = Case::new(
+            Level::Measured,
+            &makers.source,
+            &format!("grab/{}", slug(&theirs.set)),
+            &format!("GRAB prototype, {}", theirs.set),
+        );
         let other = Bound::Model("another method, other records");
-        rows.push(case.absolute("centre of mass [m]", &theirs.com_m, &com, CENTER, other));
+        rows.push(case.of("centre-of-mass", "centre of mass [m]").absolute(&theirs.com_m, &com, CENTER, other));
         let quantity = "moments of inertia xx, yy, zz about the origin per mass [m²]";
-        rows.push(case.relative(quantity, &theirs.inertia_at_origin_kg_m2, &at_origin, INERTIA, other));
+        rows.push(case.of("inertia", quantity).relative(&theirs.inertia_at_origin_kg_m2, &at_origin, INERTIA, other));
     }
-    let case = Case { name: format!("GRAB prototype, {} poses", poses.rows.len()), source: &poses.source };
+    let case =
+        Case::new(Level::Program, &poses.source, "grab/scipy", &format!("GRAB prototype, {} poses", poses.rows.len()));
     let ours = 100.0 * found.frequency_rms.unwrap_or(f64::NAN);
     let quantity = "root mean square of the differences after the fit [%], against a trust-region search of SciPy";
-    rows.push(case.absolute(quantity, &[RMS_OF_SEARCH], &[ours], RMS_DIGITS, Bound::Digits("printed digits")));
+    rows.push(case.of("rms", quantity).absolute(
+        &[RMS_OF_SEARCH],
+        &[ours],
+        RMS_DIGITS,
+        Bound::Digits("printed digits"),
+    ));
     Ok(rows)
 }
 

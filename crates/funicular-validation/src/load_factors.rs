@@ -1,7 +1,8 @@
 //! Load factors of required boxes of loads, and wrench closure.
 
 use super::reference::{LoadFactorReference, LoadedPose, LoadedRobot, library_text};
-use super::{Bound, Case, Comparison, DifferenceKind, Section};
+use super::section::WRONG;
+use super::{Bound, Case, Comparison, Control, Declared, DifferenceKind, Level, reference, slug};
 use anyhow::{Context, Result};
 use funicular::math::Vec3;
 use funicular::robot::{Pose, Robot, TensionLimits};
@@ -21,20 +22,47 @@ const TENSION_FACTOR: f64 = 1e-10;
 /// Cause that bounds all differences.
 const ACCURACY: &str = "accuracy of the other program";
 
-pub(super) fn section(reference: &LoadFactorReference) -> Result<Section> {
+pub(super) const SECTION: Declared = Declared {
+    id: "load-factors",
+    title: "Load factors, computed independently",
+    note: "Largest multiple of a box of forces and moments that the cables hold in addition to the weight of the \
+           platform, at random poses; wrench closure and tension factor. The other program solves a problem per \
+           vertex of the box; here facets and the vertices that they leave open.",
+    rows: || rows(&reference::load_factors()?),
+    controls: &[
+        Control {
+            id: "required",
+            wrong: "required loads 1 % too large",
+            proves: "the size of the required loads",
+            rows: || of_changed(|of| of.required_box_n_nm = of.required_box_n_nm.map(|half| half * WRONG)),
+        },
+        Control {
+            id: "maximum",
+            wrong: "maximum tension 1 % too large",
+            proves: "the limits of the tensions",
+            rows: || of_changed(|of| of.tension_limits_n[1] *= WRONG),
+        },
+    ],
+};
+
+fn rows(reference: &LoadFactorReference) -> Result<Vec<Comparison>> {
     let mut rows = Vec::new();
     for of in &reference.robots {
         let (case, robot) = case_of(&reference.source, of)?;
         rows.extend(load_factors(&case, &robot, of)?);
         rows.extend(closures(&case, &robot, of));
     }
-    Ok(Section {
-        title: "Load factors, computed independently",
-        note: "Largest multiple of a box of forces and moments that the cables hold in addition to the weight of the \
-               platform, at random poses; wrench closure and tension factor. The other program solves a problem per \
-               vertex of the box; here facets and the vertices that they leave open.",
-        rows,
-    })
+    Ok(rows)
+}
+
+/// Comparisons of all robots with a change.
+fn of_changed(change: fn(&mut LoadedRobot)) -> Result<Vec<Comparison>> {
+    let mut reference = reference::load_factors()?;
+    for of in &mut reference.robots {
+        of.rows.truncate(5);
+        change(of);
+    }
+    rows(&reference)
 }
 
 /// Case with its robot.
@@ -48,7 +76,15 @@ fn case_of<'a>(source: &'a str, of: &LoadedRobot) -> Result<(Case<'a>, Robot)> {
         let rope = &mut cable.material;
         rope.mass_per_length = of.mass_kg_per_m.unwrap_or(rope.mass_per_length);
     }
-    Ok((Case { name: format!("{}, {} cables", of.id, of.static_model), source }, robot))
+    Ok((
+        Case::new(
+            Level::Program,
+            source,
+            &format!("{}/{}", slug(&of.id), of.static_model),
+            &format!("{}, {} cables", of.id, of.static_model),
+        ),
+        robot,
+    ))
 }
 
 fn pose_of(row: &LoadedPose) -> Pose {
@@ -72,11 +108,17 @@ fn load_factors(case: &Case, robot: &Robot, of: &LoadedRobot) -> Result<[Compari
 
     let difference = |(their, our): &(f64, f64)| (our - their).abs() / their.abs();
     let (their, our) =
-        pairs.into_iter().max_by(|a, b| difference(a).total_cmp(&difference(b))).context("no dead load is held")?;
+        pairs.iter().copied().max_by(|a, b| difference(a).total_cmp(&difference(b))).context("no dead load is held")?;
+    let compared = pairs.len();
     let quantity = "load factor with the largest difference";
     Ok([
-        case.count("poses with another verdict", 0, other_verdicts),
-        case.relative(quantity, &[their], &[our], tolerance, Bound::Digits(ACCURACY)),
+        case.of("verdicts", "poses with another verdict").count(0, other_verdicts),
+        case.of("load-factor", quantity).numbers(compared).relative(
+            &[their],
+            &[our],
+            tolerance,
+            Bound::Digits(ACCURACY),
+        ),
     ])
 }
 
@@ -94,7 +136,12 @@ fn closures(case: &Case, robot: &Robot, of: &LoadedRobot) -> Vec<Comparison> {
     let quantity = "tension factors; the largest is shown";
     let bound = Bound::Digits(ACCURACY);
     vec![
-        case.count("poses with another closure", 0, other),
-        case.row(quantity, shown, (difference, DifferenceKind::Absolute), TENSION_FACTOR, bound),
+        case.of("closure", "poses with another closure").count(0, other),
+        case.of("tension-factors", quantity).numbers(found.len()).row(
+            shown,
+            (difference, DifferenceKind::Absolute),
+            TENSION_FACTOR,
+            bound,
+        ),
     ]
 }

@@ -1,35 +1,107 @@
 //! Text of docs/validation.md. Numbers are rounded to the claimed digits, so that every machine makes the same text.
 
-use super::{Bound, Comparison, DifferenceKind, Section};
+use super::comparison::{Bound, Comparison, DifferenceKind};
+use super::section::ControlRun;
+use super::verdict::LevelCount;
+use super::wrong_references::{WRONG_REFERENCES, WrongReference};
+use super::{Level, Validated};
+use funicular_study::names::Named;
 use funicular_study::text::{counted, decimals, significant};
+use std::collections::BTreeMap;
 use std::fmt::Write;
 
 /// Number of digits in a row. The last digit is far above rounding errors.
 const DIGITS: i32 = 7;
 
 /// Complete text.
-pub fn markdown(sections: &[Section]) -> String {
+pub fn markdown(found: &Validated) -> String {
     let mut text = String::from(INTRODUCTION);
-    let all = || sections.iter().flat_map(|section| &section.rows);
-    let _ =
-        writeln!(text, "{} of {} pass.\n", all().filter(|row| row.pass).count(), counted(all().count(), "comparison"));
-
-    for (i, section) in sections.iter().enumerate() {
+    text.push_str(&counts(found));
+    for (i, section) in found.sections.iter().enumerate() {
         let passed = section.rows.iter().filter(|row| row.pass).count();
         let (number, title, rows) = (i + 1, section.title, section.rows.len());
         let _ = writeln!(text, "## {number}. {title}\n\n{}\n\n{passed} of {rows} pass.", section.note);
         for rows in section.rows.chunk_by(|a, b| a.source == b.source) {
-            let _ =
-                writeln!(text, "\nSource: {}\n\n{HEAD}", cell(&rows[0].source).trim_end_matches('.').to_owned() + ".");
+            let source = cell(&rows[0].source);
+            let _ = writeln!(text, "\nSource: {}.\n\n{HEAD}", source.trim_end_matches('.'));
             for row in rows {
                 let _ = writeln!(text, "{}", line(row));
             }
         }
         text.push('\n');
     }
+    text.push_str(&known_differences(found));
+    text.push_str(&wrong_references());
+    text.push_str(&controls(&found.controls));
 
     text.truncate(text.trim_end().len());
     text.push('\n');
+    text
+}
+
+/// Number of comparisons, and the table of levels.
+fn counts(found: &Validated) -> String {
+    let (all, numbers) = (counted(found.comparisons, "comparison"), counted(found.numbers, "reference number"));
+    let mut text = format!("{} of {all} pass, with {numbers} from {} sources.\n", found.passed, found.sources);
+    text.push_str("\n| level | reference numbers | comparisons | numbers | sources |\n|:---|:---|---:|---:|---:|\n");
+    for count in &found.levels {
+        let about = Level::from_name(count.level).map_or("", Named::about);
+        let LevelCount { level, comparisons, numbers, sources } = count;
+        let _ = writeln!(text, "| `{level}` | {about} | {comparisons} | {numbers} | {sources} |");
+    }
+    text.push('\n');
+    text
+}
+
+/// Differences of the models, by the effect that one of them leaves out.
+fn known_differences(found: &Validated) -> String {
+    let mut by_effect: BTreeMap<&str, (usize, f64, &str)> = BTreeMap::new();
+    for row in found.sections.iter().flat_map(|section| &section.rows) {
+        if let Bound::Model(effect) = row.bounded_by {
+            let part = if row.tolerance > 0.0 { row.difference / row.tolerance } else { 0.0 };
+            let (count, largest, id) = by_effect.entry(effect).or_insert((0, -1.0, ""));
+            *count += 1;
+            if part > *largest {
+                (*largest, *id) = (part, &row.id);
+            }
+        }
+    }
+    if by_effect.is_empty() {
+        return String::new();
+    }
+    let mut text = String::from(KNOWN_DIFFERENCES);
+    for (effect, (count, _, id)) in by_effect {
+        let _ = writeln!(text, "| {} | {count} | `{id}` |", cell(effect));
+    }
+    text.push('\n');
+    text
+}
+
+/// Table of reference numbers that are not used.
+fn wrong_references() -> String {
+    let mut text = String::from(WRONG_HEAD);
+    for WrongReference { source, quantity, published, right, why } in WRONG_REFERENCES {
+        let _ = writeln!(text, "| {} | {} | {published} | {right} | {} |", cell(source), cell(quantity), cell(why));
+    }
+    text.push('\n');
+    text
+}
+
+/// Table of the negative controls that were run.
+fn controls(runs: &[ControlRun]) -> String {
+    if runs.is_empty() {
+        return String::new();
+    }
+    let mut text = String::from(CONTROLS_HEAD);
+    for ControlRun { id, wrong, proves, comparisons, failed, worst, excess, caught } in runs {
+        let worst = match excess {
+            _ if !caught => "**none fails**".to_owned(),
+            Some(excess) => format!("`{worst}`, {excess:.0e} times its tolerance"),
+            None => format!("`{worst}`"),
+        };
+        let anchor = format!("<a id=\"control/{id}\"></a>`{id}`");
+        let _ = writeln!(text, "| {anchor} | {wrong} | {proves} | {failed} of {comparisons} | {worst} |");
+    }
     text
 }
 
@@ -37,11 +109,16 @@ const INTRODUCTION: &str = "\
 # Validation
 
 Every reference number here was published by others or computed by other means. The program computes the same case and
-reports the difference. This file is generated: `funicular validate -o docs/validation.md`. `funicular validate --format
-json` gives every digit. The reference numbers, each with its source, are in `crates/funicular-validation/reference/`.
+reports the difference. This file is generated: `funicular validate --controls -o docs/validation.md`. `funicular
+validate --format json` gives every digit, `-o FILE.xml` a report for build servers (JUnit), `-o FILE.svg` a badge. The
+reference numbers, each with its source, are in `crates/funicular-validation/reference/`.
+
+Each comparison has an ID that stays. It is the address of its row on this page, and `funicular validate --only ID`
+computes it alone; the beginning of an ID means all comparisons that begin with it, as in `--only catenary`.
 
 | column | meaning |
 |:---|:---|
+| ID | name of the comparison: section, source or case, quantity |
 | case | the robot or cable, and its state |
 | quantity | the compared quantity, with its unit; if it has several numbers, all are compared |
 | theirs, ours | the reference and this program, rounded |
@@ -60,8 +137,37 @@ its length and mass differently in different models.
 ";
 
 const HEAD: &str = "\
-| case | quantity | theirs | ours | difference | tolerance | bounded by | pass |
-|:---|:---|---:|---:|---:|---:|:---|:---|";
+| ID | case | quantity | theirs | ours | difference | tolerance | bounded by | pass |
+|:---|:---|:---|---:|---:|---:|---:|:---|:---|";
+
+const KNOWN_DIFFERENCES: &str = "\
+## Known differences of the models
+
+Where the reference has another model, the tolerance is the effect that one of the two leaves out. Nearest to its
+tolerance is the comparison that is named.
+
+| effect | comparisons | nearest to its tolerance |
+|:---|---:|:---|
+";
+
+const WRONG_HEAD: &str = "\
+## Reference values that were found wrong
+
+Published values that the equations of their own source contradict. They are not used, or compared only as what they are.
+
+| source | quantity | published | right | why |
+|:---|:---|---:|---:|:---|
+";
+
+const CONTROLS_HEAD: &str = "\
+## Negative controls
+
+A comparison proves something only if a fault makes it fail. Each control computes comparisons of its section with one
+wrong input, and at least one of them must fail; `funicular validate --controls` runs them.
+
+| ID | wrong input | fault that would be found | fail | most |
+|:---|:---|:---|---:|:---|
+";
 
 pub(super) fn line(row: &Comparison) -> String {
     let Comparison { case, quantity, theirs, ours, difference, kind, tolerance, bounded_by, pass, .. } = row;
@@ -90,8 +196,9 @@ pub(super) fn line(row: &Comparison) -> String {
     let bound: &str = (*bounded_by).into();
     let pass = if *pass { "yes" } else { "**no**" };
 
+    let id = &row.id;
     format!(
-        "| {} | {} | {theirs} | {ours} | {difference} | {tolerance} | {bound} | {pass} |",
+        "| <a id=\"{id}\"></a>`{id}` | {} | {} | {theirs} | {ours} | {difference} | {tolerance} | {bound} | {pass} |",
         cell(case),
         cell(quantity)
     )
@@ -149,16 +256,28 @@ fn cell(text: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Case, sections};
+    use crate::Case;
+    use crate::tests::all;
 
     #[test]
-    fn the_committed_file_is_the_generated_one() {
-        let generated = markdown(&sections().unwrap());
+    fn the_committed_file_is_the_generated_one_and_no_id_vanishes() {
+        let generated = markdown(all());
         let file = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/validation.md");
+        let committed = std::fs::read_to_string(file).unwrap();
+        let ids = |text: &str| -> Vec<String> {
+            text.split("<a id=\"").skip(1).filter_map(|rest| Some(rest.split_once('"')?.0.to_owned())).collect()
+        };
+        let known = ids(&generated);
+        let vanished: Vec<String> = ids(&committed).into_iter().filter(|id| !known.contains(id)).collect();
+        assert!(
+            vanished.is_empty(),
+            "IDs stay: {vanished:?} are in docs/validation.md, but nothing has them; if one has to go, remove its row \
+             there by hand"
+        );
         if std::env::var_os("UPDATE_DOCS").is_some() {
             std::fs::write(file, &generated).unwrap();
+            return;
         }
-        let committed = std::fs::read_to_string(file).unwrap();
         assert!(
             generated == committed,
             "docs/validation.md differs from what the program computes now; if the change is intended, regenerate it \
@@ -168,15 +287,17 @@ mod tests {
 
     #[test]
     fn a_row_says_what_kind_of_difference_it_has_and_hides_rounding_only() {
-        let case = Case { name: "a | b".to_owned(), source: "s" };
-        let row = case.relative("H [N]", &[100.0, 0.5], &[100.0 + 1e-11, 0.5], 1e-12, Bound::Rounding);
+        let case = Case::new(Level::Exact, "s", "a", "a | b");
+        let of = |name| case.of("q", name);
+        let row = of("H [N]").relative(&[100.0, 0.5], &[100.0 + 1e-11, 0.5], 1e-12, Bound::Rounding);
         assert_eq!(
             line(&row),
-            "| a \\| b | H [N] | 100, 0.5 | 100.0000, 0.5000 | rel. < 1e-12 | 1e-12 | rounding | yes |"
+            "| <a id=\"a/q\"></a>`a/q` | a \\| b | H [N] | 100, 0.5 | 100.0000, 0.5000 | rel. < 1e-12 | 1e-12 | \
+             rounding | yes |"
         );
-        let row = case.absolute("x [m]", &[2.0], &[2.004], 3e-3, Bound::Digits("two decimals"));
-        assert_eq!(line(&row), "| a \\| b | x [m] | 2 | 2.004000 | abs. 0.0040 | 0.0030 | two decimals | **no** |");
-        let row = case.relative("H [N]", &[1.0], &[f64::NAN], 1e-12, Bound::Rounding);
+        let row = of("x [m]").absolute(&[2.0], &[2.004], 3e-3, Bound::Digits("two decimals"));
+        assert!(line(&row).ends_with("| 2 | 2.004000 | abs. 0.0040 | 0.0030 | two decimals | **no** |"));
+        let row = of("H [N]").relative(&[1.0], &[f64::NAN], 1e-12, Bound::Rounding);
         assert!(!row.pass, "NaN never passes");
     }
 }

@@ -13,6 +13,7 @@ mod load_factors;
 mod measured;
 mod published;
 mod stretch_loss;
+mod strings;
 mod sway;
 mod trajectories;
 mod workspaces;
@@ -21,7 +22,7 @@ use anyhow::{Result, anyhow};
 use funicular::robot::{Robot, State};
 use serde::Deserialize;
 
-pub(super) use centres::{CentreRow, centres};
+pub(super) use centres::{CentreRow, LengthsAtCentre, centre_lengths, centres};
 pub(super) use damped::{
     Damped, DampedRobot, ModeShape, PointRobot, ReferencePoint, RopeDamping, ShapesOfRobot, damped,
 };
@@ -44,6 +45,7 @@ pub(super) use published::{
 };
 
 pub(super) use stretch_loss::{ChangedRobot, LossyRobot, LossyRope, StretchLossReference, stretch_loss};
+pub(super) use strings::{ClampedCable, ClampedTable, CooledCable, StringReference, TautString, strings};
 pub(super) use sway::{ShapedSum, SwayReference, SwayingRobot, sway};
 pub(super) use trajectories::{MovingRobot, MovingRow, TrajectoryReference, trajectories};
 pub(super) use workspaces::{WorkspaceReference, workspaces};

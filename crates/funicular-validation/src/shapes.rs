@@ -1,7 +1,7 @@
 //! Shapes of undamped modes: energies, modal masses, displacements along the cables.
 
 use super::reference::{ModeShape, ShapesOfRobot, robot};
-use super::{Bound, Case, Comparison, DifferenceKind, largest, worst};
+use super::{Bound, Case, ComparedQuantity, Comparison, DifferenceKind, Level, largest, worst};
 use anyhow::{Context, Result, ensure};
 use funicular::cable_motion::CableStations;
 use funicular::dynamics::{Dynamics, Linearisation};
@@ -24,7 +24,7 @@ struct Differences {
 
 /// Compares the modes of one robot: one row per quantity.
 pub(super) fn of_robot(source: &str, given: &ShapesOfRobot, toml: &str) -> Result<Vec<Comparison>> {
-    let case = Case { name: given.robot.clone(), source };
+    let case = Case::new(Level::Program, source, &format!("{}/shapes", given.robot), &given.robot);
     let (robot, lengths) = robot(toml)?;
     let rest = statics::forward(&robot, &lengths, StaticModel::Catenary, None)?;
     let dynamics = Dynamics::about(&robot, &rest, Linearisation::default(), given.below_hz)?;
@@ -42,18 +42,16 @@ pub(super) fn of_robot(source: &str, given: &ShapesOfRobot, toml: &str) -> Resul
 
     let platform = theirs.kinetic_energy_fraction["platform"];
     let several = given.modes.len();
-    let row = |quantity: &str, kind: DifferenceKind, shown: (f64, f64), differences: Vec<f64>, tolerance| {
-        let difference = (worst(differences.into_iter()), kind);
-        case.row(quantity, (&[shown.0], &[shown.1]), difference, tolerance, Bound::Elements)
-    };
+    let row =
+        |quantity: ComparedQuantity, kind: DifferenceKind, shown: (f64, f64), differences: Vec<f64>, tolerance| {
+            let difference = (worst(differences.into_iter()), kind);
+            quantity.numbers(several).row((&[shown.0], &[shown.1]), difference, tolerance, Bound::Elements)
+        };
     Ok(vec![
-        case.count(
-            &format!("modes with the platform at rest, of {several}"),
-            given.modes.iter().filter(|mode| mode.platform_at_rest).count(),
-            at_rest,
-        ),
+        case.of("resting", &format!("modes with the platform at rest, of {several}"))
+            .count(given.modes.iter().filter(|mode| mode.platform_at_rest).count(), at_rest),
         row(
-            &format!("{several} natural frequencies, last that moves the platform [Hz]"),
+            case.of("frequencies", &format!("{several} natural frequencies, last that moves the platform [Hz]")),
             DifferenceKind::Relative,
             (theirs.frequency_hz, ours.frequency_hz),
             all.iter().map(|d| d.frequency).collect(),
@@ -61,14 +59,14 @@ pub(super) fn of_robot(source: &str, given: &ShapesOfRobot, toml: &str) -> Resul
         ),
         // The error of an eigenvector is the error of the frequency divided by the gap to the next one: 1e-12/gap.
         row(
-            "fractions of the kinetic energy, divided by 1 + 0.001/gap; platform's",
+            case.of("energies", "fractions of the kinetic energy, divided by 1 + 0.001/gap; platform's"),
             DifferenceKind::Absolute,
             (platform, ours.platform_energy_fraction),
             all.iter().map(|d| d.energy).collect(),
             1e-9,
         ),
         row(
-            "modal masses, divided by 1 + 0.001/gap, last [kg]",
+            case.of("modal-masses", "modal masses, divided by 1 + 0.001/gap, last [kg]"),
             DifferenceKind::Relative,
             (modal_mass, ours.modal_mass),
             all.iter().filter_map(|d| d.modal_mass).collect(),
@@ -77,7 +75,7 @@ pub(super) fn of_robot(source: &str, given: &ShapesOfRobot, toml: &str) -> Resul
         // Cables are resolved until their frequencies are known to 1e-11. Errors of the shape enter frequencies
         // squared.
         row(
-            "displacements of the cables, largest [m/√kg]",
+            case.of("displacements", "displacements of the cables, largest [m/√kg]"),
             DifferenceKind::Relative,
             compared.largest_displacements(theirs, ours)?,
             all.iter().map(|d| d.shape).collect(),

@@ -1,7 +1,8 @@
 //! Large motion in time: histories of robots with sagging ropes that two methods without common code computed.
 
 use super::reference::{HistoryCase, HistoryReference, HistorySample, library};
-use super::{Bound, Case, Comparison, Section};
+use super::section::WRONG;
+use super::{Bound, Case, Comparison, Control, Declared, Level, reference, slug};
 use anyhow::Result;
 use funicular::math::{Mat3, Vec3};
 use funicular::robot::{Damping, Robot};
@@ -13,18 +14,52 @@ const FINE: (ElementMesh, f64) = (ElementMesh { elements: 6, degree: 10 }, 3e-10
 /// File of the library with the kind of robot of all cases; their numbers take the place of its own.
 const ROBOT: &str = "yuan2014-4mm";
 
-pub(super) fn section(reference: &HistoryReference) -> Result<Section> {
+pub(super) const SECTION: Declared = Declared {
+    id: "simulations",
+    title: "Large motion in time, computed by two methods",
+    note: "A payload is released, winches move, a load drops until all cables are slack. The listed numbers are \
+           those of the last time; the difference is the largest of all times and cables over the bound that the \
+           two methods leave at each time, so that 1 passes.",
+    rows: || rows(&reference::histories()?),
+    controls: &[
+        Control {
+            id: "ea",
+            wrong: "axial stiffness EA of the ropes 1 % too large",
+            proves: "the stretch of moving ropes",
+            rows: || of_first(|of| of.cables.iter_mut().for_each(|cable| cable.axial_stiffness_n *= WRONG)),
+        },
+        Control {
+            id: "mass",
+            wrong: "mass of the platform 1 % too large",
+            proves: "the inertia of the platform",
+            rows: || {
+                of_first(|of| {
+                    of.platform.mass_before_kg *= WRONG;
+                    of.platform.mass_after_kg *= WRONG;
+                })
+            },
+        },
+    ],
+};
+
+fn rows(reference: &HistoryReference) -> Result<Vec<Comparison>> {
     let mut rows = Vec::new();
     for of in &reference.cases {
         rows.extend(comparisons(&reference.about, of)?);
     }
-    Ok(Section {
-        title: "Large motion in time, computed by two methods",
-        note: "A payload is released, winches move, a load drops until all cables are slack. The listed numbers are \
-               those of the last time; the difference is the largest of all times and cables over the bound that the \
-               two methods leave at each time, so that 1 passes.",
-        rows,
-    })
+    Ok(rows)
+}
+
+/// Comparisons of the first case with a change, until its first sample.
+fn of_first(change: fn(&mut HistoryCase)) -> Result<Vec<Comparison>> {
+    let mut reference = reference::histories()?;
+    reference.cases.truncate(1);
+    for of in &mut reference.cases {
+        of.samples.truncate(2);
+        of.slack = None;
+        change(of);
+    }
+    rows(&reference)
 }
 
 fn robot_of(of: &HistoryCase) -> Result<(Robot, Vec<f64>)> {
@@ -65,30 +100,25 @@ fn comparisons(source: &str, of: &HistoryCase) -> Result<Vec<Comparison>> {
     let pairs = || of.samples.iter().zip(&found);
     let [moved, pulled] = [place_off, tension_off].map(|off| super::worst(pairs().map(|(a, b)| off(a, b))));
     let bound = Bound::Digits("agreement of the two methods");
-    let case = Case { name: format!("{} ({})", of.id, of.about), source };
+    let case = Case::new(Level::Program, source, &slug(&of.id), &format!("{} ({})", of.id, of.about));
     let (Some(theirs), Some(ours)) = (of.samples.last(), found.last()) else { return Ok(Vec::new()) };
     let kind = super::DifferenceKind::Relative;
     let tensions: Vec<f64> = ours.cables.iter().map(|cable| cable.tension_platform).collect();
     let mut rows = vec![
-        case.row(
-            &format!("position at {end} s [m], over the bound"),
+        case.of("position", &format!("position at {end} s [m], over the bound")).numbers(3 * of.samples.len()).row(
             (&theirs.position_m, ours.pose.position_w.as_slice()),
             (moved, kind),
             1.0,
             bound,
         ),
-        case.row(
-            &format!("tensions at the platform at {end} s [N], over the bound"),
-            (&theirs.tension_platform_n, &tensions),
-            (pulled, kind),
-            1.0,
-            bound,
-        ),
+        case.of("tensions", &format!("tensions at the platform at {end} s [N], over the bound"))
+            .numbers(of.samples.len() * of.cables.len())
+            .row((&theirs.tension_platform_n, &tensions), (pulled, kind), 1.0, bound),
     ];
     if let Some(slack) = &of.slack {
         let first: Vec<f64> = simulation.slack().iter().map(|cable| cable.first.unwrap_or(f64::NAN)).collect();
         let (theirs, digits) = (&slack.first_below_half_newton_s, slack.first_slack_bound_s);
-        rows.push(case.absolute("first time of slack [s]", theirs, &first, digits, bound));
+        rows.push(case.of("slack", "first time of slack [s]").absolute(theirs, &first, digits, bound));
     }
     Ok(rows)
 }

@@ -1,7 +1,8 @@
 //! Loss of the stretch of ropes: damped modes of robots, and the stiffness of single ropes.
 
 use super::reference::{ChangedRobot, LossyRobot, LossyRope, StretchLossReference, library_text};
-use super::{Bound, Case, Comparison, Section};
+use super::section::WRONG;
+use super::{Bound, Case, Comparison, Control, Declared, Level, reference, slug};
 use anyhow::{Context, Result, anyhow, bail};
 use funicular::cable::{CableModel, EndStiffness, LocalAxes};
 use funicular::dynamics::{Dynamics, Linearisation};
@@ -13,7 +14,31 @@ use std::f64::consts::TAU;
 /// Range above the highest listed mode, over its frequency.
 const MARGIN: f64 = 1.02;
 
-pub(super) fn section(reference: &StretchLossReference) -> Result<Section> {
+pub(super) const SECTION: Declared = Declared {
+    id: "stretch-loss",
+    title: "Loss of the stretch of ropes, computed independently",
+    note: "Damping ratios with a loss factor η of the axial stiffness, with η and the damping ratio ξ of the \
+           ropes, and with a damping time τ (Kelvin and Voigt); shares of the stretch in the undamped modes; the \
+           stiffness of single ropes. In the other program loss and inertia stand in one matrix; here the loss \
+           acts on a few moments of the strain. Near a veering the lists are compared as sets.",
+    rows: || rows(&reference::stretch_loss()?),
+    controls: &[
+        Control {
+            id: "eta",
+            wrong: "loss factor η of the stretch 1 % too large",
+            proves: "the loss of the stretch",
+            rows: || of_first(|of| of.eta *= WRONG, |of| of.eta *= WRONG),
+        },
+        Control {
+            id: "tau",
+            wrong: "damping time τ of the stretch 1 % too large",
+            proves: "the viscous loss of the stretch",
+            rows: || of_first(|of| of.tau_s *= WRONG, |of| of.tau_s *= WRONG),
+        },
+    ],
+};
+
+fn rows(reference: &StretchLossReference) -> Result<Vec<Comparison>> {
     let mut rows = Vec::new();
     for of in &reference.robots {
         rows.extend(of_robot(&reference.source, of)?);
@@ -21,14 +46,17 @@ pub(super) fn section(reference: &StretchLossReference) -> Result<Section> {
     for of in &reference.ropes {
         rows.extend(of_rope(&reference.source, of)?);
     }
-    Ok(Section {
-        title: "Loss of the stretch of ropes, computed independently",
-        note: "Damping ratios with a loss factor η of the axial stiffness, with η and the damping ratio ξ of the \
-               ropes, and with a damping time τ (Kelvin and Voigt); shares of the stretch in the undamped modes; the \
-               stiffness of single ropes. In the other program loss and inertia stand in one matrix; here the loss \
-               acts on a few moments of the strain. Near a veering the lists are compared as sets.",
-        rows,
-    })
+    Ok(rows)
+}
+
+/// Comparisons of the first robot and of the first rope, with a change of each.
+fn of_first(of_robot: fn(&mut LossyRobot), of_rope: fn(&mut LossyRope)) -> Result<Vec<Comparison>> {
+    let mut reference = reference::stretch_loss()?;
+    reference.robots.truncate(1);
+    reference.ropes.truncate(1);
+    reference.robots.iter_mut().for_each(of_robot);
+    reference.ropes.iter_mut().for_each(of_rope);
+    rows(&reference)
 }
 
 /// Robot of the library with the numbers of a case, its damping and its loss, at rest.
@@ -70,7 +98,7 @@ pub(super) fn nearest<T>(list: &[T], distance: impl Fn(&T) -> f64) -> Result<&T>
 }
 
 fn of_robot(source: &str, of: &LossyRobot) -> Result<Vec<Comparison>> {
-    let case = Case { name: of.id.clone(), source };
+    let case = Case::new(Level::Program, source, &slug(&of.id), &of.id);
     let bound = Bound::Digits("accuracy of the other program");
     let below_hz = MARGIN * of.frequency_hz.iter().copied().fold(0.0, f64::max);
     let hysteretic = StretchLoss { factor: of.eta, time: 0.0 };
@@ -98,12 +126,17 @@ fn of_robot(source: &str, of: &LossyRobot) -> Result<Vec<Comparison>> {
 
     let accuracy = of.relative_accuracy;
     Ok(vec![
-        case.relative("frequencies [Hz]", &of.frequency_hz, &frequencies, 1e-8, bound),
-        case.relative("shares of the stretch", &of.stretching_share, &shares, accuracy, bound),
-        case.together("shares per cable, first mode", &of.share_per_cable_mode_1, first, accuracy, bound),
-        case.relative("damping ratios with η", &of.zeta_eta, &ratios, accuracy, bound),
-        case.relative("damping ratios with η and ξ", &of.zeta_eta_xi, &both, accuracy, bound),
-        case.relative("damping ratios with τ", &of.zeta_kelvin_voigt, &kelvin, accuracy, bound),
+        case.of("frequencies", "frequencies [Hz]").relative(&of.frequency_hz, &frequencies, 1e-8, bound),
+        case.of("shares", "shares of the stretch").relative(&of.stretching_share, &shares, accuracy, bound),
+        case.of("shares-by-cable", "shares per cable, first mode").together(
+            &of.share_per_cable_mode_1,
+            first,
+            accuracy,
+            bound,
+        ),
+        case.of("damping-eta", "damping ratios with η").relative(&of.zeta_eta, &ratios, accuracy, bound),
+        case.of("damping-eta-xi", "damping ratios with η and ξ").relative(&of.zeta_eta_xi, &both, accuracy, bound),
+        case.of("damping-tau", "damping ratios with τ").relative(&of.zeta_kelvin_voigt, &kelvin, accuracy, bound),
     ])
 }
 
@@ -121,7 +154,7 @@ fn of_rope(source: &str, of: &LossyRope) -> Result<Vec<Comparison>> {
         Ok(parts.iter().flat_map(|part| part.iter().copied().collect::<Vec<f64>>()).collect())
     };
 
-    let case = Case { name: format!("rope {}", of.id), source };
+    let case = Case::new(Level::Program, source, &format!("rope/{}", slug(&of.id)), &format!("rope {}", of.id));
     let bound = Bound::Digits("digits of the table");
     let theirs = |k: &[[[f64; 3]; 3]; 2]| -> Vec<f64> { k.iter().flatten().flatten().copied().collect() };
     let dynamic = stiffness(CableModel::CatenaryDynamic, of.xi, hysteretic, omega)?;
@@ -129,8 +162,8 @@ fn of_rope(source: &str, of: &LossyRope) -> Result<Vec<Comparison>> {
     let kelvin = stiffness(CableModel::CatenaryDynamic, 0.0, viscous, omega)?;
     let still = stiffness(CableModel::CatenaryStatic, 0.0, hysteretic, omega)?;
     Ok(vec![
-        case.together("stiffness with η and ξ [N/m]", &theirs(&of.k_eta_xi), &dynamic, 2e-9, bound),
-        case.together("stiffness with τ [N/m]", &theirs(&of.k_kelvin_voigt_no_xi), &kelvin, 2e-9, bound),
-        case.together("static stiffness with η [N/m]", &theirs(&of.k_static_eta), &still, 2e-9, bound),
+        case.of("eta-xi", "stiffness with η and ξ [N/m]").together(&theirs(&of.k_eta_xi), &dynamic, 2e-9, bound),
+        case.of("tau", "stiffness with τ [N/m]").together(&theirs(&of.k_kelvin_voigt_no_xi), &kelvin, 2e-9, bound),
+        case.of("static-eta", "static stiffness with η [N/m]").together(&theirs(&of.k_static_eta), &still, 2e-9, bound),
     ])
 }

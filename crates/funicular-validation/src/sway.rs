@@ -1,8 +1,9 @@
 //! Sway of robots after a release, a stop and a shaped move.
 
 use super::reference::{ShapedSum, SwayReference, SwayingRobot};
+use super::section::WRONG;
 use super::stretch_loss::{at_rest, nearest};
-use super::{Bound, Case, Comparison, Section};
+use super::{Bound, Case, Comparison, Control, Declared, Level, reference, slug};
 use anyhow::{Result, bail};
 use funicular::dynamics::{Dynamics, Linearisation};
 use funicular::math::{Vec3, Vec6};
@@ -17,18 +18,60 @@ const VIBRATION: f64 = 0.05;
 /// Relative digits of the exact times of settling in the table.
 const DIGITS_OF_TIMES: f64 = 1e-5;
 
-pub(super) fn section(reference: &SwayReference) -> Result<Section> {
+pub(super) const SECTION: Declared = Declared {
+    id: "sway",
+    title: "Sway after a release, a stop and a shaped move, computed independently",
+    note: "Amplitudes of the platform origin mode by mode, the largest first, its position a second later, and the \
+           times from which on it is within a tolerance, exactly and by the sum of all amplitudes. Lengths are \
+           commanded with boxes of speed, acceleration and jerk, and with shapers.",
+    rows: || rows(&reference::sway()?),
+    controls: &[
+        Control {
+            id: "force",
+            wrong: "force before the release 1 % too large",
+            proves: "the amplitudes after a release",
+            rows: || of_first(|of| of.release.force_n = of.release.force_n.map(|force| WRONG * force)),
+        },
+        Control {
+            id: "rates",
+            wrong: "speeds before the stop 1 % too large",
+            proves: "the amplitudes after a stop",
+            rows: || of_first(|of| of.stop.rates_m_s.iter_mut().for_each(|rate| *rate *= WRONG)),
+        },
+        Control {
+            id: "shaper",
+            wrong: "frequencies of the shapers 10 % too large",
+            proves: "the vibration that a shaper leaves",
+            rows: || {
+                of_first(|of| {
+                    let modes = of.shaped.shapers.iter_mut().flat_map(|row| &mut row.modes_hz);
+                    modes.for_each(|hz| *hz *= 1.1);
+                })
+            },
+        },
+        Control {
+            id: "eta",
+            wrong: "loss factor η of the stretch 1 % too large",
+            proves: "the time of settling",
+            rows: || of_first(|of| of.eta *= WRONG),
+        },
+    ],
+};
+
+fn rows(reference: &SwayReference) -> Result<Vec<Comparison>> {
     let mut rows = Vec::new();
     for of in &reference.robots {
         rows.extend(of_robot(&reference.source, of)?);
     }
-    Ok(Section {
-        title: "Sway after a release, a stop and a shaped move, computed independently",
-        note: "Amplitudes of the platform origin mode by mode, the largest first, its position a second later, and the \
-               times from which on it is within a tolerance, exactly and by the sum of all amplitudes. Lengths are \
-               commanded with boxes of speed, acceleration and jerk, and with shapers.",
-        rows,
-    })
+    Ok(rows)
+}
+
+/// Comparisons of the first robot with a change.
+fn of_first(change: fn(&mut SwayingRobot)) -> Result<Vec<Comparison>> {
+    let mut reference = reference::sway()?;
+    reference.robots.truncate(1);
+    reference.robots.iter_mut().for_each(change);
+    rows(&reference)
 }
 
 /// Part of the place to which modes at the limit add that stand in one of the two lists only.
@@ -42,7 +85,7 @@ fn of_robot(source: &str, of: &SwayingRobot) -> Result<Vec<Comparison>> {
     if !damped.certified {
         bail!("{}: the damped list is not certified", robot.name);
     }
-    let case = Case { name: of.id.clone(), source };
+    let case = Case::new(Level::Program, source, &slug(&of.id), &of.id);
     let (accuracy, bound) = (of.relative_accuracy, Bound::Digits("accuracy of the other program"));
 
     let [x, y, z] = of.release.force_n;
@@ -51,12 +94,27 @@ fn of_robot(source: &str, of: &SwayingRobot) -> Result<Vec<Comparison>> {
     let at_1s = release.decay.at(1.0);
     let beyond = accuracy.max(AT_THE_LIMIT);
     let mut rows = vec![
-        case.together("deflection [m]", &theirs.static_deflection_m, release.held.as_slice(), accuracy, bound),
-        case.together("amplitudes, release [m]", &theirs.amplitudes_m, &loudest(&release.decay), accuracy, bound),
-        case.together("place after 1 s, release [m]", &theirs.position_at_1s_m, at_1s.as_slice(), beyond, bound),
+        case.of("release-deflection", "deflection [m]").together(
+            &theirs.static_deflection_m,
+            release.held.as_slice(),
+            accuracy,
+            bound,
+        ),
+        case.of("release-amplitudes", "amplitudes, release [m]").together(
+            &theirs.amplitudes_m,
+            &loudest(&release.decay),
+            accuracy,
+            bound,
+        ),
+        case.of("release-place", "place after 1 s, release [m]").together(
+            &theirs.position_at_1s_m,
+            at_1s.as_slice(),
+            beyond,
+            bound,
+        ),
     ];
     let times = theirs.settle.iter().map(|of| (of.tolerance_m, of.bound_s, of.exact_s)).collect::<Vec<_>>();
-    rows.extend(settling(&case, "release", &times, &release.decay, 0.0));
+    rows.extend(settling(&case, ("release", "release"), &times, &release.decay, 0.0));
 
     let motions = CommandedMotions::of(&dynamics, &found, &damped, &Vec3::zeros())?;
     let theirs = &of.stop;
@@ -64,26 +122,52 @@ fn of_robot(source: &str, of: &SwayingRobot) -> Result<Vec<Comparison>> {
     let stop = motions.after(&command);
     let at_1s = stop.at(1.0);
     rows.extend([
-        case.together("amplitudes, stop [m]", &theirs.amplitudes_m, &loudest(&stop), accuracy, bound),
-        case.relative("sum of all amplitudes, stop [m]", &[theirs.sum_m], &[stop.envelope(0.0)], accuracy, bound),
-        case.together("place 1 s after the stop [m]", &theirs.position_1s_after_m, at_1s.as_slice(), accuracy, bound),
+        case.of("stop-amplitudes", "amplitudes, stop [m]").together(
+            &theirs.amplitudes_m,
+            &loudest(&stop),
+            accuracy,
+            bound,
+        ),
+        case.of("stop-sum", "sum of all amplitudes, stop [m]").relative(
+            &[theirs.sum_m],
+            &[stop.envelope(0.0)],
+            accuracy,
+            bound,
+        ),
+        case.of("stop-place", "place 1 s after the stop [m]").together(
+            &theirs.position_1s_after_m,
+            at_1s.as_slice(),
+            accuracy,
+            bound,
+        ),
     ]);
     let times = theirs.settle.iter().map(|of| (of.tolerance_m, of.bound_s, of.exact_s)).collect::<Vec<_>>();
-    rows.extend(settling(&case, "stop", &times, &stop, command.duration()));
+    rows.extend(settling(&case, ("stop", "stop"), &times, &stop, command.duration()));
 
     let theirs = &of.shaped;
     let profile = Profile::new(&theirs.durations_s);
     let after = |profile: Profile| motions.after(&LengthCommand::Move { by: theirs.change_m.clone(), profile });
     let plain = after(profile.clone());
-    rows.push(case.together("amplitudes, move [m]", &theirs.amplitudes_m, &loudest(&plain), accuracy, bound));
+    rows.push(case.of("move-amplitudes", "amplitudes, move [m]").together(
+        &theirs.amplitudes_m,
+        &loudest(&plain),
+        accuracy,
+        bound,
+    ));
     for row in &theirs.shapers {
         let shaper = shaper(row, &plain)?;
         let shaped = after(profile.shaped(&shaper));
         let name = format!("{} of {} mode(s)", row.shaper, row.modes_hz.len());
+        let id = format!("{}-{}", row.shaper, row.modes_hz.len());
         let sum = shaped.envelope(0.0);
-        rows.push(case.relative(&format!("sum, {name} [m]"), &[row.sum_m], &[sum], accuracy, bound));
+        rows.push(case.of(&format!("{id}-sum"), &format!("sum, {name} [m]")).relative(
+            &[row.sum_m],
+            &[sum],
+            accuracy,
+            bound,
+        ));
         let times = [(theirs.tolerance_m, row.bound_s, row.exact_s)];
-        rows.extend(settling(&case, &name, &times, &shaped, shaper.duration()));
+        rows.extend(settling(&case, (&id, &name), &times, &shaped, shaper.duration()));
     }
     Ok(rows)
 }
@@ -97,7 +181,13 @@ fn loudest(decay: &Decay) -> Vec<f64> {
 }
 
 /// Times of settling, by the bound and exactly, from `earlier` before the beginning of the decay on [s].
-fn settling(case: &Case, name: &str, theirs: &[(f64, f64, f64)], decay: &Decay, earlier: f64) -> Vec<Comparison> {
+fn settling(
+    case: &Case,
+    (id, name): (&str, &str),
+    theirs: &[(f64, f64, f64)],
+    decay: &Decay,
+    earlier: f64,
+) -> Vec<Comparison> {
     let bound = Bound::Digits("digits of the table");
     let ours = |time: fn(&Decay, f64) -> f64| -> Vec<f64> {
         theirs.iter().map(|(tolerance, ..)| time(decay, *tolerance) + earlier).collect()
@@ -105,14 +195,18 @@ fn settling(case: &Case, name: &str, theirs: &[(f64, f64, f64)], decay: &Decay, 
     let [bounds, exact]: [Vec<f64>; 2] =
         [theirs.iter().map(|of| of.1).collect(), theirs.iter().map(|of| of.2).collect()];
     vec![
-        case.together(
-            &format!("settled by the sum, {name} [s]"),
+        case.of(&format!("{id}-settled-sum"), &format!("settled by the sum, {name} [s]")).together(
             &bounds,
             &ours(Decay::surely_settled),
             DIGITS_OF_TIMES,
             bound,
         ),
-        case.together(&format!("settled, {name} [s]"), &exact, &ours(Decay::settled), DIGITS_OF_TIMES, bound),
+        case.of(&format!("{id}-settled"), &format!("settled, {name} [s]")).together(
+            &exact,
+            &ours(Decay::settled),
+            DIGITS_OF_TIMES,
+            bound,
+        ),
     ]
 }
 

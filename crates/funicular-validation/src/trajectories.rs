@@ -1,7 +1,8 @@
 //! Lengths, tensions and rates along a path.
 
 use super::reference::{MovingRobot, MovingRow, TrajectoryReference, library_text};
-use super::{Bound, Case, Comparison, DifferenceKind, Section};
+use super::section::WRONG;
+use super::{Bound, Case, ComparedQuantity, Comparison, Control, Declared, DifferenceKind, Level, reference};
 use anyhow::Result;
 use funicular::math::Vec6;
 use funicular::path::{PathPoint, PlatformPath};
@@ -24,20 +25,45 @@ const BESIDE: f64 = 0.25;
 /// Period of the path [s].
 const PERIOD: f64 = 5.0;
 
-pub(super) fn section(reference: &TrajectoryReference) -> Result<Section> {
+pub(super) const SECTION: Declared = Declared {
+    id: "trajectories",
+    title: "Motion along a path, computed independently",
+    note: "Largest differences over all cables and ten times of a closed path, with the inertia of the platform. \
+           The rates contain the change of sag, stretch and tensions.",
+    rows: || rows(&reference::trajectories()?),
+    controls: &[
+        Control {
+            id: "acceleration",
+            wrong: "accelerations 1 % too large",
+            proves: "the inertia of the platform",
+            rows: || of_changed(|row| row.acceleration = row.acceleration.map(|part| part * WRONG)),
+        },
+        Control {
+            id: "twist",
+            wrong: "velocities 1 % too large",
+            proves: "the rates of the lengths",
+            rows: || of_changed(|row| row.twist = row.twist.map(|part| part * WRONG)),
+        },
+    ],
+};
+
+fn rows(reference: &TrajectoryReference) -> Result<Vec<Comparison>> {
     let mut rows = Vec::new();
     for of in &reference.robots {
         let [minimum, maximum] = of.tension_limits_n.map(Some);
         let robot = Robot::from_toml(library_text(&of.robot)?)?.with_tension_limits(TensionLimits { minimum, maximum });
-        let case = Case { name: of.robot.clone(), source: &reference.source };
+        let case = Case::new(Level::Program, &reference.source, &of.robot, &of.robot);
         rows.extend(along_path(&case, &robot, of)?);
     }
-    Ok(Section {
-        title: "Motion along a path, computed independently",
-        note: "Largest differences over all cables and ten times of a closed path, with the inertia of the platform. \
-               The rates contain the change of sag, stretch and tensions.",
-        rows,
-    })
+    Ok(rows)
+}
+
+/// Comparisons of the first robot with a change of all rows.
+fn of_changed(change: fn(&mut MovingRow)) -> Result<Vec<Comparison>> {
+    let mut reference = reference::trajectories()?;
+    reference.robots.truncate(1);
+    reference.robots.iter_mut().for_each(|of| of.rows.iter_mut().for_each(change));
+    rows(&reference)
 }
 
 /// Position and angles of the path of the reference.
@@ -84,39 +110,42 @@ fn along_path(case: &Case, robot: &Robot, of: &MovingRobot) -> Result<[Compariso
         found.push((row, along.at(&point)?));
     }
 
-    let compared =
-        |what: &str, theirs: fn(&MovingRow) -> Vec<f64>, ours: &dyn Fn(&InMotion) -> Vec<f64>, (limit, kind)| {
-            let pairs = found.iter().flat_map(|(row, motion)| theirs(row).into_iter().zip(ours(motion)));
-            let pairs: Vec<(f64, f64)> = pairs.collect();
-            let size = match kind {
-                DifferenceKind::Absolute => 1.0,
-                DifferenceKind::Relative => pairs.iter().fold(0.0, |most: f64, (their, _)| most.max(their.abs())),
-            };
-            let worst = super::worst(pairs.iter().map(|(their, our)| (our - their).abs() / size));
-            let (their, our) = pairs[0];
-            case.row(what, (&[their], &[our]), (worst, kind), limit, Bound::Digits("digits of the reference"))
+    let compared = |quantity: ComparedQuantity,
+                    theirs: fn(&MovingRow) -> Vec<f64>,
+                    ours: &dyn Fn(&InMotion) -> Vec<f64>,
+                    (limit, kind)| {
+        let pairs = found.iter().flat_map(|(row, motion)| theirs(row).into_iter().zip(ours(motion)));
+        let pairs: Vec<(f64, f64)> = pairs.collect();
+        let size = match kind {
+            DifferenceKind::Absolute => 1.0,
+            DifferenceKind::Relative => pairs.iter().fold(0.0, |most: f64, (their, _)| most.max(their.abs())),
         };
+        let worst = super::worst(pairs.iter().map(|(their, our)| (our - their).abs() / size));
+        let (their, our) = pairs[0];
+        let quantity = quantity.numbers(pairs.len());
+        quantity.row((&[their], &[our]), (worst, kind), limit, Bound::Digits("digits of the reference"))
+    };
     Ok([
         compared(
-            "unstrained lengths; the first is shown [m]",
+            case.of("lengths", "unstrained lengths; the first is shown [m]"),
             |row| row.lengths_m.clone(),
             &|motion| motion.equilibrium.cables.iter().map(|cable| cable.unstrained_length).collect(),
             (LENGTHS, DifferenceKind::Absolute),
         ),
         compared(
-            "tensions at both ends over the largest; the first is shown [N]",
+            case.of("tensions", "tensions at both ends over the largest; the first is shown [N]"),
             |row| [row.tensions_platform_n.clone(), row.tensions_anchor_n.clone()].concat(),
             &tensions,
             (TENSIONS, DifferenceKind::Relative),
         ),
         compared(
-            "rates of the lengths; the first is shown [m/s]",
+            case.of("rates", "rates of the lengths; the first is shown [m/s]"),
             |row| row.rates_m_s.clone(),
             &|motion| motion.length_rates.clone(),
             (RATES, DifferenceKind::Absolute),
         ),
         compared(
-            "powers at the anchors over the largest; the first is shown [W]",
+            case.of("powers", "powers at the anchors over the largest; the first is shown [W]"),
             |row| row.powers_w.clone(),
             &|motion| powers(robot, motion),
             (POWERS, DifferenceKind::Relative),

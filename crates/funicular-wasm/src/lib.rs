@@ -262,8 +262,8 @@ fn results(request: Vec<u8>) -> Result<Vec<u8>, (u32, String)> {
         return content.map_err(|error| told(error.into()));
     }
     #[cfg(feature = "validation")]
-    if matches!(request, Request::Validate(_)) {
-        let found = funicular_validation::run().map_err(|error| told(error.into()))?;
+    if let Request::Validate(of) = &request {
+        let found = funicular_validation::run(of).map_err(|error| told(error.into()))?;
         return funicular_study::json::of_results(&found, Words::Json).map_err(told);
     }
     run(&request, &mut Silent).and_then(|results| results.to_json(Words::Json)).map_err(told)

@@ -19,7 +19,7 @@ use funicular_files::endings::Kind;
 use funicular_files::{Begin, Guard, SweepFile, threads};
 use funicular_pages::pages::plot::SweepFigureChoice;
 use funicular_study::analyses::simulate::{BegunRun, RowNames};
-use funicular_study::request::{Request, RobotText};
+use funicular_study::request::{Request, RobotText, ValidateRequest};
 use funicular_study::text::counted;
 use funicular_study::wording::Words;
 use funicular_study::{Results, with_found};
@@ -87,21 +87,41 @@ impl Asked {
 pub(super) fn run(cli: &Cli, request: &Request, asked: Asked, guard: &mut Guard) -> Result<()> {
     // Errors of the robot file are reported before errors of the destinations.
     let robot = request.robot().map(RobotText::read).transpose()?.map(|file| file.robot);
+    if let Request::Validate(of) = request {
+        return validate(request, of, asked, guard);
+    }
     match document::form(request) {
         Some(form) => document(cli, request, form, asked, guard),
-        None if matches!(request, Request::Validate(_)) => validate(&asked, guard),
         None => results(request, robot, asked, cli.value("threads").copied(), guard),
     }
 }
 
-/// Makes all comparisons and prints them. One out of tolerance is an error.
-fn validate(asked: &Asked, guard: &mut Guard) -> Result<()> {
-    let sink = Sink::open(&asked.result, &[], guard)?;
+/// Makes comparisons, prints them and writes their files. One out of tolerance is an error.
+fn validate(request: &Request, of: &ValidateRequest, asked: Asked, guard: &mut Guard) -> Result<()> {
+    let Asked { result, wanted, options, samples, begin } = asked;
+    refuse_parts(request, &wanted, samples.is_some(), begin)?;
+    let sink = Sink::open(&result, &kinds_by_ending(request), guard)?;
+    let opened = Opened::open(request, &wanted, options, guard)?;
+
     let computes = interrupt::stop_analysis();
-    let found = funicular_validation::run()?;
+    let found = funicular_validation::run(of)?;
     drop(computes);
-    sink.write(&found)?;
+    let text = sink.render(&found)?;
+    let call = if opened.is_empty() { String::new() } else { command_line()? };
+    let at = Answered { request, results: None, validated: Some(&found), call: &call, words: Words::Program };
+    let files = opened.make(at, &mut TerminalProgress::new())?;
+
+    if !result.quiet || result.output_file.is_some() {
+        sink.write_bytes(text)?;
+    }
+    write(&files, &mut Vec::new())?;
     Ok(found.verdict()?)
+}
+
+/// Kinds of files that `-o` means by their ending.
+fn kinds_by_ending(request: &Request) -> Vec<Kind> {
+    let outputs = outputs::of(request.command()).iter().filter(|output| output.by_ending);
+    outputs.flat_map(|output| output.kinds).copied().collect()
 }
 
 /// Runs a request, prints its results, and writes its files.
@@ -114,8 +134,7 @@ fn results(
 ) -> Result<()> {
     let Asked { result, wanted, options, samples, begin } = asked;
     refuse_parts(request, &wanted, samples.is_some(), begin)?;
-    let kinds = outputs::of(request.command()).iter().filter(|output| output.by_ending).flat_map(|output| output.kinds);
-    let sink = Sink::open(&result, &kinds.copied().collect::<Vec<Kind>>(), guard)?;
+    let sink = Sink::open(&result, &kinds_by_ending(request), guard)?;
     let opened = Opened::open(request, &wanted, options, guard)?;
     if let Some(path) = &samples {
         guard.writes_rows(path, true)?;
@@ -142,7 +161,7 @@ fn results(
     let text = with_found!(&results, found => rendered(&sink, found))?;
     let call = if opened.is_empty() { String::new() } else { command_line()? };
     let waiting = (!opened.is_empty()).then(|| WaitingSpinner::for_("the files"));
-    let at = Answered { request, results: Some(&results), call: &call, words: Words::Program };
+    let at = Answered { request, results: Some(&results), validated: None, call: &call, words: Words::Program };
     let files = opened.make(at, &mut watch)?;
     drop((watch, waiting));
 
@@ -253,7 +272,7 @@ fn document(cli: &Cli, request: &Request, form: Form, asked: Asked, guard: &mut 
         Some(_) => Some(document::make(request, &command_line, Words::Program, &mut watch)?),
         None => None,
     };
-    let at = Answered { request, results: None, call: &command_line, words: Words::Program };
+    let at = Answered { request, results: None, validated: None, call: &command_line, words: Words::Program };
     let files = opened.make(at, &mut watch)?;
     drop((watch, waiting));
 

@@ -5,6 +5,6 @@ use funicular_validation::{Validated, markdown};
 
 impl Printed for Validated {
     fn text(&self) -> String {
-        markdown(&self.sections)
+        markdown(self)
     }
 }

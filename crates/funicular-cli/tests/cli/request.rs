@@ -181,7 +181,7 @@ fn the_request_of_every_command_runs_again() {
         (&["export", "ROBOT", "--to", "moordyn", "--mass-kg", "12.5", "--scenario", &release, "--for", "0.05"], &[]),
         (&["import", &tripod], &[]),
         (&["report", "ROBOT", "--below-hz", "1.3"], &["-o", "-"]),
-        (&["validate"], &[]),
+        (&["validate", "--only", "catenary,paper", "--level", "published", "--controls"], &[]),
         (&["merge", &part, "-o", &all], &["-o", &all]),
         (&["plot", &parquet], &["-o", &page]),
     ];

@@ -189,6 +189,7 @@ def run(request: Mapping[str, Any] | str, **files: Any) -> Any:
             raise InputError("`merge` writes a file: call `funicular.merge(parts, path)`")
         case "validate":
             found = json.loads(answer(text))
+            write_wanted(Answered(text), "funicular.run(request, ", wanted)
             return kind_of(full)(found)
         case _:
             answered = Answered(text)
@@ -366,14 +367,39 @@ def paper(path: File | None = None) -> Page:
     return page(*text_of(text, f"funicular.paper({'' if path is None else repr(str(path))})"), path)
 
 
-def validate() -> dict[str, Any]:
-    """Computes every comparison with published and independent numbers, as the program's `validate`.
+def validate(
+    *,
+    only: str | Sequence[str] = (),
+    level: Literal["exact", "program", "published", "measured"] | None = None,
+    controls: bool = False,
+    junit: File | None = None,
+    badge: File | None = None,
+) -> dict[str, Any]:
+    """Computes comparisons with published and independent numbers, as the program's `validate`.
+
+    Parameters
+    ----------
+    only
+        IDs of comparisons, or their beginnings: a section, a source or one comparison; all if none is given.
+    level
+        Kind of the reference numbers; all if none is given.
+    controls
+        Runs the negative controls, too: sections with one wrong input, which must fail.
+    junit, badge
+        Files: a report for build servers (XML), and a badge (SVG).
 
     Returns
     -------
     The keys of the program's JSON: `comparisons` is their number, `passed` the number within their tolerances.
+
+    Raises
+    ------
+    InputError
+        No comparison has such an ID.
     """
-    found: dict[str, Any] = run({"command": "validate"})
+    files = {key: path for key, path in (("junit", junit), ("badge", badge)) if path is not None}
+    ids = [only] if isinstance(only, str) else list(only)
+    found: dict[str, Any] = run({"command": "validate", "only": ids, "level": level, "controls": controls}, **files)
     return found
 
 

@@ -3,6 +3,7 @@
 use super::key::declared;
 use super::parts::{Model, ResponsePoints, RobotText, State, Tensions};
 use super::{check_fraction, check_positive};
+use crate::names::{ValidationLevel, optional};
 use anyhow::Result;
 use funicular::modes::PLATFORM_SHARE;
 
@@ -93,10 +94,19 @@ declared! {
     /// Compare the program with numbers that others published or computed; exit code 1 if a difference is out of
     /// tolerance.
     pub struct ValidateRequest {
+        /// Only comparisons whose IDs are these, or begin with them: a section, a source or one comparison.
+        only: Vec<String> = Vec::new() => (Texts).form("IDS").otherwise("all");
+        /// Only comparisons with reference numbers of this kind.
+        #[serde(with = "optional")]
+        level: Option<ValidationLevel> = None => (name::<ValidationLevel>()).form("LEVEL").otherwise("all");
+        /// Negative controls, too: sections with one wrong input, which must fail.
+        controls: bool = false => (Switch);
     }
     examples {
         "funicular validate",
-        "funicular validate -o docs/validation.md",
-        "funicular validate --format json",
+        "funicular validate --only catenary/michalos-1962",
+        "funicular validate --level measured --format json",
+        "funicular validate --controls -o docs/validation.md",
+        "funicular validate -o validation.xml",
     }
 }

@@ -10,6 +10,18 @@ pub(crate) fn centres() -> Result<ReferenceTable<CentreRow>> {
     serde_json::from_str(include_str!("../../reference/centres.json")).context("centres.json")
 }
 
+/// Reads centre_lengths.json.
+pub(crate) fn centre_lengths() -> Result<ReferenceTable<LengthsAtCentre>> {
+    serde_json::from_str(include_str!("../../reference/centre_lengths.json")).context("centre_lengths.json")
+}
+
+/// Unstrained lengths of CoGiRo by the centre of the tensions at a position.
+#[derive(Deserialize)]
+pub(crate) struct LengthsAtCentre {
+    pub(crate) position_m: [f64; 3],
+    pub(crate) unstrained_length_m: Vec<f64>,
+}
+
 /// Centre of the tensions of a robot of the library at a pose.
 #[derive(Deserialize)]
 pub(crate) struct CentreRow {

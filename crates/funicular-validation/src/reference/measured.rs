@@ -30,4 +30,6 @@ pub(crate) struct MeasuredPose {
     pub(crate) fixed_points_hz: Vec<f64>,
     /// Measured frequencies; `None` where no peak was found.
     pub(crate) measured_hz: Vec<Option<f64>>,
+    /// Frequencies that a separate fit finds in the same records; `None` where it is not trusted.
+    pub(crate) refitted_hz: Vec<Option<f64>>,
 }

@@ -21,7 +21,7 @@ pub(crate) struct WorkspaceReference {
 #[derive(Deserialize)]
 pub(crate) struct BoxShapedRobot {
     /// Sides of the frame, whose floor is z = 0, and of the plate.
-    frame_m: [f64; 3],
+    pub(crate) frame_m: [f64; 3],
     plate_m: [f64; 2],
     tension_limits_n: [f64; 2],
     pub(crate) center_m: [f64; 3],
