@@ -25,6 +25,7 @@ mod modes;
 mod motion;
 mod motion_unit;
 mod new_robot;
+mod observability;
 mod pages;
 mod payload;
 mod plots;

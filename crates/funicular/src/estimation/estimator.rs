@@ -530,6 +530,22 @@ impl Estimator {
         }
     }
 
+    /// Readings that all sensors would have at the present state, without noise, if the platform rests.
+    pub fn expected_at_rest(&self) -> SensorReadings {
+        let Kalman { of, mean, at, settings, readings, .. } = &self.kalman;
+        let to_platform = mean.pose.rot_wp.inverse();
+        let mut expected = SensorReadings { lengths: *readings, ..SensorReadings::default() };
+        for (i, cable) in at.cables.iter().enumerate() {
+            let leaving = &cable.leaving;
+            expected.tensions[i] = cable.tension + mean.tension_biases[i];
+            expected.angles[i] = [leaving.y.atan2(leaving.x), leaving.z.atan2(leaving.x.hypot(leaving.y))];
+        }
+        expected.gyroscope = mean.gyroscope_bias.into();
+        expected.accelerometer = (to_platform * -of.robot.gravity_w + mean.accelerometer_bias).into();
+        expected.tracker = mean.pose.point_w(&settings.tracked_point_p).into();
+        expected
+    }
+
     /// Number of cables.
     pub fn cables(&self) -> usize {
         self.kalman.places.cables
