@@ -1,11 +1,12 @@
-/* Cable-driven parallel robots with sagging cables: statics inside a control loop, motion step by step. C99, C++.
+/* Cable-driven parallel robots with sagging cables: statics inside a control loop, motion step by step, and an
+ * estimator of the state from sensors. C99, C++.
  *
  * SI units; every name has its unit. World axes. Cables in the order of the robot file. Lengths are unstrained lengths
  * from the attachment on the platform to the drum (to the anchor without one): what a winch has to pay out.
  *
- * Memory. The caller owns all memory but that of models and simulations. fn_inverse, fn_forward, fn_wrench, fn_warm_up
- * and fn_reset reserve none, take no lock, print nothing, and every iteration in them has a largest number of steps.
- * The others are for set-up.
+ * Memory. The caller owns all memory but that of models, simulations and estimators. fn_inverse, fn_forward, fn_wrench,
+ * fn_warm_up, fn_reset, fn_est_update and fn_est_get reserve none, take no lock, print nothing, and every iteration in
+ * them has a largest number of steps. The others are for set-up.
  *
  * Threads. A model is read only: many loops may use it. A loop serves one thread at a time; a second one gets FN_BUSY.
  *
@@ -53,14 +54,25 @@ extern "C" {
 #define FN_TOO_SLACK (-16)      /* a cable cannot have this tension at this pose */
 #define FN_NOT_FOUND (-17)      /* no result in the largest number of steps, and none to hold */
 #define FN_NO_START (-18)       /* lengths to pose need a pose to start from */
-#define FN_NO_REST (-19)        /* no equilibrium to begin a simulation at: the message says why */
+#define FN_NO_REST (-19)        /* no equilibrium to begin at: the message says why */
 #define FN_REFUSED (-20)        /* an input, an interval or an event of a simulation: the message says why */
 #define FN_FAILED (-21)         /* no step of a simulation can follow the motion */
 #define FN_BAD_STATE (-22)      /* a saved state is damaged, or belongs to another simulation */
+#define FN_LOST (-23)           /* no length for 0.2 s, or readings that lead nowhere: fn_est_restart */
+
+/* Alarms of an estimator, and their explanations. */
+#define FN_EST_SLIP 1        /* a cable became longer unseen by its encoder */
+#define FN_EST_LOAD_CELL 2   /* a load cell stepped */
+#define FN_EST_PAYLOAD 3     /* a payload was taken up or put down */
+#define FN_EST_FORCE 4       /* an external force beyond its prior */
+#define FN_EST_CUT 5         /* a cable has no tension any more */
+#define FN_EST_STUCK 6       /* a load cell repeats one reading */
+#define FN_EST_UNEXPLAINED 7 /* load cells: fn_est_explain says what fits, best 50 ms later */
 
 typedef struct fn_model fn_model; /* robot, read only */
 typedef struct fn_loop fn_loop;   /* state of one loop, in memory of the caller */
 typedef struct fn_sim fn_sim;     /* robot in motion, which advances step by step */
+typedef struct fn_est fn_est;     /* estimator of the state of a robot from its sensors */
 
 /* Motion of the platform, and external load on it besides the load of the robot file. */
 typedef struct fn_pose_input {
@@ -206,6 +218,124 @@ int32_t fn_sim_pick(fn_sim *sim, double mass_kg, const double *point_m, char *me
  * FN_BAD_MEMORY: too small; `bytes` then has the size that is needed. */
 int32_t fn_sim_save(fn_sim *sim, void *memory, size_t *bytes);
 int32_t fn_sim_restore(fn_sim *sim, const void *memory, size_t bytes);
+
+/* Estimator: pose, velocity, payload, external force, tensions and errors of the sensors, each with its standard
+ * deviation, from lengths and whatever else is read. docs/estimation.md has the model and what each number means. One
+ * thread at a time; a second one gets FN_BUSY. With a negative status the estimator is as before. */
+
+typedef struct fn_est_settings {
+  uint32_t struct_size;
+  uint32_t reserved; /* 0 */
+  /* Standard deviations of single readings. */
+  double length_std_m;
+  double tension_std_n;
+  double cable_angle_std_rad;
+  double gyroscope_std_rad_s;
+  double accelerometer_std_m_s2;
+  double tracker_std_m;
+  /* Before the first reading: payload, and standard deviations of what is not known. */
+  double payload_kg;
+  double payload_std_kg;
+  double first_moment_std_kg_m;
+  double force_std_n;
+  double moment_std_n_m;
+  double force_time_s; /* in which force and moment change */
+  double offset_std_m;
+  double tension_bias_std_n;
+  double friction; /* between rope and load cell */
+  double false_alarms_per_hour;
+  double inertial_unit_m[3]; /* platform frame */
+  double tracked_point_m[3];
+} fn_est_settings;
+
+/* Readings of one time. NULL: this sensor was not read. Bit i of a mask: reading i is missing, and what stands there is
+ * not looked at; a number that is not finite elsewhere is FN_BAD_INPUT. */
+typedef struct fn_est_readings {
+  uint32_t struct_size;
+  uint32_t cables; /* number of values of each array per cable */
+  const double *length_m;
+  const double *tension_n; /* at drums or anchors */
+  const double *azimuth_rad; /* direction in which a cable leaves its anchor */
+  const double *elevation_rad;
+  const double *gyroscope_rad_s;    /* 3, platform axes */
+  const double *accelerometer_m_s2; /* 3, platform axes; at rest minus gravity */
+  const double *tracker_m;          /* 3, world */
+  uint32_t length_missing;
+  uint32_t tension_missing;
+  uint32_t azimuth_missing;
+  uint32_t elevation_missing;
+  uint32_t gyroscope_missing;
+  uint32_t accelerometer_missing;
+  uint32_t tracker_missing;
+  uint32_t reserved; /* 0 */
+} fn_est_readings;
+
+typedef struct fn_est_result {
+  uint32_t struct_size;
+  uint32_t cables;    /* room of each array */
+  int32_t is_trusted; /* 0: readings do not fit their stated noise; all deviations are infinite then */
+  int32_t rings;      /* 1 while the platform vibrates */
+  int32_t alarm;      /* of the last update, FN_EST_...; 0: none */
+  int32_t alarm_cable; /* -1: none */
+  double time_s;
+  double position_m[3];
+  double quaternion_wxyz[4];
+  double position_std_m[3];
+  double rotation_std_rad[3];
+  double velocity_m_s[3];
+  double velocity_std_m_s[3];
+  double angular_velocity_rad_s[3];
+  double angular_velocity_std_rad_s[3];
+  double force_n[3]; /* external, besides the loads of the file */
+  double force_std_n[3];
+  double moment_n_m[3];
+  double moment_std_n_m[3];
+  double payload_kg;
+  double payload_std_kg;
+  double first_moment_kg_m[3]; /* platform axes */
+  double first_moment_std_kg_m[3];
+  /* may be missing: */
+  double *tension_n;
+  double *tension_std_n;
+  double *offset_m; /* true length minus reading */
+  double *offset_std_m;
+  double *tension_bias_n;
+  double *tension_bias_std_n;
+  double *slack; /* 1 slack, 0 taut, -1 unknown */
+} fn_est_result;
+
+/* One explanation of an alarm. */
+typedef struct fn_est_fault {
+  int32_t kind;    /* FN_EST_... */
+  int32_t cable;   /* -1: none */
+  double size;     /* slip in m, step of a load cell in N, payload in kg, force along z in N */
+  double std;
+  double worse_by; /* minus twice the logarithm of the likelihood, from the best */
+} fn_est_fault;
+
+/* Usual settings. */
+int32_t fn_est_defaults(fn_est_settings *settings);
+
+/* Estimator of the text of a robot file, at rest with the lengths of all cables. NULL: usual settings. The search for
+ * the pose begins at x, y, z [m], quaternion w, x, y, z, or (NULL) from nothing. A message (may be NULL) says why not. */
+int32_t fn_est_new(const char *toml, size_t bytes, const fn_est_settings *settings, const fn_est_readings *readings,
+                   const double *near_pose, fn_est **est, char *message, size_t message_bytes);
+int32_t fn_est_free(fn_est *est); /* NULL is fine */
+
+/* Moves the estimate by a time step and takes the readings at its end. The result may be NULL. FN_REFUSED: the step is
+ * not above 0 and at most 1 s. FN_LOST: restart. */
+int32_t fn_est_update(fn_est *est, const fn_est_readings *readings, double step_s, fn_est_result *result);
+int32_t fn_est_get(fn_est *est, fn_est_result *result);
+
+/* Begins anew at rest with the lengths of all cables: with payload and errors of the sensors as known, or (forget 1) with
+ * what was known before the first reading. near_pose: NULL for the last one. */
+int32_t fn_est_restart(fn_est *est, const fn_est_readings *readings, const double *near_pose, int32_t forget,
+                       char *message, size_t message_bytes);
+
+/* Explanations of the last alarm, best first, and 1 if the first is better than all others. Many times the work of an
+ * update: outside the loop. After it, fn_est_take_fault makes the number that changed unknown again. */
+int32_t fn_est_explain(fn_est *est, fn_est_fault *faults, uint32_t room, uint32_t *count, int32_t *is_decided);
+int32_t fn_est_take_fault(fn_est *est, int32_t kind, int32_t cable);
 
 #ifdef __cplusplus
 }

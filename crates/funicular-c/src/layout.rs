@@ -146,6 +146,8 @@ macro_rules! zero_by_default {
     };
 }
 
+pub(crate) use zero_by_default;
+
 zero_by_default! { InverseResult ForwardResult }
 
 /// Result with a summary of its state.

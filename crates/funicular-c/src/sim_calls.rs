@@ -1,63 +1,49 @@
 //! Exported functions of the simulation step by step.
 
-use crate::border::{Checked, check, guarded, write_text};
-use crate::status::{
-    BAD_HANDLE, BAD_INPUT, BAD_MEMORY, BAD_MODEL, BAD_POINTER, BAD_STATE, BUSY, CERTIFIED, FAILED, NO_REST, PANIC,
-    POISONED, REFUSED, text,
-};
-use funicular::control_loop::pose_from_quaternion;
+use crate::border::{check, write_text};
+use crate::owned::{MessageRoom, Owned, OwnedKind, Told, pose_at, read, robot_of_bytes, silent};
+use crate::status::{BAD_INPUT, BAD_MEMORY, BAD_STATE, FAILED, NO_REST, REFUSED};
 use funicular::math::Vec3;
 use funicular::robot::{Pose, Robot, State};
 use funicular::simulation::{
     CutAt, ElementMesh, RobotSample, SimulationEvent, SimulationSettings, StepError, StepSignals, SteppedSimulation,
 };
 use funicular::statics::{self, StaticModel};
-use std::cell::UnsafeCell;
+use std::borrow::Cow;
 use std::ffi::{CStr, c_char, c_void};
-use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
-use std::{ptr, slice};
+use std::ptr;
 
-/// Number that says that a simulation is at an address; zero after its end.
-const SIM: u64 = 0x666e_5f73_696d_756c;
 /// Bytes of a number.
 const WORD: usize = 8;
 
 /// `fn_sim`: a robot in motion.
-pub struct Sim {
-    kind: AtomicU64,
-    busy: AtomicBool,
-    poisoned: AtomicBool,
-    state: UnsafeCell<SimState>,
+pub type Sim = Owned<SimState>;
+
+impl OwnedKind for SimState {
+    const KIND: u64 = 0x666e_5f73_696d_756c;
 }
 
 /// Simulation with its signals, the inputs of the next step, and the present sample.
-struct SimState {
+pub struct SimState {
     simulation: SteppedSimulation,
     signals: StepSignals,
     inputs: Vec<f64>,
     outputs: Vec<f64>,
 }
 
-/// Status with the message that tells it.
-type Told<T> = Result<T, (i32, String)>;
-
-fn silent(status: i32) -> (i32, String) {
-    (status, text(status).to_owned())
-}
-
-fn of_step(error: &StepError) -> (i32, String) {
+fn of_step(error: &StepError) -> (i32, Cow<'static, str>) {
     let status = match error {
         StepError::Failed(_) => FAILED,
         StepError::NotSaved | StepError::Damaged | StepError::OtherRobot => BAD_STATE,
         StepError::NotFinite { .. } => BAD_INPUT,
         _ => REFUSED,
     };
-    (status, error.to_string())
+    (status, error.to_string().into())
 }
 
 impl SimState {
     fn new(robot: &Robot, start: Option<(&[f64], Option<Pose>)>, settings: &SimulationSettings) -> Told<Self> {
-        let no_rest = |error: &dyn std::fmt::Display| (NO_REST, error.to_string());
+        let no_rest = |error: &dyn std::fmt::Display| (NO_REST, Cow::from(error.to_string()));
         let found = match start {
             None => statics::solve(robot, StaticModel::Catenary, None).map(|found| found.equilibrium),
             Some((lengths, None)) => {
@@ -123,74 +109,6 @@ fn checksum(bytes: &[u8]) -> u64 {
     bytes.iter().fold(0xcbf2_9ce4_8422_2325, |hash, byte| (hash ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3))
 }
 
-impl Sim {
-    /// Runs a call with the state of the simulation at an address, one thread at a time, and writes the message.
-    ///
-    /// # Safety
-    /// If not null, the address was returned by this library, and the simulation was not freed. The message has its
-    /// number of bytes.
-    unsafe fn call(
-        address: *const Self,
-        (message, message_bytes): (*mut c_char, usize),
-        work: impl FnOnce(&mut SimState) -> Told<()>,
-    ) -> i32 {
-        // SAFETY: promised by the caller.
-        let (status, why) = match unsafe { Self::run(address, work) } {
-            Ok(()) => (CERTIFIED, String::new()),
-            Err(told) => told,
-        };
-        // SAFETY: promised by the caller.
-        unsafe { write_text(message, message_bytes, &why) };
-        status
-    }
-
-    /// # Safety
-    /// As for [`Self::call`].
-    unsafe fn run(address: *const Self, work: impl FnOnce(&mut SimState) -> Told<()>) -> Told<()> {
-        // SAFETY: promised by the caller.
-        let this = unsafe { Self::at(address) }.map_err(silent)?;
-        if this.busy.compare_exchange(false, true, Ordering::Acquire, Ordering::Relaxed).is_err() {
-            return Err(silent(BUSY));
-        }
-        let done = if this.poisoned.load(Ordering::Relaxed) {
-            Err(silent(POISONED))
-        } else {
-            // SAFETY: `busy` makes this the only reference to the state.
-            let state = unsafe { &mut *this.state.get() };
-            guarded(|| work(state)).unwrap_or_else(|| {
-                this.poisoned.store(true, Ordering::Relaxed);
-                Err(silent(PANIC))
-            })
-        };
-        this.busy.store(false, Ordering::Release);
-        done
-    }
-
-    /// Simulation at an address.
-    ///
-    /// # Safety
-    /// As for [`Self::call`].
-    unsafe fn at<'a>(address: *const Self) -> Checked<&'a Self> {
-        check(address)?;
-        // SAFETY: the caller promises that a simulation is there.
-        let this = unsafe { &*address };
-        if this.kind.load(Ordering::Acquire) == SIM { Ok(this) } else { Err(BAD_HANDLE) }
-    }
-}
-
-/// Memory of a caller that is read: `count` values.
-///
-/// # Safety
-/// If not null, the address has that many values, which nobody writes during the call.
-unsafe fn read<'a, T>(from: *const T, count: usize) -> Checked<&'a [T]> {
-    check(from)?;
-    if count > isize::MAX as usize / size_of::<T>() {
-        return Err(BAD_POINTER);
-    }
-    // SAFETY: not null, aligned, and promised by the caller.
-    Ok(unsafe { slice::from_raw_parts(from, count) })
-}
-
 /// `fn_sim_new`: simulation of the text of a robot file.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fn_sim_new(
@@ -206,54 +124,25 @@ pub unsafe extern "C" fn fn_sim_new(
     message: *mut c_char,
     message_bytes: usize,
 ) -> i32 {
-    let make = || -> Told<Box<Sim>> {
-        check(out).map_err(silent)?;
-        // SAFETY: the caller gives `bytes`, `cables` lengths and seven numbers of a pose.
-        let toml = unsafe { read(toml.cast::<u8>(), bytes) }.map_err(silent)?;
-        let robot = robot_of_bytes(toml)?;
-        let given = |address: *const f64, count: usize| -> Told<Option<&[f64]>> {
-            // SAFETY: as above.
-            if address.is_null() { Ok(None) } else { unsafe { read(address, count) }.map(Some).map_err(silent) }
-        };
-        let lengths = given(length_m, cables as usize)?;
-        let pose = given(pose, 7)?.map(of_seven).transpose()?;
+    let room = MessageRoom { to: message, bytes: message_bytes };
+    // SAFETY: the caller gives `bytes`, `cables` lengths and seven numbers of a pose.
+    let make = || unsafe {
+        let robot = robot_of_bytes(read(toml.cast::<u8>(), bytes).map_err(silent)?)?;
+        let lengths = if length_m.is_null() { None } else { Some(read(length_m, cables as usize).map_err(silent)?) };
+        let pose = pose_at(pose)?;
         if lengths.is_some_and(|lengths| lengths.iter().any(|length| !length.is_finite())) {
             return Err(silent(BAD_INPUT));
         }
         let settings = settings_of(elements, degree, tolerance_m)?;
-        let state = SimState::new(&robot, lengths.map(|lengths| (lengths, pose)), &settings)?;
-        let (kind, busy, poisoned) = (AtomicU64::new(SIM), AtomicBool::new(false), AtomicBool::new(false));
-        Ok(Box::new(Sim { kind, busy, poisoned, state: UnsafeCell::new(state) }))
+        SimState::new(&robot, lengths.map(|lengths| (lengths, pose)), &settings)
     };
-    let (status, why) = match guarded(make).unwrap_or_else(|| Err(silent(PANIC))) {
-        Ok(sim) => {
-            // SAFETY: `out` was checked.
-            unsafe { out.write(Box::into_raw(sim)) };
-            (CERTIFIED, String::new())
-        }
-        Err(told) => told,
-    };
-    // SAFETY: the message has its number of bytes.
-    unsafe { write_text(message, message_bytes, &why) };
-    status
-}
-
-fn robot_of_bytes(bytes: &[u8]) -> Told<Robot> {
-    let name = "robot file";
-    let text = str::from_utf8(bytes).map_err(|error| (BAD_MODEL, format!("{name} is not UTF-8: {error}")))?;
-    Robot::from_toml(text).map_err(|error| (BAD_MODEL, error.render(name, text, false)))
-}
-
-/// Pose of x, y, z and a quaternion.
-fn of_seven(numbers: &[f64]) -> Told<Pose> {
-    let [x, y, z, quaternion @ ..] = numbers else { return Err(silent(BAD_INPUT)) };
-    let quaternion: [f64; 4] = quaternion.try_into().map_err(|_| silent(BAD_INPUT))?;
-    pose_from_quaternion([*x, *y, *z], quaternion).ok_or_else(|| silent(BAD_INPUT))
+    // SAFETY: promised by the caller.
+    unsafe { Sim::make(out, room, make) }
 }
 
 /// Settings; zero for the usual ones.
 fn settings_of(elements: u32, degree: u32, tolerance: f64) -> Told<SimulationSettings> {
-    let refused = |what: String| Err((REFUSED, what));
+    let refused = |what: String| Err((REFUSED, Cow::from(what)));
     let mut settings = SimulationSettings::default();
     if elements > 0 {
         settings.mesh.elements = elements as usize;
@@ -278,31 +167,16 @@ fn settings_of(elements: u32, degree: u32, tolerance: f64) -> Told<SimulationSet
 /// `fn_sim_free`: ends a simulation.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fn_sim_free(sim: *mut Sim) -> i32 {
-    if sim.is_null() {
-        return CERTIFIED;
-    }
     // SAFETY: promised by the caller.
-    let this = match unsafe { Sim::at(sim) } {
-        Ok(this) => this,
-        Err(status) => return status,
-    };
-    if this.busy.compare_exchange(false, true, Ordering::Acquire, Ordering::Relaxed).is_err() {
-        return BUSY;
-    }
-    this.kind.store(0, Ordering::Release);
-    // SAFETY: it came from `Box::into_raw`, and no other thread is in it.
-    guarded(|| drop(unsafe { Box::from_raw(sim) })).map_or(PANIC, |()| CERTIFIED)
+    unsafe { Sim::free(sim) }
 }
-
-/// No message.
-const NONE: (*mut c_char, usize) = (ptr::null_mut(), 0);
 
 /// `fn_sim_signals`: numbers of inputs and outputs.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fn_sim_signals(sim: *mut Sim, inputs: *mut u32, outputs: *mut u32) -> i32 {
     // SAFETY: promised by the caller for all addresses.
     unsafe {
-        Sim::call(sim, NONE, |state| {
+        Sim::call(sim, MessageRoom::NONE, |state| {
             check(inputs).and_then(|()| check(outputs)).map_err(silent)?;
             inputs.write(state.inputs.len() as u32);
             outputs.write(state.outputs.len() as u32);
@@ -323,7 +197,7 @@ pub unsafe extern "C" fn fn_sim_signal_name(
 ) -> i32 {
     // SAFETY: promised by the caller for all addresses.
     unsafe {
-        Sim::call(sim, NONE, |state| {
+        Sim::call(sim, MessageRoom::NONE, |state| {
             let of = state.signals.inputs.iter().chain(&state.signals.outputs).nth(signal as usize);
             let of = of.ok_or_else(|| silent(REFUSED))?;
             write_text(name, name_bytes, &of.name);
@@ -338,7 +212,7 @@ pub unsafe extern "C" fn fn_sim_signal_name(
 pub unsafe extern "C" fn fn_sim_find(sim: *mut Sim, name: *const c_char, signal: *mut u32) -> i32 {
     // SAFETY: promised by the caller for all addresses.
     unsafe {
-        Sim::call(sim, NONE, |state| {
+        Sim::call(sim, MessageRoom::NONE, |state| {
             check(signal).and_then(|()| check(name)).map_err(silent)?;
             let name = CStr::from_ptr(name).to_str().map_err(|_| silent(REFUSED))?;
             let mut all = state.signals.inputs.iter().chain(&state.signals.outputs);
@@ -354,7 +228,7 @@ pub unsafe extern "C" fn fn_sim_find(sim: *mut Sim, name: *const c_char, signal:
 pub unsafe extern "C" fn fn_sim_set(sim: *mut Sim, signals: *const u32, values: *const f64, count: usize) -> i32 {
     // SAFETY: promised by the caller for all addresses.
     unsafe {
-        Sim::call(sim, NONE, |state| {
+        Sim::call(sim, MessageRoom::NONE, |state| {
             if count == 0 {
                 return Ok(());
             }
@@ -376,7 +250,7 @@ pub unsafe extern "C" fn fn_sim_set(sim: *mut Sim, signals: *const u32, values: 
 pub unsafe extern "C" fn fn_sim_get(sim: *mut Sim, signals: *const u32, values: *mut f64, count: usize) -> i32 {
     // SAFETY: promised by the caller for all addresses.
     unsafe {
-        Sim::call(sim, NONE, |state| {
+        Sim::call(sim, MessageRoom::NONE, |state| {
             if count == 0 {
                 return Ok(());
             }
@@ -395,7 +269,7 @@ pub unsafe extern "C" fn fn_sim_get(sim: *mut Sim, signals: *const u32, values: 
 pub unsafe extern "C" fn fn_sim_time(sim: *mut Sim, time_s: *mut f64) -> i32 {
     // SAFETY: promised by the caller for all addresses.
     unsafe {
-        Sim::call(sim, NONE, |state| {
+        Sim::call(sim, MessageRoom::NONE, |state| {
             check(time_s).map_err(silent)?;
             time_s.write(state.simulation.time());
             Ok(())
@@ -413,7 +287,7 @@ pub unsafe extern "C" fn fn_sim_step(
 ) -> i32 {
     // SAFETY: promised by the caller for all addresses.
     unsafe {
-        Sim::call(sim, (message, message_bytes), |state| {
+        Sim::call(sim, MessageRoom { to: message, bytes: message_bytes }, |state| {
             let SimState { simulation, signals, inputs, .. } = state;
             let sample = signals.step(simulation, interval_s, inputs).map_err(|error| of_step(&error))?;
             state.take(&sample);
@@ -427,7 +301,7 @@ pub unsafe extern "C" fn fn_sim_step(
 pub unsafe extern "C" fn fn_sim_cut(sim: *mut Sim, cable: u32, message: *mut c_char, message_bytes: usize) -> i32 {
     // SAFETY: promised by the caller for all addresses.
     unsafe {
-        Sim::call(sim, (message, message_bytes), |state| {
+        Sim::call(sim, MessageRoom { to: message, bytes: message_bytes }, |state| {
             let at = CutAt::Time(state.simulation.time());
             state.happen(&SimulationEvent::Cut { cable: cable as usize, at, place: 0.0 })
         })
@@ -456,7 +330,7 @@ pub unsafe extern "C" fn fn_sim_release(
 ) -> i32 {
     // SAFETY: promised by the caller for all addresses.
     unsafe {
-        Sim::call(sim, (message, message_bytes), |state| {
+        Sim::call(sim, MessageRoom { to: message, bytes: message_bytes }, |state| {
             let (time, point_p) = (state.simulation.time(), point(point_m)?);
             state.happen(&SimulationEvent::Release { time, mass: mass_kg, point_p })
         })
@@ -474,7 +348,7 @@ pub unsafe extern "C" fn fn_sim_pick(
 ) -> i32 {
     // SAFETY: promised by the caller for all addresses.
     unsafe {
-        Sim::call(sim, (message, message_bytes), |state| {
+        Sim::call(sim, MessageRoom { to: message, bytes: message_bytes }, |state| {
             let (time, point_p) = (state.simulation.time(), point(point_m)?);
             state.happen(&SimulationEvent::Pick { time, mass: mass_kg, point_p, velocity_w: None })
         })
@@ -486,7 +360,7 @@ pub unsafe extern "C" fn fn_sim_pick(
 pub unsafe extern "C" fn fn_sim_save(sim: *mut Sim, memory: *mut c_void, bytes: *mut usize) -> i32 {
     // SAFETY: promised by the caller for all addresses.
     unsafe {
-        Sim::call(sim, NONE, |state| {
+        Sim::call(sim, MessageRoom::NONE, |state| {
             check(bytes).map_err(silent)?;
             let saved = state.save();
             let room = bytes.read();
@@ -505,7 +379,7 @@ pub unsafe extern "C" fn fn_sim_save(sim: *mut Sim, memory: *mut c_void, bytes: 
 pub unsafe extern "C" fn fn_sim_restore(sim: *mut Sim, memory: *const c_void, bytes: usize) -> i32 {
     // SAFETY: promised by the caller for all addresses.
     unsafe {
-        Sim::call(sim, NONE, |state| {
+        Sim::call(sim, MessageRoom::NONE, |state| {
             let saved = read(memory.cast::<u8>(), bytes).map_err(silent)?;
             state.restore(saved)
         })

@@ -40,10 +40,11 @@ statuses! {
     TOO_SLACK = -16, "too slack: a cable cannot have this tension at this pose";
     NOT_FOUND = -17, "not found: no result in the largest number of steps, and none to hold";
     NO_START = -18, "no start: lengths to pose need a pose to start from";
-    NO_REST = -19, "no rest: the simulation finds no equilibrium to begin at; the message says why";
+    NO_REST = -19, "no rest: the simulation or the estimator finds no equilibrium to begin at; the message says why";
     REFUSED = -20, "refused: an input, an interval or an event cannot be; the message says why";
     FAILED = -21, "failed: no step can follow the motion; the message says when";
     BAD_STATE = -22, "bad state: these bytes are damaged, or the state of another simulation";
+    LOST = -23, "lost: no length has been read for too long, or the readings lead nowhere; restart the estimator";
 }
 
 /// Number of a status of the core.

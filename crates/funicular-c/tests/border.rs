@@ -9,6 +9,7 @@ use counting::reserved;
 use funicular::control_loop::LoopModel;
 use funicular::robot::{Pose, Robot};
 use funicular::statics::{StaticModel, tension_centre};
+use funicular_c::est_layout::{EstFault, EstReadings, EstResult, EstSettings};
 use funicular_c::layout::{ForwardResult, InverseResult, PoseInput, WrenchResult};
 use funicular_c::status::{self, *};
 use funicular_c::{
@@ -538,6 +539,7 @@ fn the_headers_say_what_the_library_has() {
         include_str!("../src/model_calls.rs"),
         include_str!("../src/loop_calls.rs"),
         include_str!("../src/sim_calls.rs"),
+        include_str!("../src/est_calls.rs"),
         include_str!("../src/flat.rs"),
     ];
     let mut exported: Vec<&str> = sources
@@ -587,6 +589,19 @@ fn structs_have_the_places_of_the_header() {
             least_margin_n error_n error_m position_m quaternion_wxyz free_length_m tension_platform_n tension_drum_n
             margin_n;
         "fn_wrench_result" WrenchResult: struct_size status force_n moment_n_m payload_kg;
+        "fn_est_settings" EstSettings: struct_size reserved length_std_m tension_std_n cable_angle_std_rad
+            gyroscope_std_rad_s accelerometer_std_m_s2 tracker_std_m payload_kg payload_std_kg first_moment_std_kg_m
+            force_std_n moment_std_n_m force_time_s offset_std_m tension_bias_std_n friction false_alarms_per_hour
+            inertial_unit_m tracked_point_m;
+        "fn_est_readings" EstReadings: struct_size cables length_m tension_n azimuth_rad elevation_rad
+            gyroscope_rad_s accelerometer_m_s2 tracker_m length_missing tension_missing azimuth_missing
+            elevation_missing gyroscope_missing accelerometer_missing tracker_missing reserved;
+        "fn_est_result" EstResult: struct_size cables is_trusted rings alarm alarm_cable time_s position_m
+            quaternion_wxyz position_std_m rotation_std_rad velocity_m_s velocity_std_m_s angular_velocity_rad_s
+            angular_velocity_std_rad_s force_n force_std_n moment_n_m moment_std_n_m payload_kg payload_std_kg
+            first_moment_kg_m first_moment_std_kg_m tension_n tension_std_n offset_m offset_std_m tension_bias_n
+            tension_bias_std_n slack;
+        "fn_est_fault" EstFault: kind cable size std worse_by;
     };
     assert_eq!(found, include_str!("layout.txt"));
 }

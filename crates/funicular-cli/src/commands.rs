@@ -16,6 +16,7 @@ mod identify;
 mod loads;
 mod merge;
 mod modes;
+mod observability;
 mod parameters;
 mod payload;
 mod pose_error;

@@ -16,6 +16,7 @@ mod dict_to_toml;
 mod elements;
 mod equilibrium;
 mod errors;
+mod estimator;
 mod interrupt;
 mod labels;
 mod pose;
@@ -52,6 +53,8 @@ mod _funicular {
     use crate::equilibrium::PyEquilibrium;
     #[pymodule_export]
     use crate::errors::shown;
+    #[pymodule_export]
+    use crate::estimator::PyEstimator;
     #[pymodule_export]
     use crate::pose::PyPose;
     #[pymodule_export]

@@ -34,14 +34,14 @@ struct State {
 
 /// One number per cable: a row, or a dictionary by names that leaves cables out.
 #[derive(FromPyObject)]
-enum PerCable<'py> {
+pub(crate) enum PerCable<'py> {
     ByName(TextKeyed<'py>),
     Row(Numbers),
 }
 
 impl PerCable<'_> {
     /// Number of each cable; `None` for those that are left out.
-    fn of(self, what: &str, names: &[String]) -> PyResult<Vec<Option<f64>>> {
+    pub(crate) fn of(self, what: &str, names: &[String]) -> PyResult<Vec<Option<f64>>> {
         let by_name = match self {
             Self::ByName(by_name) => by_name.0,
             Self::Row(row) => {

@@ -70,7 +70,7 @@ def steps(text: str) -> Any:
 def value(command: str, option: str, text: str) -> Any:
     if (command, option) == ("pose-error", "--mass-kg"):
         return steps(text)
-    if option in ("--unknowns", "--hold-anchors", "--frame", "--propose-for", "--propose-measuring") or (command, option) == ("calibrate", "--profile"):
+    if option in ("--sensors", "--unknowns", "--hold-anchors", "--frame", "--propose-for", "--propose-measuring") or (command, option) == ("calibrate", "--profile"):
         return text.split(",")
     if option in ("--of", "--by", "--tolerances", "--deviations") and command != "schema":
         return text.split(",")

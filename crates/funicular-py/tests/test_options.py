@@ -43,6 +43,7 @@ COMMANDS: dict[str, tuple[str, list[Callable[..., Any]]]] = {
     "identify": ("`robot.identify(fit, experiments, …)`", [Robot.identify]),
     "calibrate": ("`robot.calibrate(readings, …)`", [Robot.calibrate]),
     "estimate": ("`robot.estimate(log, …)`", [Robot.estimate]),
+    "observability": ("`robot.observability(…)`", [Robot.observability]),
     "design": ("`robot.design(change, …)`", [Robot.design]),
     "cable": ("`robot.equilibrium(…).cable(…)`", [Robot.equilibrium, Equilibrium.cable]),
     "reduce": (

@@ -90,6 +90,10 @@ MORE = [
     f"funicular estimate {ESTIMATED} --every-s 0.5 --inertial-unit-m 0.1,0,0.5 --tracked-point-m 0,0,1 --near-pose 0,0,1.5 --false-alarms-per-hour 1 --length-std-m 1e-5 --tension-std-n 4",
     f"funicular estimate {ESTIMATED} --every-s 1 --cable-angle-std-rad 0.002 --gyroscope-std-rad-s 0.003 --accelerometer-std-m-s2 0.05 --tracker-std-m 0.002 --payload-kg 1 --payload-std-kg 0.5",
     f"funicular estimate {ESTIMATED} --every-s 1 --first-moment-std-kg-m 0.05 --force-std-n 2 --moment-std-n-m 0.4 --force-time-s 2 --offset-std-m 0.002 --tension-bias-std-n 6 --friction 0.01",
+    f"funicular observability docs/estimation/robot.toml --sensors tensions,tracker --pose 0,0,1.5 --further-pose-m 0.2 --inertial-unit-m 0.1,0,0.5 --tracked-point-m 0,0,1 --length-std-m 1e-5 {TENSIONS}",
+    "funicular observability docs/estimation/robot.toml --sensors none --grid x=-0.5:0.5:2 --grid z=1.5 --tension-std-n 4 --cable-angle-std-rad 0.002 --gyroscope-std-rad-s 0.003 --accelerometer-std-m-s2 0.05 --tracker-std-m 0.002 --payload-kg 1",
+    "funicular observability docs/estimation/robot.toml --poses docs/design/cogiro-poses.csv --sensors accelerometer,gyroscope --payload-std-kg 0.5 --first-moment-std-kg-m 0.05 --force-std-n 2 --moment-std-n-m 0.4 --force-time-s 2 --offset-std-m 0.002",
+    f"funicular observability docs/estimation/robot.toml --sensors cable-angles --tension-bias-std-n 6 --friction 0.01 {STATE}",
     f"funicular calibrate {MACHINE} --accuracy-poses waypoints.csv --propose 1 --grid x=1:3:3 --propose-for tool",
     f"funicular compare {ROBOT} --below-hz 2",
     f"funicular compare robots/cogiro.toml --below-hz 6 {TENSIONS} --platform --platform-share 0.6 --tolerance 0.05",
@@ -300,7 +304,7 @@ def test_every_command_that_computes_has_a_line(executable: str) -> None:
                 of_command = [line for line in found if line.split()[1] == command]
                 used = any(option in line.split() for line in of_command)
                 same = ("--set", "--static-model", "--lengths-m", "--pose", "--in-plane-only")
-                excepted = (command, option) in (("loads", "--hold-lengths-of-pose"), ("winches", "--hold-lengths-of-pose"), ("reduce", "--to"), ("prove", "--required-wind-speed-m-s"))
+                excepted = (command, option) in (("loads", "--hold-lengths-of-pose"), ("winches", "--hold-lengths-of-pose"), ("observability", "--hold-lengths-of-pose"), ("reduce", "--to"), ("prove", "--required-wind-speed-m-s"))
                 if not used and not excepted and option not in (*same, "--cable-set", "--compare", "--compare-set"):
                     lacking.append((command, option))
     assert lacking == []
@@ -360,7 +364,7 @@ def test_a_command_line_and_a_call_are_one_request(line: str, executable: str) -
 # Commands whose results are compared; the others make pages, files or rows, which have their own tests.
 COMPUTED = (
     *("check", "parameters", "statics", "stiffness", "modes", "frf", "compare", "gradient", "payload", "loads", "speeds", "winches", "trajectory", "simulate", "clearance", "workspace", "prove", "pose-error", "cable"),
-    *("settle", "gust", "reduce", "identify", "calibrate", "estimate", "uncertainty"),
+    *("settle", "gust", "reduce", "identify", "calibrate", "estimate", "observability", "uncertainty"),
 )
 
 
@@ -396,7 +400,7 @@ def test_a_call_and_a_request_have_the_results_of_the_program(line: str, executa
     if command == "uncertainty":
         assert robot.uncertainty(**keywords).details == theirs
         return
-    if command in ("pose-error", "payload", "loads", "speeds", "winches", "trajectory", "simulate", "clearance", "workspace", "prove", "calibrate", "estimate"):
+    if command in ("pose-error", "payload", "loads", "speeds", "winches", "trajectory", "simulate", "clearance", "workspace", "prove", "calibrate", "estimate", "observability"):
         method = getattr(robot, command.replace("-", "_"))
         assert plain(method(**keywords)) == theirs
         return

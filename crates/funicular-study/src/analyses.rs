@@ -21,6 +21,7 @@ pub mod gust;
 pub mod identify;
 pub mod loads;
 pub mod modes;
+pub mod observability;
 pub mod parameters;
 pub mod payload;
 pub mod pose_error;

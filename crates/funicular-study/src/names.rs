@@ -112,6 +112,25 @@ mod exports;
 
 pub use exports::ExportFormat;
 
+named! {
+    /// Sensors besides the encoders of the cables.
+    enum SensorSet, "sensor" {
+        None "none", "the encoders alone";
+        Tensions "tensions", "load cells of all cables, at anchors or drums";
+        CableAngles "cable-angles", "directions in which all cables leave their anchors";
+        Gyroscope "gyroscope", "angular velocity of the platform";
+        Accelerometer "accelerometer", "specific force on the platform, which tells the direction of gravity";
+        Tracker "tracker", "position of the tracked point";
+    }
+}
+
+impl SensorSet {
+    /// Names of all.
+    pub fn names() -> impl Iterator<Item = &'static str> {
+        Self::ALL.iter().map(|sensor| sensor.name())
+    }
+}
+
 /// Message about a name that no thing of a kind has.
 pub fn no_such(what: &str, name: &str, all: &[String]) -> String {
     format!("there is no {what} `{name}`{}", suggestion(name, all))

@@ -33,7 +33,7 @@ mod workspace;
 
 pub use calibrate::{CalibrateRequest, PriorValue};
 pub use design::{ChangeValue, DesignRequest, OfferedRope};
-pub use estimate::EstimateRequest;
+pub use estimate::{EstimateRequest, ObservabilityRequest, SensorModel};
 pub use files::{ExportRequest, ImportRequest, NewRequest, SchemaRequest, TABLE_TOLERANCE_M};
 pub use given::{check_given, convert_units};
 pub(crate) use given::{check_scenario, read};
@@ -184,6 +184,7 @@ commands! {
     Identify(IdentifyRequest) "identify" Needed robot;
     Calibrate(CalibrateRequest) "calibrate" Needed robot;
     Estimate(EstimateRequest) "estimate" Needed robot;
+    Observability(ObservabilityRequest) "observability" Needed robot;
     Design(DesignRequest) "design" Needed robot;
     Map(MapRequest) "map" Needed robot;
     Sweep(SweepRequest) "sweep" Needed robot;

@@ -15,6 +15,7 @@ use crate::analyses::{
     identify::{self, Identified},
     loads::{self, Loads},
     modes::{self, Modes},
+    observability::{self, Observed},
     parameters::{self, ParameterList},
     payload::{self, Payload},
     pose_error::{self, PoseErrors},
@@ -169,6 +170,7 @@ answers! {
     Identify(Box<Identified>): of => Box::new(identify::run(of, watch)?);
     Calibrate(Box<Calibrated>): of => Box::new(calibrate::run(of, watch)?);
     Estimate(Box<Estimated>): of => Box::new(estimate::run(&robot()?, of, watch)?);
+    Observability(Observed): of => observability::run(robot()?, of, watch)?;
     Workspace(Box<Workspace>): of => Box::new(workspace::run(robot()?, of, watch)?);
     Prove(Box<Proved>): of => Box::new(prove::run(robot()?, of, watch)?);
     Design(Box<Designed>): of => Box::new(design::run(of, watch)?);

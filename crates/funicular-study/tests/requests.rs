@@ -405,6 +405,22 @@ fn requests() -> Vec<Value> {
             ],
         ),
         of(
+            "observability",
+            &[
+                &robot,
+                &state,
+                &tensions,
+                &json!({
+                    "grid": [{"axis": "x", "values": [0.0]}], "sensors": ["tensions", "tracker"], "further_pose_m": 0.2,
+                    "inertial_unit_m": [0.1, 0.0, 0.5], "tracked_point_m": [0.0, 0.0, 1.0], "length_std_m": 1e-5,
+                    "tension_std_n": 2.0, "cable_angle_std_rad": 2e-3, "gyroscope_std_rad_s": 1e-3,
+                    "accelerometer_std_m_s2": 0.02, "tracker_std_m": 5e-4, "payload_kg": 10.0, "payload_std_kg": 5.0,
+                    "first_moment_std_kg_m": 0.5, "force_std_n": 2.0, "moment_std_n_m": 0.4, "force_time_s": 2.0,
+                    "offset_std_m": 2e-3, "tension_bias_std_n": 6.0, "friction": 0.01,
+                }),
+            ],
+        ),
+        of(
             "estimate",
             &[
                 &robot,

@@ -144,6 +144,77 @@ static void refuses(fn_model *model, fn_loop *loop, uint32_t cables) {
   printf("bad input, addresses, structs and memory are refused\n");
 }
 
+/* Text of a file with a zero behind it. */
+static char *text_of(const char *path, size_t *bytes) {
+  FILE *file = fopen(path, "rb");
+  char *text;
+  CHECK(file != NULL && fseek(file, 0, SEEK_END) == 0);
+  *bytes = (size_t)ftell(file);
+  text = malloc(*bytes + 1);
+  CHECK(text != NULL && fseek(file, 0, SEEK_SET) == 0 && fread(text, 1, *bytes, file) == *bytes);
+  text[*bytes] = 0;
+  fclose(file);
+  return text;
+}
+
+/* Lengths and tensions of a line as readings: the estimator follows it. */
+static void estimates(const char *path, fn_loop *loop, uint32_t cables) {
+  double length[FN_MAX_CABLES], tension[FN_MAX_CABLES], estimated[FN_MAX_CABLES], speed = 0.1, end;
+  double near_pose[7] = {0.0, 0.0, 1.5, 1.0, 0.0, 0.0, 0.0};
+  fn_inverse_result at_rest;
+  fn_est_settings settings;
+  fn_est_readings readings;
+  fn_est_result result;
+  fn_est *est = NULL;
+  char message[500];
+  size_t bytes = 0;
+  char *toml = text_of(path, &bytes);
+  int tick;
+
+  memset(&at_rest, 0, sizeof at_rest);
+  at_rest.struct_size = sizeof at_rest;
+  at_rest.cables = FN_MAX_CABLES;
+  at_rest.length_m = length;
+  at_rest.tension_drum_n = tension;
+  memset(&settings, 0, sizeof settings);
+  settings.struct_size = sizeof settings;
+  CHECK(fn_est_defaults(&settings) == FN_CERTIFIED && settings.payload_std_kg > 0.0);
+  settings.payload_std_kg = 0.5;
+  memset(&readings, 0, sizeof readings);
+  readings.struct_size = sizeof readings;
+  readings.cables = cables;
+  readings.length_m = length;
+  readings.tension_n = tension;
+  memset(&result, 0, sizeof result);
+  result.struct_size = sizeof result;
+  result.cables = FN_MAX_CABLES;
+  result.tension_n = estimated;
+
+  for (tick = 0; tick <= 1000; tick++) {
+    /* From rest to the full speed within 0.5 s. */
+    double time = tick * 1e-3, grown = time < 0.5 ? time * time : time - 0.25;
+    fn_pose_input input = at(speed * grown, 0.0, 1.5);
+    CHECK(fn_inverse(loop, &input, &at_rest) == FN_CERTIFIED);
+    if (tick == 0) {
+      int32_t status = fn_est_new(toml, bytes, &settings, &readings, near_pose, &est, message, sizeof message);
+      if (status != FN_CERTIFIED) fprintf(stderr, "%s\n", message);
+      CHECK(status == FN_CERTIFIED);
+    } else {
+      CHECK(fn_est_update(est, &readings, 1e-3, &result) == FN_CERTIFIED && result.is_trusted == 1);
+    }
+  }
+  end = speed * 0.75;
+  CHECK(fabs(result.position_m[0] - end) < 3.0 * result.position_std_m[0] + 1e-4);
+  CHECK(fabs(result.velocity_m_s[0] - speed) < 5e-3 && estimated[0] > 0.0);
+  length[0] = NAN;
+  CHECK(fn_est_update(est, &readings, 1e-3, &result) == FN_BAD_INPUT);
+  readings.length_missing = 1;
+  CHECK(fn_est_update(est, &readings, 1e-3, &result) == FN_CERTIFIED);
+  CHECK(fn_est_free(est) == FN_CERTIFIED && fn_est_free(NULL) == FN_CERTIFIED);
+  free(toml);
+  printf("an estimator follows: x %.4f m, deviation %.4f m\n", end, result.position_std_m[0]);
+}
+
 int main(int count, char **arguments) {
   char message[2000], words[200];
   fn_model *model = NULL;
@@ -167,6 +238,7 @@ int main(int count, char **arguments) {
   follows_a_line(loop, cables);
   goes_there_and_back(loop, cables);
   refuses(model, loop, cables);
+  estimates(arguments[1], loop, cables);
 
   CHECK(fn_reset(loop) == FN_CERTIFIED);
   CHECK(fn_loop_end(loop) == FN_CERTIFIED && fn_loop_end(loop) == FN_BAD_HANDLE);

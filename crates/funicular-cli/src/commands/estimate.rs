@@ -53,7 +53,7 @@ fn at_the_end(row: &EstimateRow) -> String {
 }
 
 /// Sentence with a capital letter.
-fn capital(text: &str) -> String {
+pub(super) fn capital(text: &str) -> String {
     let mut letters = text.chars();
     letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
 }

@@ -56,6 +56,7 @@ fn shortest() -> Vec<Vec<String>> {
     lines.push(line(&["calibrate", &machine, "--readings", &readings]));
     let [held, log] = ["robot.toml", "run.csv"].map(|file| project("docs/estimation/") + file);
     lines.push(line(&["estimate", &held, "--log", &log]));
+    lines.push(line(&["observability", &held]));
     lines.push(line(&["new"]));
     lines.push(line(&["import", &imported]));
     lines

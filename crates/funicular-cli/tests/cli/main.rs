@@ -26,6 +26,7 @@ mod modes;
 mod motion;
 mod motion_unit;
 mod new_robot;
+mod observability;
 mod pages;
 mod payload;
 mod plots;

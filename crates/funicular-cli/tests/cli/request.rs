@@ -101,6 +101,7 @@ fn command_lines() -> Vec<Vec<String>> {
         &["loads", &cogiro, "--pose", "1,1,1.5", "--required-force-n", "100,100,100"],
         &["speeds", &cogiro, "--pose", "1,1,1.5", "--required-velocity-m-s", "1,1,0.5"],
         &["winches", &cogiro, "--grid", "x=-1,1", "--grid", "z=1.5", "--required-velocity-m-s", "1,1,0.5"],
+        &["observability", &cogiro, "--pose", "1,1,1.5", "--sensors", "tensions,tracker"],
         &["clearance", &cogiro, "--pose", "1,1,1.5"],
         &[
             "trajectory",

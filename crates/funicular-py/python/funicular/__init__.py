@@ -35,7 +35,7 @@ from funicular._errors import (
     StaticsError,
 )
 from funicular._executors import ExecutorError
-from funicular._funicular import Analyses, Catenary, Equilibrium, Pose, Robot, Simulation, __version__, peaks
+from funicular._funicular import Analyses, Catenary, Equilibrium, Estimator, Pose, Robot, Simulation, __version__, peaks
 from funicular._identify import Identified, read_measurements
 from funicular._live import Live
 from funicular._pages import Page
@@ -64,6 +64,7 @@ __all__ = [
     "Equilibria",
     "Equilibrium",
     "Error",
+    "Estimator",
     "ExecutorError",
     "Exported",
     "FileError",

@@ -24,6 +24,7 @@ from funicular.results import (
     ClearanceResults,
     EstimateResults,
     LoadsResults,
+    ObservabilityResults,
     PayloadResults,
     PoseErrorResults,
     ProveResults,
@@ -556,6 +557,36 @@ def estimate(of: Any, given: Given) -> EstimateResults:
     docs/theory.md, equations (97r) to (97za).
     """
     return _results.of_answered(EstimateResults, of._answer("estimate", given))
+
+
+@declared(Robot, "observability", positional=("sensors", "pose"), others=_AS_REST)
+def observability(of: Any, given: Given) -> ObservabilityResults:
+    """Computes which numbers sensors determine at poses at rest, before any reading, and what would add most.
+
+    Parameters
+    ----------
+    sensors
+        Sensors besides the encoders of all cables: `tensions`, `cable-angles`, `gyroscope`, `accelerometer`, `tracker`;
+        `none` for the encoders alone.
+
+    Returns
+    -------
+    The keys of the program's JSON: `numbers` with the deviation of each number with these sensors and with the encoders
+    alone, `cases` with the deviations for each further sensor and pose, `best_addition`, and `not_determined` as
+    sentences.
+
+    Raises
+    ------
+    StaticsError
+        The cables hold the platform at none of these poses.
+    NoSolutionError
+        The filter finds no balance at a pose.
+
+    References
+    ----------
+    docs/theory.md, equation (97r).
+    """
+    return _results.of_answered(ObservabilityResults, of._answer("observability", given))
 
 
 @declared(Robot, "design", positional=("change",), without=("lengths_m", "hold_lengths_of_pose"), others=_AS_BOTH, files=True)

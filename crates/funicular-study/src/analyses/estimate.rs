@@ -2,12 +2,16 @@
 //!
 //! docs/theory.md, section 18f, has the filter; docs/estimation.md the columns of a log.
 
+mod follower;
+mod in_loop;
 mod log;
 mod log_run;
 mod rows;
+mod settings;
 mod told;
 mod words;
 
+pub use in_loop::LoopEstimator;
 pub use log::check as check_log;
 pub use rows::{CableErrors, EstimateAlarm, EstimateRow, SensorFit};
 
@@ -18,8 +22,6 @@ use crate::request::EstimateRequest;
 use crate::rows::rows;
 use crate::table::Column;
 use anyhow::Result;
-use funicular::estimation::{EstimationSettings, ProcessNoise, SensorNoise, StatePriors};
-use funicular::math::Vec3;
 use funicular::robot::Robot;
 use log::EstimateLog;
 use log_run::LogRun;
@@ -79,7 +81,7 @@ found!(Estimated, "estimate");
 /// stopped.
 pub fn run(robot: &Robot, request: &EstimateRequest, watch: &mut dyn Watch) -> Result<Estimated> {
     let log = EstimateLog::read(&request.log, robot)?;
-    let settings = settings(request);
+    let settings = request.sensors.settings();
     let mut run = LogRun::start(robot, &log, request, settings)?;
     run.follow(watch)?;
     let cables: Vec<String> = robot.cables.iter().map(|cable| cable.name.clone()).collect();
@@ -88,7 +90,7 @@ pub fn run(robot: &Robot, request: &EstimateRequest, watch: &mut dyn Watch) -> R
         robot: robot.name.clone(),
         fit: told.fit,
         not_determined: told.not_determined,
-        alarms: run.alarms,
+        alarms: run.follower.alarms,
         sensors: told.sensors,
         cable_errors: told.cable_errors,
         cables,
@@ -96,30 +98,4 @@ pub fn run(robot: &Robot, request: &EstimateRequest, watch: &mut dyn Watch) -> R
         rows: run.rows,
         warnings: run.warnings.into_iter().chain(told.warnings).collect(),
     })
-}
-
-/// Settings of the filter.
-fn settings(of: &EstimateRequest) -> EstimationSettings {
-    EstimationSettings {
-        noise: SensorNoise {
-            length: of.length_std_m,
-            tension: of.tension_std_n,
-            angle: of.cable_angle_std_rad,
-            gyroscope: of.gyroscope_std_rad_s,
-            accelerometer: of.accelerometer_std_m_s2,
-            tracker: of.tracker_std_m,
-        },
-        priors: StatePriors {
-            payload: [of.payload_kg, of.payload_std_kg],
-            first_moment: of.first_moment_std_kg_m,
-            force: of.force_std_n,
-            moment: of.moment_std_n_m,
-            offset: of.offset_std_m,
-            tension_bias: of.tension_bias_std_n,
-            ..StatePriors::default()
-        },
-        process: ProcessNoise { wrench_time: of.force_time_s, friction: of.friction, ..ProcessNoise::default() },
-        inertial_unit_p: Vec3::from(of.inertial_unit_m),
-        tracked_point_p: Vec3::from(of.tracked_point_m),
-    }
 }

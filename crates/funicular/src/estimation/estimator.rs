@@ -1,7 +1,7 @@
 //! Estimator of a control loop or a log: filter, tests and monitors.
 
 use super::consistency::{Consistency, chi2_quantile, normal_quantile};
-use super::faults::{FaultAlarm, FaultKind, FaultTests, FaultVerdict, explain};
+use super::faults::{FaultAlarm, FaultHypothesis, FaultKind, FaultTests, FaultVerdict, explain};
 use super::kalman::Kalman;
 use super::model::EstimatedRobot;
 use super::payload_mean::PayloadWindow;
@@ -33,6 +33,10 @@ const PAYLOAD_TEST_RINGING: f64 = 100.0;
 
 /// Deviations with which payload [kg] and first moment [kg m] are unknown again.
 const NEW_PAYLOAD: [f64; 2] = [20.0, 2.0];
+
+/// Deviations with which a length that slipped [m] and the error of a load cell that stepped [N] are unknown again.
+const NEW_OFFSET: f64 = 5e-3;
+const NEW_BIAS: f64 = 200.0;
 
 /// Time between two values of the payload from means, and least time between alarms [s].
 const PAYLOAD_PERIOD: f64 = 0.1;
@@ -84,10 +88,32 @@ struct KeptRows {
     time: f64,
 }
 
+impl KeptRows {
+    /// Begins with a filter that has no readings behind it.
+    fn begin(&mut self, kalman: &Kalman) {
+        self.older.copy_from(kalman);
+        self.newer.copy_from(kalman);
+        self.rows.clear();
+        (self.middle, self.time) = (0, 0.0);
+    }
+}
+
+/// Sums and times that an update changes before it can fail.
+#[derive(Debug, Clone, Copy)]
+struct UpdateSums {
+    time: f64,
+    since: [f64; 2],
+    recent: [f64; 2],
+    consistency: [Consistency; 5],
+    relative: [f64; MAX_ROWS],
+}
+
 /// Estimator of the state of a robot. It reserves memory at its start; [`Self::update`] reserves none.
 #[derive(Debug, Clone)]
 pub struct Estimator {
     kalman: Kalman,
+    /// Filter before a change that may fail.
+    spare: Box<Kalman>,
     time: f64,
     tests: FaultTests,
     consistency: [Consistency; 5],
@@ -132,6 +158,7 @@ impl Estimator {
         let mut kalman = Kalman::new(of, settings, &mean, at, lengths);
         prior(&mut kalman.covariance, places, &settings.priors, settings.noise.length);
         let mut estimator = Self {
+            spare: Box::new(kalman.clone()),
             kalman,
             time: 0.0,
             tests: FaultTests::new(FALSE_ALARMS),
@@ -162,12 +189,44 @@ impl Estimator {
         self.tests.rate = rate;
     }
 
+    /// Begins anew with what was known before the first reading, as [`Self::new`] does. It reserves memory; after an
+    /// error the estimator is as it was.
+    ///
+    /// # Errors
+    /// As for [`Self::new`].
+    pub fn reset(&mut self, readings: &SensorReadings, near: Option<&Pose>) -> Result<(), EstimationError> {
+        let rate = self.tests.rate;
+        *self = Self::new(self.kalman.of.robot.clone(), self.kalman.settings, readings, near)?;
+        self.tests.rate = rate;
+        Ok(())
+    }
+
     /// Begins a further pose at rest, with the payload, offsets and biases that are known: the next of many poses whose
-    /// readings one fit shares. The external wrench is as unknown as at the start.
+    /// readings one fit shares. The external wrench is as unknown as at the start. It reserves memory; after an error
+    /// the estimator is as it was.
     ///
     /// # Errors
     /// As for [`Self::new`].
     pub fn rest_anew(&mut self, readings: &SensorReadings, near: Option<&Pose>) -> Result<(), EstimationError> {
+        self.spare.copy_from(&self.kalman);
+        let sums = self.sums();
+        if let Err(error) = self.rest_at(readings, near) {
+            self.take_back(&sums);
+            return Err(error);
+        }
+
+        // Readings before the rest explain nothing after it.
+        if let Some(kept) = &mut self.kept {
+            kept.begin(&self.kalman);
+        }
+        self.tests.reset();
+        (self.window, self.common) = (None, None);
+        (self.smooth_twist, self.smooth_rates, self.vibration) = (Vec6::zeros(), [0.0; MAX_CABLES], 0.0);
+        self.hold_payload();
+        Ok(())
+    }
+
+    fn rest_at(&mut self, readings: &SensorReadings, near: Option<&Pose>) -> Result<(), EstimationError> {
         let lengths = all_lengths(&self.kalman.of, readings)?;
         let kalman = &mut self.kalman;
         kalman.readings = lengths;
@@ -238,7 +297,7 @@ impl Estimator {
     }
 
     /// Moves the estimate by a time step [s] and takes the readings at its end. Lengths are read every time; a length
-    /// or another reading that is missing is NaN.
+    /// or another reading that is missing is NaN. It reserves no memory; after an error the estimator is as it was.
     ///
     /// # Errors
     /// A step or lengths that cannot be used, or a state that has left every number behind: the estimator has to be
@@ -247,18 +306,22 @@ impl Estimator {
         if !(step > 0.0 && step <= MAX_STEP) {
             return Err(EstimationError::BadStep { step });
         }
-        self.keep(readings, step);
-        self.time += step;
-        self.since_alarm += step;
-        self.since_payload += step;
-        self.kalman.predict(&readings.lengths, step)?;
-        let forget = (-step / TRUST_TIME).exp();
-        self.recent = self.recent.map(|sum| sum * forget);
-        let gated = self.measure(readings)?;
+        self.spare.copy_from(&self.kalman);
+        let (sums, is_kept) = (self.sums(), self.keep(readings, step));
+        let gated = match self.advance(readings, step) {
+            Ok(gated) => gated,
+            Err(error) => {
+                self.take_back(&sums);
+                if let Some(kept) = self.kept.as_mut().filter(|_| is_kept) {
+                    kept.rows.pop();
+                }
+                return Err(error);
+            }
+        };
         self.watch_vibration(step);
 
         let mut notes = UpdateNotes { alarm: None, gated, is_trusted: self.is_trusted() };
-        let payload = self.follow_payload(readings, step)?;
+        let payload = self.follow_payload(readings, step);
         let stuck = self.tests.stuck(readings, &self.kalman);
         let cable = self.test_cables(step);
         let alarm = |cable, kind, size| Some(FaultAlarm { time: self.time, cable, kind, size });
@@ -275,15 +338,44 @@ impl Estimator {
         Ok(notes)
     }
 
+    /// Moves the filter and takes the readings. Returns the number of outliers.
+    fn advance(&mut self, readings: &SensorReadings, step: f64) -> Result<usize, EstimationError> {
+        self.time += step;
+        self.since_alarm += step;
+        self.since_payload += step;
+        self.kalman.predict(&readings.lengths, step)?;
+        let forget = (-step / TRUST_TIME).exp();
+        self.recent = self.recent.map(|sum| sum * forget);
+        self.measure(readings)
+    }
+
+    fn sums(&self) -> UpdateSums {
+        UpdateSums {
+            time: self.time,
+            since: [self.since_alarm, self.since_payload],
+            recent: self.recent,
+            consistency: self.consistency,
+            relative: self.relative,
+        }
+    }
+
+    /// Takes back a change that failed.
+    fn take_back(&mut self, sums: &UpdateSums) {
+        self.kalman.copy_from(&self.spare);
+        [self.since_alarm, self.since_payload] = sums.since;
+        (self.time, self.recent) = (sums.time, sums.recent);
+        (self.consistency, self.relative) = (sums.consistency, sums.relative);
+    }
+
     /// True if the innovations of the last half second fit the stated deviations.
     fn is_trusted(&self) -> bool {
         let [nis, count] = self.recent;
         nis <= chi2_quantile(1.0 - TRUST, count.max(1.0))
     }
 
-    /// Keeps readings and states of the last 50 to 100 ms.
-    fn keep(&mut self, readings: &SensorReadings, step: f64) {
-        let Some(kept) = &mut self.kept else { return };
+    /// Keeps readings and states of the last 50 to 100 ms. Returns true if there was room.
+    fn keep(&mut self, readings: &SensorReadings, step: f64) -> bool {
+        let Some(kept) = &mut self.kept else { return false };
         kept.time += step;
         // The beginning of an alarm that waits for its explanation stays.
         let waits = self.common.is_some() || self.since_alarm < EXPLAINED_AFTER;
@@ -295,9 +387,11 @@ impl Estimator {
             kept.middle = kept.rows.len();
             kept.time = 0.0;
         }
-        if kept.rows.len() < KEPT_ROWS {
+        let has_room = kept.rows.len() < KEPT_ROWS;
+        if has_room {
             kept.rows.push((*readings, step));
         }
+        has_room
     }
 
     /// Explanations of the last alarm by the readings since 50 to 100 ms before it; best 50 ms after it, when the
@@ -343,15 +437,16 @@ impl Estimator {
 
     /// Test of the payload, and its value from means while the platform rings. Returns the size of the test over its
     /// limit at an alarm.
-    fn follow_payload(&mut self, readings: &SensorReadings, step: f64) -> Result<Option<f64>, EstimationError> {
+    fn follow_payload(&mut self, readings: &SensorReadings, step: f64) -> Option<f64> {
         let rings = self.rings();
         if let Some(window) = &mut self.window {
             window.add(&self.kalman, readings, step);
             self.since_mean += step;
             if rings && self.since_mean >= PAYLOAD_PERIOD {
                 self.since_mean = 0.0;
-                if window.apply(&mut self.kalman, self.vibration) {
-                    self.kalman.refresh()?;
+                self.spare.copy_from(&self.kalman);
+                if window.apply(&mut self.kalman, self.vibration) && self.kalman.refresh().is_err() {
+                    self.kalman.copy_from(&self.spare);
                 }
             }
             if !rings {
@@ -363,7 +458,7 @@ impl Estimator {
         let gravity = self.kalman.of.robot.gravity_w;
         let prior = self.kalman.settings.priors.force.powi(2);
         if gravity == Vec3::zeros() || self.since_payload < QUIET_AFTER_ALARM || prior == 0.0 {
-            return Ok(None);
+            return None;
         }
         let along = gravity.normalize();
         let force = (0..3).map(|k| along[k] * self.kalman.mean.load.wrench[k]).sum::<f64>();
@@ -374,14 +469,14 @@ impl Estimator {
         let limit = if rings { PAYLOAD_TEST_RINGING } else { PAYLOAD_TEST };
         let size = force * force / (prior - known).max(1e-3 * prior) / limit;
         if size < 1.0 {
-            return Ok(None);
+            return None;
         }
         self.kalman.reopen_payload(NEW_PAYLOAD[0], NEW_PAYLOAD[1]);
         self.window = Some(PayloadWindow::new(&self.kalman));
         self.since_mean = 0.0;
         self.since_payload = 0.0;
         self.hold_payload();
-        Ok(Some(size))
+        Some(size)
     }
 
     /// Tests of the load cells; they rest while the platform rings, because its vibration is no white noise. Returns
@@ -424,6 +519,36 @@ impl Estimator {
         if cable < self.kalman.places.cables {
             self.kalman.covariance.reopen(self.kalman.places.tension_biases() + cable, std * std);
         }
+    }
+
+    /// Takes a fault: the number that changed is unknown again, because the filter would go on with a wrong one.
+    pub fn take_fault(&mut self, of: &FaultHypothesis) {
+        match (of.kind, of.cable) {
+            (FaultKind::Slip | FaultKind::Cut, Some(i)) => self.reopen_offset(i, NEW_OFFSET),
+            (FaultKind::LoadCell, Some(i)) => self.reopen_tension_bias(i, NEW_BIAS),
+            _ => {}
+        }
+    }
+
+    /// Readings that all sensors would have at the present state, without noise, if the platform rests.
+    pub fn expected_at_rest(&self) -> SensorReadings {
+        let Kalman { of, mean, at, settings, readings, .. } = &self.kalman;
+        let to_platform = mean.pose.rot_wp.inverse();
+        let mut expected = SensorReadings { lengths: *readings, ..SensorReadings::default() };
+        for (i, cable) in at.cables.iter().enumerate() {
+            let leaving = &cable.leaving;
+            expected.tensions[i] = cable.tension + mean.tension_biases[i];
+            expected.angles[i] = [leaving.y.atan2(leaving.x), leaving.z.atan2(leaving.x.hypot(leaving.y))];
+        }
+        expected.gyroscope = mean.gyroscope_bias.into();
+        expected.accelerometer = (to_platform * -of.robot.gravity_w + mean.accelerometer_bias).into();
+        expected.tracker = mean.pose.point_w(&settings.tracked_point_p).into();
+        expected
+    }
+
+    /// Number of cables.
+    pub fn cables(&self) -> usize {
+        self.kalman.places.cables
     }
 
     /// Time since the start [s].

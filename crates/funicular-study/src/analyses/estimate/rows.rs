@@ -2,6 +2,10 @@
 
 use crate::analyses::shared::{AXES, PoseRow};
 use crate::rows::rows;
+use funicular::estimation::{Estimate, Estimator, Slackness};
+
+/// Deviation within which the centre of mass of a payload is told [m].
+const CENTER_KNOWN: f64 = 0.1;
 
 rows! {
     /// Estimated state at one time. Lists have a number per cable. Deviations are absent where the readings do not fit
@@ -109,5 +113,45 @@ rows! {
         pub tension_bias_std_n: Option<f64> => one.decimals("±", 2);
         /// Root mean square of the residuals of its load cell, in their standard deviations.
         pub residual_ratio: Option<f64> => one.decimals("residuals", 2);
+    }
+}
+
+impl EstimateRow {
+    /// Row of the present state of a filter.
+    pub(super) fn now(t_s: f64, estimator: &mut Estimator, is_trusted: bool) -> Self {
+        let residuals = estimator.relative_innovations();
+        let residuals = residuals.iter().all(|z| z.is_finite()).then(|| residuals.to_vec());
+        let of = estimator.state();
+        let cables = &of.cables[..estimator.cables()];
+        let std = |of: &[Estimate; 3]| is_trusted.then(|| of.map(|part| part.std));
+        let value = |of: &[Estimate; 3]| of.map(|part| part.value);
+        Self {
+            t_s,
+            pose: PoseRow::of(&of.pose),
+            position_std_m: is_trusted.then_some(of.position_std),
+            rotation_std_deg: is_trusted.then(|| of.rotation_std.map(f64::to_degrees)),
+            velocity_m_s: value(&of.velocity),
+            velocity_std_m_s: std(&of.velocity),
+            angular_velocity_rad_s: value(&of.angular_velocity),
+            angular_velocity_std_rad_s: std(&of.angular_velocity),
+            payload_kg: of.payload.value,
+            payload_std_kg: is_trusted.then_some(of.payload.std),
+            payload_center_m: of.payload_center(CENTER_KNOWN).filter(|_| is_trusted).map(|center| value(&center)),
+            force_n: value(&of.force),
+            force_std_n: std(&of.force),
+            tensions_n: cables.iter().map(|cable| cable.tension.value).collect(),
+            tensions_std_n: is_trusted.then(|| cables.iter().map(|cable| cable.tension.std).collect()),
+            slack: (cables.iter())
+                .map(|cable| match cable.slackness {
+                    _ if !is_trusted => "unknown",
+                    Slackness::Slack => "slack",
+                    Slackness::Taut => "taut",
+                    Slackness::Unknown => "unknown",
+                })
+                .collect(),
+            residuals,
+            is_trusted,
+            rings: of.rings,
+        }
     }
 }

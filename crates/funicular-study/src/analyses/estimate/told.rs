@@ -28,9 +28,9 @@ pub(super) struct Told {
 pub(super) fn of_run(run: &mut LogRun, log: &EstimateLog, settings: &EstimationSettings, cables: &[String]) -> Told {
     let groups = SensorGroup::ALL.into_iter().filter(|group| log.has(*group));
     let sensors: Vec<SensorFit> =
-        groups.filter_map(|group| sensor_fit(group, run.estimator.consistency(group), cables)).collect();
-    let state = run.estimator.state();
-    let cells = run.estimator.consistency(SensorGroup::Tensions);
+        groups.filter_map(|group| sensor_fit(group, run.follower.estimator.consistency(group), cables)).collect();
+    let state = run.follower.estimator.state();
+    let cells = run.follower.estimator.consistency(SensorGroup::Tensions);
     let cable_errors = (cables.iter().zip(&state.cables).enumerate())
         .map(|(i, (cable, of))| {
             let ratio = cells.ratio(i);
@@ -77,7 +77,7 @@ pub(super) fn of_run(run: &mut LogRun, log: &EstimateLog, settings: &EstimationS
 
 /// Caveats of the tests.
 fn warnings(run: &LogRun, log: &EstimateLog) -> Vec<String> {
-    let [deviation, correlation] = run.estimator.whiteness();
+    let [deviation, correlation] = run.follower.estimator.whiteness();
     let mut warnings = Vec::new();
     if log.has(SensorGroup::Tensions) && correlation > MAX_CORRELATION {
         warnings.push(format!(
