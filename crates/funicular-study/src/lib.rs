@@ -44,7 +44,7 @@ mod parameter_pattern;
 mod payload;
 mod quantiles;
 pub mod reading_table;
-mod refused;
+pub mod refused;
 pub mod request;
 pub mod robot_file;
 pub mod rows;

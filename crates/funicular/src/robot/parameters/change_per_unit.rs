@@ -50,6 +50,8 @@ const WITHOUT_DERIVATIVE: &[(&str, &[&str])] = &[
             "max_brake_power_w",
         ],
     ),
+    // Results with derivatives are those of cables of their own.
+    ("cables", &["sheave_efficiency"]),
     // Results with derivatives are those without friction.
     ("pulleys", &["friction_coefficient", "efficiency", "bearing_friction_coefficient", "bearing_radius_m"]),
 ];
