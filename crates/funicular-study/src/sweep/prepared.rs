@@ -3,9 +3,9 @@
 use super::{AXES, Options, Plan, Points, Poses, Quantity, RobotValues, Steps, SweepError, ValueAxis, digest};
 use crate::at_rest::{self, refuse_no_state};
 use crate::names::TensionRuleName;
-use crate::refused::refuse_ropes_of_request;
 use crate::request::{Axis, EachPoint, MapRequest, PointOptions, Request, RobotText, SweepRequest, check_fraction};
 use crate::robot_file::RobotFile;
+use crate::shared_ropes::refuse_ropes_of_request;
 use crate::table::{Part, Record};
 use crate::values::positive;
 use anyhow::{Context as _, Result, anyhow, bail};

@@ -7,11 +7,10 @@
 //! (docs/theory.md, equations (93d) and (93e)).
 
 use super::error::RunningRopeRefusal;
-use super::supports::{SupportRows, SupportsAt};
 use super::{DynamicCableAt, DynamicsError};
 use crate::cable::catenary_dynamic::{DriveAt, NearPole};
 use crate::cable::{LocalAxes, LocalStiffness};
-use crate::math::{Complex, Vec3, Vec6};
+use crate::math::{CDMat, Complex, Vec3, Vec6};
 use crate::robot::Robot;
 use crate::statics::CableState;
 
@@ -126,28 +125,29 @@ impl Sheaves {
         self.ends.get(term)?.as_ref()
     }
 
-    /// Adds the stiffness of the end of cable `t` at x = ω_c² without its near poles, and its derivative.
+    /// Adds the stiffness of the end of cable `t` at x = ω_c² without its near poles to the values of coupling and own
+    /// stiffness, and its derivative to the slopes.
     pub(super) fn add_rows(
         &self,
-        rows: &mut SupportRows,
+        [coupling, own]: [&mut (CDMat, CDMat); 2],
         (t, term): (usize, &DynamicCableAt),
         (square, slope): (Complex, Complex),
         width: f64,
     ) {
         let Some(end) = self.end_of(t) else { return };
         let (stiffness, _) = term.form.complex_beside_poles(square, width);
-        add((&mut rows.coupling.0, &mut rows.own.0), term, end, times(&stiffness, &end.direction));
+        add((&mut coupling.0, &mut own.0), term, end, times(&stiffness, &end.direction));
         if slope != Complex::new(0.0, 0.0) {
             let mass = term.form.complex_mass_beside_poles(square, width);
             let force = times(&mass, &end.direction).map(|mass| -slope * mass);
-            add((&mut rows.coupling.1, &mut rows.own.1), term, end, force);
+            add((&mut coupling.1, &mut own.1), term, end, force);
         }
     }
 
     /// Adds the losses of the drive and of the stretch of cable `t` at ω [rad/s].
     pub(super) fn add_drive_losses(
         &self,
-        rows: &mut SupportRows,
+        [coupling, own]: [&mut (CDMat, CDMat); 2],
         (t, term): (usize, &DynamicCableAt),
         square: Complex,
         omega: f64,
@@ -156,7 +156,7 @@ impl Sheaves {
         let whole = times(&term.form.damped(omega), &end.direction);
         let without = times(&term.form.complex_beside_poles(square, 0.0).0, &end.direction);
         let force = std::array::from_fn(|k| whole[k] - without[k]);
-        add((&mut rows.coupling.0, &mut rows.own.0), term, end, force);
+        add((&mut coupling.0, &mut own.0), term, end, force);
     }
 
     /// Participation of the coordinates in a near pole of cable `term`; `count` is that of all coordinates.
@@ -196,13 +196,13 @@ impl Sheaves {
     pub(super) fn added_energies(
         &self,
         terms: &[DynamicCableAt],
-        at: &SupportsAt,
+        (squares, width): (&[(Complex, Complex)], f64),
         platform: &Vec6,
         coordinates: &[f64],
     ) -> Vec<f64> {
         let of = |(t, term): (usize, &DynamicCableAt)| {
             let Some(end) = self.end_of(t) else { return 0.0 };
-            let mass = term.form.complex_mass_beside_poles(at.squares[t].0, at.width);
+            let mass = term.form.complex_mass_beside_poles(squares[t].0, width);
             let moved = times(&mass, &end.direction).map(|mass| mass.re * end.length(coordinates));
             let by_platform = term.displacement(platform);
             let running = self.displacement(t, coordinates);
@@ -223,12 +223,7 @@ fn times(stiffness: &LocalStiffness<Complex>, [e, n, b]: &[f64; 3]) -> [Complex;
 }
 
 /// Adds the force against a unit of rope that runs into a cable to the rows of its coordinates.
-fn add(
-    (coupling, own): (&mut crate::math::CDMat, &mut crate::math::CDMat),
-    term: &DynamicCableAt,
-    end: &SheavedEnd,
-    force: [Complex; 3],
-) {
+fn add((coupling, own): (&mut CDMat, &mut CDMat), term: &DynamicCableAt, end: &SheavedEnd, force: [Complex; 3]) {
     let resistance: Complex = force.iter().zip(end.direction).map(|(f, d)| f * d).sum();
     for (column, sign) in &end.by {
         for (f, axis) in force.iter().zip(term.axes()) {

@@ -246,7 +246,7 @@ impl Supports {
         };
 
         for (t, (term, (square, slope))) in terms.iter().zip(&at.squares).enumerate() {
-            self.sheaves.add_rows(&mut rows, (t, term), (*square, *slope), at.width);
+            self.sheaves.add_rows([&mut rows.coupling, &mut rows.own], (t, term), (*square, *slope), at.width);
         }
 
         for ((term, carried), (square, slope)) in terms.iter().zip(&self.carried).zip(&at.squares) {
@@ -271,7 +271,7 @@ impl Supports {
         omega: f64,
     ) {
         for (t, (term, (square, _))) in terms.iter().zip(squares).enumerate() {
-            self.sheaves.add_drive_losses(rows, (t, term), *square, omega);
+            self.sheaves.add_drive_losses([&mut rows.coupling, &mut rows.own], (t, term), *square, omega);
         }
         for ((term, carried), (square, _)) in terms.iter().zip(&self.carried).zip(squares) {
             let (Some(carried), Some(form)) = (carried, term.form.by_poles()) else { continue };
@@ -486,7 +486,7 @@ impl Supports {
             2.0 * mixed + own
         };
 
-        let running = self.sheaves.added_energies(terms, at, platform, supports);
+        let running = self.sheaves.added_energies(terms, (&at.squares, at.width), platform, supports);
         terms.iter().enumerate().map(of).zip(running).map(|(carried, running)| carried + running).collect()
     }
 

@@ -6,7 +6,6 @@ use super::forward::forward;
 use super::model::StaticModel;
 use super::nearest_pose::gap;
 use super::ropes::{self, RunningEnd};
-use super::solve::Solution;
 use super::stiffness::tangent_stiffness;
 use super::tension::{TensionRule, distribute_tensions};
 use crate::math::{DMat, DVec, Vec6};
@@ -40,20 +39,17 @@ pub(super) struct RopesAtPose<'a> {
 }
 
 impl RopesAtPose<'_> {
-    /// Equilibrium at the pose; with fewer ropes than degrees of freedom at the nearest pose that they hold.
+    /// Equilibrium at the pose; with fewer ropes than degrees of freedom at the nearest pose that they hold, with its
+    /// distance [m].
     ///
     /// # Errors
     /// [`StaticsError`] of the solver, by the number of ropes.
-    pub(super) fn solved(&self) -> Result<Solution, StaticsError> {
-        let found = |equilibrium| Solution { equilibrium, requested_pose: None, rule: None, held_pose: None };
-        match self.robot.constraint() {
-            Constraint::Under(_) => {
-                let (equilibrium, distance) = self.nearest()?;
-                Ok(Solution { requested_pose: Some((*self.pose, distance)), ..found(equilibrium) })
-            }
-            Constraint::Fully => Ok(found(self.held()?)),
-            Constraint::Redundantly(_) => Ok(Solution { rule: Some(self.rule.clone()), ..found(self.held()?) }),
+    pub(super) fn solved(&self) -> Result<(Equilibrium, Option<f64>), StaticsError> {
+        if self.robot.constraint().is_under() {
+            let (equilibrium, distance) = self.nearest()?;
+            return Ok((equilibrium, Some(distance)));
         }
+        Ok((self.held()?, None))
     }
 
     /// Equilibrium at the pose itself.

@@ -82,7 +82,11 @@ pub fn solve_at(
     match state {
         State::Unknown => Err(StaticsError::NoState),
         State::Lengths(lengths) => Ok(found(forward(robot, lengths, model, None)?)),
-        State::Pose(pose) if robot.has_ropes_over_sheaves() => RopesAtPose { robot, pose, model, rule }.solved(),
+        State::Pose(pose) if robot.has_ropes_over_sheaves() => {
+            let (equilibrium, distance) = RopesAtPose { robot, pose, model, rule }.solved()?;
+            let rule = robot.constraint().is_redundant().then(|| rule.clone());
+            Ok(Solution { requested_pose: distance.map(|distance| (*pose, distance)), rule, ..found(equilibrium) })
+        }
         State::Pose(pose) => match ConstraintAtPose::of(robot, pose, model) {
             ConstraintAtPose::Under => nearest(robot, pose, model, rule),
             ConstraintAtPose::Full => Ok(found(determinate(robot, pose, model)?)),

@@ -4,6 +4,7 @@
 //! - `vibration`: modes against closed forms and against the static stiffness
 
 mod statics;
+mod vibration;
 
 use funicular::robot::Robot;
 use std::fmt::Write;

@@ -210,8 +210,9 @@ fn read_one(
 
     let shared_value = section.get("shares_rope_with");
     let shares = shared_value.and_then(|value| Some((reader.text("shares_rope_with", value)?, value.span())));
-    let efficiency = reader.number_or_default(section, "sheave_efficiency");
-    if let (None, Some(value)) = (shared_value, section.get("sheave_efficiency")) {
+    let given = section.get("sheave_efficiency");
+    let efficiency = given.and_then(|value| reader.fraction(section, "sheave_efficiency", value));
+    if let (None, Some(value)) = (shared_value, given) {
         reader
             .issue(value.span(), "`sheave_efficiency` is that of a sheave between two cables of one rope")
             .help("add `shares_rope_with`, or remove the line; a pulley at the anchor has its own `efficiency`");
