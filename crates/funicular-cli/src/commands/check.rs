@@ -17,10 +17,7 @@ impl Printed for Checked {
             say(format!("  source      {}", self.source));
         }
 
-        say(format!("  cables      {}, {}", self.cables.len(), redundancy(self)));
-        for line in shared_ropes(self) {
-            say(line);
-        }
+        cable_lines(self).into_iter().for_each(&mut say);
         let platform = &self.platform;
         say(format!("  platform    {}, {} kg", platform_kind(platform), short(platform.mass_kg, 6)));
         if platform.motion != PlatformMotion::PointMass.name() {
@@ -90,8 +87,8 @@ fn redundancy(found: &Checked) -> String {
     if shared == 0 { compared } else { format!("of {ropes} ropes: {compared}") }
 }
 
-/// Lines with the cables of each rope over sheaves.
-fn shared_ropes(found: &Checked) -> Vec<String> {
+/// Number of cables, and a line with the cables of each rope over sheaves.
+fn cable_lines(found: &Checked) -> Vec<String> {
     let next = |name: &str| found.cables.iter().find(|cable| cable.shares_rope_with.as_deref() == Some(name));
     let is_first = |cable: &&CheckedCable| cable.shares_rope_with.is_none() && next(&cable.name).is_some();
     let line = |first: &CheckedCable| {
@@ -104,7 +101,8 @@ fn shared_ropes(found: &Checked) -> Vec<String> {
         }
         format!("  one rope    cables {names} over sheaves")
     };
-    found.cables.iter().filter(is_first).map(line).collect()
+    let count = format!("  cables      {}, {}", found.cables.len(), redundancy(found));
+    std::iter::once(count).chain(found.cables.iter().filter(is_first).map(line)).collect()
 }
 
 /// Kind of the platform in words, with the plane in which it moves.

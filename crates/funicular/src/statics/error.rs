@@ -405,8 +405,8 @@ pub enum StaticsError {
     },
     /// The cables of a rope over sheaves are not in balance.
     #[error(
-        "the rope of cable \"{cable}\" finds no rest on its sheaves: the pull of its cables differs by {difference:.3e} \
-         N; give it another length (`unstrained_length_m`)"
+        "the rope of cable \"{cable}\" finds no rest on its sheaves: the pull of its cables differs by \
+         {difference:.3e} N; give it another length (`unstrained_length_m`)"
     )]
     RopeUnbalanced {
         /// Name of the first cable of the rope.
@@ -425,8 +425,8 @@ pub enum StaticsError {
     /// Ropes over sheaves do not hold a pose.
     #[error(
         "no tensions of the ropes hold this pose: a rope over sheaves has one tension in all of its cables; the best \
-         tensions leave a scaled residual of {residual:.1e} (limit {RESIDUAL_LIMIT:.0e}); request another pose, or give \
-         unstrained lengths"
+         tensions leave a scaled residual of {residual:.1e} (limit {RESIDUAL_LIMIT:.0e}); request another pose, or \
+         give unstrained lengths"
     )]
     RopesDoNotHold {
         /// Scaled residual.

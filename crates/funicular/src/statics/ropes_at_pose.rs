@@ -132,8 +132,8 @@ impl RopesAtPose<'_> {
         Ok((here, distance))
     }
 
-    /// Change of the length of each rope [m] that comes nearest to a motion of the platform, scaled, to first order; and
-    /// the size of the motion that it gives [m]. `None` without stiffness.
+    /// Change of the length of each rope [m] that comes nearest to a motion of the platform, scaled, to first order;
+    /// and the size of the motion that it gives [m]. `None` without stiffness.
     fn step(&self, here: &Equilibrium, ropes_of: &[Vec<usize>], motion: &Vec6) -> Option<(DVec, f64)> {
         let coordinates = Coordinates::of(self.robot);
         let dof = coordinates.count();

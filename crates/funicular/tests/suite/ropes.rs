@@ -1,6 +1,6 @@
 //! Ropes over sheaves: the robots of the tests, and the subjects in the files of the folder.
 //!
-//! - `statics`: block and tackle, ellipse and heavy ropes, stiffness against differences, poses to lengths, refused files
+//! - `statics`: block and tackle, ellipse and heavy ropes, stiffness against differences, poses, refused files
 //! - `vibration`: modes against closed forms and against the static stiffness
 
 mod statics;

@@ -208,15 +208,7 @@ fn read_one(
     let length = length_value.and_then(|value| reader.number_of(section, "unstrained_length_m", value));
     let load = own_load.map_or_else(|| material.as_ref().map(|m| m.load_per_length_w), |own| own.map(Vec3::from));
 
-    let shared_value = section.get("shares_rope_with");
-    let shares = shared_value.and_then(|value| Some((reader.text("shares_rope_with", value)?, value.span())));
-    let given = section.get("sheave_efficiency");
-    let efficiency = given.and_then(|value| reader.fraction(section, "sheave_efficiency", value));
-    if let (None, Some(value)) = (shared_value, given) {
-        reader
-            .issue(value.span(), "`sheave_efficiency` is that of a sheave between two cables of one rope")
-            .help("add `shares_rope_with`, or remove the line; a pulley at the anchor has its own `efficiency`");
-    }
+    let (shares, efficiency) = shared_rope(reader, section);
 
     let cable = name.zip(material).zip(anchor.zip(attachment)).zip(own_limits.zip(load)).map(
         |(((name, material), (anchor, attachment)), (tension_limits, load_per_length_w))| Cable {
@@ -233,7 +225,7 @@ fn read_one(
         cable,
         support: support.flatten().map(|support| support.name),
         shares,
-        efficiency: efficiency.unwrap_or(1.0),
+        efficiency,
         support_span: section.get("support").map(toml::Spanned::span),
         label: section.label().to_owned(),
         header: section.span.clone(),
@@ -242,6 +234,21 @@ fn read_one(
         length,
         length_mistyped: section.mistyped(&["unstrained_length_m"]),
     }
+}
+
+/// Reads the name of the cable whose rope a cable continues, with its place, and the efficiency of the sheave between
+/// them.
+fn shared_rope(reader: &mut Reader, section: &Section) -> (Option<(String, Range<usize>)>, f64) {
+    let before = section.get("shares_rope_with");
+    let shares = before.and_then(|value| Some((reader.text("shares_rope_with", value)?, value.span())));
+    let given = section.get("sheave_efficiency");
+    let efficiency = given.and_then(|value| reader.fraction(section, "sheave_efficiency", value));
+    if let (None, Some(value)) = (before, given) {
+        reader
+            .issue(value.span(), "`sheave_efficiency` is that of a sheave between two cables of one rope")
+            .help("add `shares_rope_with`, or remove the line; a pulley at the anchor has its own `efficiency`");
+    }
+    (shares, efficiency.unwrap_or(1.0))
 }
 
 /// Reads the name of a cable, which none of the cables before it has; `names` are their names with their places.
