@@ -13,7 +13,8 @@ use crate::robot::{Pose, Robot};
 /// with a drag that turns with the cables is [`tangent_with_drag`].
 ///
 /// Flexible supports yield, and ropes run over sheaves without friction. `None` for ideal cables, which have no finite
-/// stiffness. Zero for motions that the platform does not have. The antisymmetric half of a moment's stiffness is left out: such a moment has no energy.
+/// stiffness. Zero for motions that the platform does not have. The antisymmetric half of a moment's stiffness is left
+/// out: such a moment has no energy.
 ///
 /// # References
 /// docs/theory.md, equations (14), (91) and (93c).
