@@ -42,3 +42,58 @@ pub fn refuse_ropes_of_request(request: &Request) -> Result<()> {
     // The command itself reports a file that cannot be read.
     robot.read().map_or(Ok(()), |file| refuse_ropes_over_sheaves(request.command(), &file.robot))
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::request::{Request, commands};
+    use crate::sweep::PreparedSweep;
+    use crate::{Silent, run};
+    use serde_json::json;
+
+    const FALLS: &str = r#"
+        name = "falls"
+        [platform]
+        mass_kg = 100.0
+        motion = "point-mass"
+        [materials.rope]
+        axial_stiffness_n = 2e5
+        mass_kg_per_m = 0.3
+        [[cables]]
+        name = "1"
+        material = "rope"
+        anchor_m = [-3.0, 0.0, 6.0]
+        unstrained_length_m = 4.0
+        [[cables]]
+        name = "2"
+        material = "rope"
+        anchor_m = [3.0, 0.5, 6.0]
+        unstrained_length_m = 4.5
+        shares_rope_with = "1"
+    "#;
+
+    #[test]
+    fn a_command_knows_ropes_over_sheaves_or_says_that_it_does_not() {
+        let (mut known, mut refused) = (Vec::new(), 0);
+        for command in commands() {
+            let request = json!({ "command": command.name, "robot": { "name": "falls.toml", "text": FALLS } });
+            // Commands without a robot, and those that need more keys.
+            let Ok(request) = Request::from_value(request) else { continue };
+            match run(&request, &mut Silent) {
+                Ok(_) => known.push(command.name),
+                Err(error) if command.name == "live" => assert!(error.to_string().contains("writes a file"), "{error}"),
+                Err(error) => {
+                    let message = error.to_string();
+                    assert!(message.contains("does not know ropes over sheaves"), "{}: {message}", command.name);
+                    refused += 1;
+                }
+            }
+        }
+        assert_eq!(known, ["check", "parameters", "statics", "stiffness", "modes"]);
+        assert!(refused >= 8, "{refused}");
+
+        let of_map = json!({ "command": "map", "robot": { "text": FALLS } });
+        let request = Request::from_value(of_map).unwrap();
+        let error = PreparedSweep::new(&request).map(|_| ()).unwrap_err().to_string();
+        assert!(error.contains("`map` does not know ropes over sheaves"), "{error}");
+    }
+}

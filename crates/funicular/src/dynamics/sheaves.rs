@@ -4,7 +4,7 @@
 //! The length s that runs into a cable moves the end of its material by `d s`, d = λ t, along the tangent t into the
 //! cable, and leaves a piece of rope behind that bears the load q. So the force on the platform grows by
 //! `−(K d − q) s` with the dynamic stiffness K of the end, and the difference of ψ(T) by `−(d·K d − q·d) s`
-//! (docs/theory.md, equations (93d) and (93e)).
+//! (docs/theory.md, equation (92g)).
 
 use super::error::RunningRopeRefusal;
 use super::{DynamicCableAt, DynamicsError};

@@ -3,8 +3,8 @@
 //! With the platform held, the energy of a rope is a function of the lengths of its cables, whose sum is given. Without
 //! friction the rope rests where this energy has its minimum: the sum Φ = ψ(T) + q·p, ψ(T) = T + T²/2EA, is equal at
 //! the platform ends of all its cables. To the platform the rope has still an energy, whose second derivative is that
-//! of the cables with their lengths held, less what the running of the rope takes away (docs/theory.md, equations (93a)
-//! to (93c)).
+//! of the cables with their lengths held, less what the running of the rope takes away (docs/theory.md, equations (92d)
+//! to (92f)).
 
 use super::equilibrium::CableState;
 use super::error::{RopeRefusal, StaticsError};
@@ -87,7 +87,7 @@ impl RunningEnd {
 /// world axes. `ends` has all cables of the robot.
 ///
 /// # References
-/// docs/theory.md, equation (93c).
+/// docs/theory.md, equation (92f).
 pub(super) fn lost_stiffness<'a>(parts: impl Iterator<Item = &'a [usize]>, ends: &[RunningEnd]) -> Mat6 {
     let mut lost = Mat6::zeros();
     for part in parts {

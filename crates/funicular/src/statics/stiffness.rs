@@ -17,7 +17,7 @@ use crate::robot::{Pose, Robot};
 /// out: such a moment has no energy.
 ///
 /// # References
-/// docs/theory.md, equations (14), (91) and (93c).
+/// docs/theory.md, equations (14), (91) and (92f).
 pub fn tangent_stiffness(robot: &Robot, equilibrium: &Equilibrium) -> Option<Mat6> {
     let parts: Option<Vec<_>> = equilibrium
         .cables

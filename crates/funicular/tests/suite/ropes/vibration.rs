@@ -44,7 +44,7 @@ fn a_mass_on_a_light_rope_swings_on_an_ellipse() {
     }
 }
 
-/// The dynamic stiffness of all models with mass goes over into the static tangent, in which (93c) has been condensed.
+/// The dynamic stiffness of all models with mass goes over into the static tangent, in which (92f) has been condensed.
 #[test]
 fn the_dynamic_stiffness_of_running_ropes_begins_at_the_static_one() {
     let body = "mass_kg = 300.0\ninertia_kg_m2 = [20.0, 25.0, 30.0]";
