@@ -489,7 +489,10 @@ impl StaticsError {
             Self::CoincidingEnds { .. } => "coinciding-ends",
             Self::InsidePulley { .. } => "inside-pulley",
             Self::Singular { .. } => "singular",
-            Self::NegativeTension { .. } | Self::NotFound { .. } | Self::LengthsPush { .. } => "negative-tension",
+            Self::NegativeTension { .. }
+            | Self::NotFound { .. }
+            | Self::LengthsPush { .. }
+            | Self::RopesDoNotHold { .. } => "negative-tension",
             Self::BeyondLimits(_) | Self::NearestBeyondLimits { .. } | Self::NoCentre { .. } => "tension-limits",
             Self::NotFoundWithinLimits { .. } => "not-found",
             Self::LimitsExclude { .. } => "limits-exclude",
@@ -504,7 +507,6 @@ impl StaticsError {
             Self::TooManyToStiffen { .. } => "too-many-to-stiffen",
             Self::NeedsElasticCables => "one-ideal",
             Self::RopeOverSheaves { .. } => "rope-over-sheaves",
-            Self::RopesDoNotHold { .. } => "negative-tension",
             Self::NotNearest { .. } | Self::NearestByLoop { .. } => "not-nearest",
             Self::NotConverged { .. }
             | Self::LostInRounding { .. }

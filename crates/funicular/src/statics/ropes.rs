@@ -265,7 +265,9 @@ impl DividedRope {
             self.ends.iter().zip(&compliances).map(|(end, c)| (end.potential - mean) * c).collect();
         let excess = (step.iter().zip(&self.lengths))
             .fold(1.0, |most: f64, (step, length)| most.max(-step / ((1.0 - MIN_SHORTENED) * length)));
-        step.iter_mut().for_each(|step| *step /= excess);
+        for step in &mut step {
+            *step /= excess;
+        }
         let slope = self.ends.iter().zip(&step).map(|(end, step)| end.potential * step).sum();
         (step, slope)
     }

@@ -107,7 +107,9 @@ impl RopesAtPose<'_> {
             for _ in 0..MAX_HALVINGS {
                 let mut next = lengths.clone();
                 for (change, cables) in changes.iter().zip(&ropes_of) {
-                    cables.iter().for_each(|i| next[*i] *= 1.0 + part * change);
+                    for i in cables {
+                        next[*i] *= 1.0 + part * change;
+                    }
                 }
                 let found = forward(self.robot, &next, self.model, Some(&here.pose));
                 let left = found.as_ref().map(|found| gap(self.robot, &found.pose, self.pose));
