@@ -113,7 +113,7 @@ pub(super) const KEYS: &[Key] = &[
         "efficiency of that sheave: smaller over larger tension of the two cables while the rope runs; below 1 small \
          motions leave the sheave at rest",
     )
-    .or([1.0; 3]),
+    .without(Absent::Means("no friction")),
 ];
 
 /// A cable and the places of its values.
