@@ -14,6 +14,7 @@ use funicular_pages::pages::summary::Summary;
 use funicular_study::names::SchemaSubject;
 use funicular_study::request::{ExportRequest, Request, SchemaRequest};
 use funicular_study::schema::MoreCommands;
+use funicular_study::shared_ropes::refuse_ropes_of_request;
 use funicular_study::wording::{Words, worded};
 use funicular_study::{Watch, schema};
 use serde_json::Value;
@@ -149,6 +150,7 @@ pub fn make(request: &Request, call: &str, words: Words, watch: &mut dyn Watch) 
         |text: String, warnings: Vec<String>| Document { text, bytes: None, size: None, warnings, notes: Vec::new() };
     let page =
         |html: String, warnings: Vec<String>| Document { size: Some(size_of_page(html.len())), ..text(html, warnings) };
+    refuse_ropes_of_request(request)?;
     Ok(match request {
         Request::New(of) => {
             let made = new_robot::run(of, words)?;

@@ -51,6 +51,7 @@ pub mod rows;
 mod run;
 pub mod schema;
 pub mod set_values;
+pub mod shared_ropes;
 pub mod signals;
 pub mod sweep;
 pub mod table;

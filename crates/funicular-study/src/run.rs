@@ -37,6 +37,7 @@ use crate::error::Error;
 use crate::json;
 use crate::request::{Request, RobotText};
 use crate::rows::Described;
+use crate::shared_ropes::{refuse_ropes_of_request, refuse_ropes_over_sheaves};
 use crate::watch::Watch;
 use crate::wording::Words;
 use anyhow::{Result, anyhow};
@@ -111,6 +112,10 @@ macro_rules! answers {
         /// # Errors
         /// The errors of [`run`], except those of the robot file.
         pub fn run_on(request: &Request, robot: Option<Robot>, $watch: &mut dyn Watch) -> Result<Results> {
+            match &robot {
+                Some(robot) => refuse_ropes_over_sheaves(request.command(), robot)?,
+                None => refuse_ropes_of_request(request)?,
+            }
             let $robot = || robot.ok_or_else(|| anyhow!("`{}` needs a robot", request.command()));
             Ok(match request {
                 $(Request::$Variant($of) => Results::$Variant($run),)*
@@ -133,6 +138,7 @@ macro_rules! answers {
         /// # Errors
         /// The errors of [`run_on`], and a command that does not start from an equilibrium.
         pub fn run_at(request: &Request, at_rest: &AtRest, $watch: &mut dyn Watch) -> Result<Results> {
+            refuse_ropes_over_sheaves(request.command(), &at_rest.robot)?;
             Ok(match request {
                 $($(Request::$Variant($of) => {
                     let $at_rest = at_rest;

@@ -167,7 +167,11 @@ impl CableStations {
             }
             StationModel::CatenaryDynamic { cable, stations, term } => {
                 let of = &dynamics.terms()[*term];
-                let start = of.axes().map(|axis| Complex::from(axis.dot(&motion.platform)));
+                let mut start = of.axes().map(|axis| Complex::from(axis.dot(&motion.platform)));
+                if let Some(supports) = dynamics.supports() {
+                    let running = supports.sheaves().displacement(*term, &motion.supports);
+                    start.iter_mut().zip(running).for_each(|(start, running)| *start += running);
+                }
                 let square = (mode.frequency_hz * std::f64::consts::TAU).powi(2);
                 let mut motion_along = internal_motion(dynamics, cable, start, square.into());
                 let carried =

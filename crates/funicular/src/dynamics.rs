@@ -8,11 +8,12 @@ mod error;
 mod min_stiffness;
 mod null_vectors;
 mod platform_frequency;
+mod sheaves;
 mod supports;
 
 pub(crate) use blocks::{CableBlocks, CableRow, DrivePartBlock, PlatformBlocks, SupportBlocks};
 pub(crate) use complex_frequency::DampedMotion;
-pub use error::DynamicsError;
+pub use error::{DynamicsError, RunningRopeRefusal};
 pub(crate) use null_vectors::NullVector;
 
 use crate::cable::catenary_dynamic::{CatenaryDynamicEnd, EndSignal, Shapes};
@@ -79,7 +80,7 @@ pub struct Dynamics {
     /// Scaled viscous damping of the platform [N s/m].
     platform_damping: Mat6,
     terms: Vec<DynamicCableAt>,
-    /// Flexible supports; `None` on a rigid frame.
+    /// Flexible supports and ropes that run over sheaves; `None` without either.
     supports: Option<Box<Supports>>,
     /// Linearisation with which it was made.
     pub linearisation: Linearisation,
@@ -218,7 +219,8 @@ impl Dynamics {
         refuse_two_stiffnesses(robot)?;
         refuse_on_supports(robot, linearisation)?;
         let settled = equilibrium.settled(robot);
-        let mut supports = robot.has_supports().then(|| SupportsBuilder::new(robot, &coordinates));
+        let is_coupled = robot.has_supports() || robot.has_running_ropes();
+        let mut supports = is_coupled.then(|| SupportsBuilder::new(robot, &coordinates));
 
         // Cables: a constant stiffness is added to the matrix, the others become terms.
         let mut constant = Mat6::zeros();
@@ -232,11 +234,13 @@ impl Dynamics {
                     if let Some(supports) = &mut supports {
                         let held = span_stiffness(&settled, i, state, cable_model).unwrap_or(k);
                         supports.add_constant(i, state, &held);
+                        supports.run_constant(i, state, &k);
                     }
                 }
                 EndStiffness::Dynamic(form) => {
                     if let Some(supports) = &mut supports {
                         supports.add_dynamic(i, state, &form);
+                        supports.run_dynamic(i, state, &form)?;
                     }
                     let vector = |u: &Vec3| coordinates.reduce_force(u, &state.lever_w);
                     let LocalAxes { e, n, b } = *form.axes();
@@ -513,8 +517,13 @@ pub(crate) fn refuse_two_stiffnesses(robot: &Robot) -> Result<(), DynamicsError>
     }
 }
 
-/// Refuses motion in plane alone for a robot with anchors on flexible supports.
+/// Refuses motion in plane alone for a robot with anchors on flexible supports or ropes that run over sheaves.
 fn refuse_on_supports(robot: &Robot, linearisation: Linearisation) -> Result<(), DynamicsError> {
+    if let Some(rope) = robot.ropes.iter().find(|rope| linearisation.in_plane_only && !rope.running_parts().is_empty())
+    {
+        let cable = robot.cables[rope.cables[0]].name.clone();
+        return Err(DynamicsError::RunningRope { cable, reason: RunningRopeRefusal::InPlaneOnly });
+    }
     let Some(cable) = robot.cables.iter().find(|cable| cable.anchor.support.is_some()) else { return Ok(()) };
     if linearisation.in_plane_only {
         return Err(DynamicsError::Support { cable: cable.name.clone() });

@@ -14,6 +14,7 @@ mod motion;
 pub mod parameters;
 mod pulley;
 mod required;
+mod rope_over_sheaves;
 pub mod spec;
 mod support;
 mod turbulence;
@@ -32,6 +33,7 @@ pub(crate) use pulley::Wheel;
 pub use pulley::{Pulley, PulleyContact};
 pub(crate) use required::stacked;
 pub use required::{LoadShape, RequiredLoads, RequiredLoadsError, RequiredPayload, TwistSet};
+pub use rope_over_sheaves::RopeOverSheaves;
 pub use support::{DrumPlace, Support};
 pub use turbulence::{MeasuredSpectrum, MeasuredSpectrumError, Turbulence, TurbulenceSpectrum};
 pub use winch::{Control, DrumSide, GuideWheel, LimitOfWinch, MotorLoad, Servo, Winch, WinchLimits, WinchMode};
@@ -67,6 +69,8 @@ pub struct Robot {
     pub clearance: Option<RequiredClearance>,
     /// The cables, in file order.
     pub cables: Vec<Cable>,
+    /// Ropes that run over sheaves and are several cables each.
+    pub ropes: Vec<RopeOverSheaves>,
     /// State given by the file: unstrained lengths or a pose.
     pub state: State,
     /// Roll, pitch, yaw that the pose of `state` was written with [degrees]; zero if it was written in another way.

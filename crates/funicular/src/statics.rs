@@ -38,6 +38,7 @@ mod free_motion; // motions that no cable opposes, because the directions of the
 mod initial_pose; // start pose from the lengths
 mod loaded_cable; // cable with its load, before its length is known
 mod residual; // residual of the balance at a pose, and its rounding
+mod ropes; // ropes over sheaves: how each divides its length among its cables
 mod supports; // balance of flexible supports under the forces of their cables
 mod wrench_set; // wrenches that the cables can apply within their limits
 
@@ -49,6 +50,7 @@ mod forward; // lengths to pose, elastic cables
 mod ideal; // rigid cables: lengths to pose, pose to tensions
 mod inverse; // pose to lengths, as many cables as degrees of freedom
 mod nearest_pose; // nearest pose that fewer cables than degrees of freedom can hold
+mod ropes_at_pose; // pose to lengths with ropes over sheaves
 mod solve; // choice of the solver by the state and the number of cables
 mod tension; // pose to lengths, more cables than degrees of freedom
 
@@ -68,7 +70,7 @@ pub use drag::{antisymmetric_fraction, drag_effect, drag_stiffness, stiffness_al
 pub use energy::energy;
 pub use equilibria::{Candidate, Candidates, all_equilibria, another_stable_equilibrium};
 pub use equilibrium::{CableState, Equilibrium, MAX_RESIDUAL_OF_ROUNDING, RESIDUAL_LIMIT, Stability};
-pub use error::StaticsError;
+pub use error::{RopeRefusal, StaticsError};
 pub(crate) use exit_points::distance_inside_pulley;
 pub use forward::forward;
 pub(crate) use free_motion::independent_directions;

@@ -479,8 +479,11 @@ pub fn of_crossing_chords(robot: &Robot, pose: &Pose) -> Option<Warning> {
 
 fn crossing(robot: &Robot, touching: &[Clearance]) -> Option<Warning> {
     let name = |i: usize| robot.cables[i].name.clone();
+    // Falls of one rope lie beside each other on its sheaves.
+    let is_one_rope =
+        |i: usize, j: usize| robot.ropes.iter().any(|rope| [i, j].iter().all(|k| rope.cables.contains(k)));
     let pairs = touching.iter().filter_map(|of| match of.pair {
-        ClearancePair::Cables(i, j) => Some([name(i), name(j)]),
+        ClearancePair::Cables(i, j) if !is_one_rope(i, j) => Some([name(i), name(j)]),
         _ => None,
     });
     let pairs: Vec<[String; 2]> = pairs.collect();

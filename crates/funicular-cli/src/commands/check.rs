@@ -17,7 +17,7 @@ impl Printed for Checked {
             say(format!("  source      {}", self.source));
         }
 
-        say(format!("  cables      {}, {}", self.cables.len(), redundancy(self)));
+        cable_lines(self).into_iter().for_each(&mut say);
         let platform = &self.platform;
         say(format!("  platform    {}, {} kg", platform_kind(platform), short(platform.mass_kg, 6)));
         if platform.motion != PlatformMotion::PointMass.name() {
@@ -75,13 +75,34 @@ impl Printed for Checked {
     }
 }
 
-/// Number of cables beside that of degrees of freedom.
+/// Number of cables beside that of degrees of freedom; that of ropes if some run over sheaves.
 fn redundancy(found: &Checked) -> String {
-    match Constraint::new(found.cables.len(), found.degrees_of_freedom) {
+    let shared = found.cables.iter().filter(|cable| cable.shares_rope_with.is_some()).count();
+    let ropes = found.cables.len() - shared;
+    let compared = match Constraint::new(ropes, found.degrees_of_freedom) {
         Constraint::Under(missing) => format!("{missing} fewer than degrees of freedom"),
         Constraint::Fully => "as many as degrees of freedom".to_owned(),
         Constraint::Redundantly(redundant) => format!("{redundant} more than degrees of freedom"),
-    }
+    };
+    if shared == 0 { compared } else { format!("of {ropes} ropes: {compared}") }
+}
+
+/// Number of cables, and a line with the cables of each rope over sheaves.
+fn cable_lines(found: &Checked) -> Vec<String> {
+    let next = |name: &str| found.cables.iter().find(|cable| cable.shares_rope_with.as_deref() == Some(name));
+    let is_first = |cable: &&CheckedCable| cable.shares_rope_with.is_none() && next(&cable.name).is_some();
+    let line = |first: &CheckedCable| {
+        let (mut names, mut name) = (format!("\"{}\"", first.name), first.name.clone());
+        while let Some(cable) = next(&name) {
+            let efficiency = cable.sheave_efficiency.filter(|efficiency| *efficiency < 1.0);
+            let sheave = efficiency.map_or_else(String::new, |value| format!(" (sheave η = {})", short(value, 4)));
+            names += &format!(", \"{}\"{sheave}", cable.name);
+            name.clone_from(&cable.name);
+        }
+        format!("  one rope    cables {names} over sheaves")
+    };
+    let count = format!("  cables      {}, {}", found.cables.len(), redundancy(found));
+    std::iter::once(count).chain(found.cables.iter().filter(is_first).map(line)).collect()
 }
 
 /// Kind of the platform in words, with the plane in which it moves.

@@ -420,6 +420,10 @@ class CheckedCable(Row):
     """Name of the cable."""
     pulley: CheckedPulley | None
     """Pulley at the anchor; absent if there is none."""
+    shares_rope_with: str | None
+    """Cable whose rope continues in this one over a sheave; absent for a cable of its own."""
+    sheave_efficiency: float | None
+    """Efficiency of that sheave; absent without one."""
     support: str | None
     """Name of the flexible support of its anchor; absent for a rigid anchor."""
     unstrained_length_m: float | None

@@ -145,6 +145,10 @@ rows! {
         pub winch: Option<CheckedWinch>;
         /// Name of the flexible support of its anchor; absent for a rigid anchor.
         pub support: Option<String>;
+        /// Cable whose rope continues in this one over a sheave; absent for a cable of its own.
+        pub shares_rope_with: Option<String>;
+        /// Efficiency of that sheave; absent without one.
+        pub sheave_efficiency: Option<f64>;
         /// Unstrained length of the file.
         pub unstrained_length_m: Option<f64> => one.decimals("unstrained", 4);
         /// Parts of the unstrained length of a cable over a pulley or to a winch; absent for other cables, and if the
@@ -510,6 +514,8 @@ fn cables(robot: &Robot) -> Vec<CheckedCable> {
         pulley: cable.anchor.pulley.as_ref().map(CheckedPulley::of),
         winch: cable.anchor.winch.as_ref().map(CheckedWinch::of),
         support: cable.anchor.support.map(|support| robot.supports[support].name.clone()),
+        shares_rope_with: continued(robot, i).map(|(before, _)| robot.cables[before].name.clone()),
+        sheave_efficiency: continued(robot, i).map(|(_, efficiency)| efficiency),
         unstrained_length_m: lengths.map(|lengths| lengths[i]),
         length_parts: rest.as_ref().and_then(|rest| LengthParts::of(cable, &rest.cables[i])),
         limits: CheckedLimits::of(cable.limits()),
@@ -517,6 +523,14 @@ fn cables(robot: &Robot) -> Vec<CheckedCable> {
     };
 
     robot.cables.iter().enumerate().map(row).collect()
+}
+
+/// Cable whose rope continues in cable `i`, and the efficiency of the sheave between them.
+fn continued(robot: &Robot, i: usize) -> Option<(usize, f64)> {
+    robot.ropes.iter().find_map(|rope| {
+        let place = rope.cables.iter().position(|cable| *cable == i).filter(|place| *place > 0)?;
+        Some((rope.cables[place - 1], rope.efficiencies[place - 1]))
+    })
 }
 
 /// Kind of the state, and its pose if it has one.
@@ -552,9 +566,11 @@ fn caveats(robot: &Robot) -> Vec<String> {
     warnings.extend(crossing(robot).map(|warning| warning.to_string()));
 
     if robot.constraint().is_under() {
-        let (cables, dof) = (robot.cables.len(), robot.platform.motion.count());
+        let (cables, dof) = (robot.rope_count(), robot.platform.motion.count());
+        let cables =
+            if robot.has_ropes_over_sheaves() { format!("{cables} ropes") } else { format!("{cables} cables") };
         warnings.push(format!(
-            "{cables} cables for {dof} degrees of freedom: for given lengths the platform hangs at a minimum of its \
+            "{cables} for {dof} degrees of freedom: for given lengths the platform hangs at a minimum of its \
              energy; if the cables cannot hold a given pose, statics finds the nearest pose that they can hold"
         ));
     }

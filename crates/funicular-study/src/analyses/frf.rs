@@ -7,6 +7,7 @@ use crate::columns::{Columns, ResultTable, Tabled, column};
 use crate::error::Cancelled;
 use crate::request::{self, FrequencyRange, ResponseRange};
 use crate::rows::{DeclaredRow, Described, RowKey, key, put, rows, schema_of};
+use crate::shared_ropes::refuse_ropes_over_sheaves;
 use crate::signals::{Input, Output, SignalLists, response_unit};
 use crate::table::Column;
 use crate::text::{counted, significant};
@@ -287,6 +288,7 @@ pub fn values_alone(at_rest: &AtRest, pairs: &Pairs<'_>, frequencies: Vec<f64>) 
 impl Response {
     /// Response whose values are not computed yet, and the linearised robot.
     fn without_values(at_rest: &AtRest, pairs: &Pairs<'_>, frequencies: Vec<f64>) -> Result<(Self, Dynamics)> {
+        refuse_ropes_over_sheaves("frf", &at_rest.robot)?;
         let at_rest = &*at_rest.vibrating();
         let (inputs, outputs) = signals(&at_rest.robot, pairs)?;
         let linearisation = at_rest::linearisation(&pairs.model, at_rest.equilibrium.model);

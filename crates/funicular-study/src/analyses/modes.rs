@@ -7,6 +7,7 @@ use super::shared::{Axes, ModeRow, Models};
 use crate::at_rest::{self, AtRest, ModesBelow};
 use crate::request::{self, Model, Terms};
 use crate::rows::rows;
+use crate::shared_ropes::refuse_ropes_in;
 use crate::signals::{Input, Output, response_unit};
 use anyhow::{Result, anyhow, bail};
 use funicular::cable_motion::CableStations;
@@ -156,6 +157,7 @@ pub fn with_rigid_cables(at_rest: &AtRest, request: &request::ModesRequest) -> R
         bail!("⟪rigid_cables⟫ does not go with ⟪{key}⟫, because {reason}: leave out one of the two");
     }
 
+    refuse_ropes_in("⟪rigid_cables⟫", &at_rest.robot)?;
     // There are at most six such motions, so all of them are shown without a limit.
     let limit = request.below_hz.unwrap_or(request::MAX_HZ);
     let found = modes::with_rigid_cables(&at_rest.robot, &at_rest.equilibrium, limit)
@@ -198,6 +200,9 @@ fn about_rigid_cables(at_rest: &AtRest, request: &request::ModesRequest) -> Resu
 fn of_checked(at_rest: &AtRest, request: &request::ModesRequest, pair: Option<SignalPair>) -> Result<Modes> {
     if request.rigid_cables {
         return about_rigid_cables(at_rest, request);
+    }
+    if pair.is_some() {
+        refuse_ropes_in("`modes` with ⟪input⟫ and ⟪output⟫", &at_rest.robot)?;
     }
     let linearisation = at_rest::linearisation(&request.model, at_rest.equilibrium.model);
     let limit = at_rest.modes_limit(request.below_hz, linearisation)?;

@@ -5,6 +5,7 @@ use crate::at_rest::{self, refuse_no_state};
 use crate::names::TensionRuleName;
 use crate::request::{Axis, EachPoint, MapRequest, PointOptions, Request, RobotText, SweepRequest, check_fraction};
 use crate::robot_file::RobotFile;
+use crate::shared_ropes::refuse_ropes_of_request;
 use crate::table::{Part, Record};
 use crate::values::positive;
 use anyhow::{Context as _, Result, anyhow, bail};
@@ -44,6 +45,7 @@ impl PreparedSweep {
     /// Prepares a request. If lengths are held, `holder` is the text of the robot that gives them; if it is absent,
     /// that robot follows from the request.
     fn with_holder(request: &Request, holder: Option<RobotText>) -> Result<Self> {
+        refuse_ropes_of_request(request)?;
         let holder = |robot: &RobotText| holder.unwrap_or_else(|| robot.of_holder());
         match request {
             Request::Map(map) => Self::of_map(map, &holder(&map.robot)),

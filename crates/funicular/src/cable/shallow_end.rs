@@ -20,7 +20,7 @@ pub(super) fn vibrating(of: &CableSituation<'_>) -> Result<EndStiffness, NoStiff
     let CableSituation { robot, i, state, axes, in_plane_only, limit, .. } = *of;
     let sag = of.sag();
     let damping = of.material().damping.per_length_over(stretch_of(robot, i, state));
-    if !(robot.has_moving_ends() || robot.has_stretch_loss()) {
+    if !(robot.has_moving_ends() || robot.has_stretch_loss() || robot.has_running_ropes()) {
         return Ok(EndStiffness::in_closed_form(ShallowDynamic::new(sag, axes, damping, in_plane_only)));
     }
 

@@ -47,6 +47,15 @@ pub enum NotForLoop {
         /// Name of the first support.
         support: String,
     },
+    /// Rope over sheaves.
+    #[error(
+        "the rope of cable \"{cable}\" runs over sheaves, which a control loop does not know: leave out \
+         `shares_rope_with` in [[cables]]"
+    )]
+    RopeOverSheaves {
+        /// Name of the first cable of the rope.
+        cable: String,
+    },
     /// Redundant cable without a maximum.
     #[error(
         "cable \"{cable}\" has no maximum tension, which the rule `centre` needs: give `maximum_tension_n` in \
@@ -101,6 +110,9 @@ impl LoopModel {
         }
         if let Some(support) = robot.supports.first().filter(|_| robot.has_supports()) {
             return Err(NotForLoop::Supports { support: support.name.clone() });
+        }
+        if let Some(rope) = robot.ropes.first() {
+            return Err(NotForLoop::RopeOverSheaves { cable: robot.cables[rope.cables[0]].name.clone() });
         }
         if robot.constraint().is_under() {
             return Err(NotForLoop::TooFewCables { cables, dof });

@@ -392,7 +392,9 @@ impl<'d> BorderedParts<'d> {
         let motions = form.motions_at(&indices, square, &left_out)?;
         let mut rows = DriveRows::new(term, form, (&indices, &motions), loss, (near, self.borders.len()), square_slope);
         if let Some(supports) = self.dynamics.supports() {
-            rows.on_supports = supports.drive(t, &indices, square, &left_out).unwrap_or_default();
+            let by_supports = supports.drive(t, &indices, square, &left_out);
+            rows.on_supports =
+                by_supports.or_else(|| supports.sheaves().drive(t, &motions, supports.count())).unwrap_or_default();
             rows.on_supports.iter_mut().flatten().for_each(|(_, slope)| *slope *= square_slope);
         }
         Some(rows)

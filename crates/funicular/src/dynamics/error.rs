@@ -4,6 +4,20 @@ use crate::cable::catenary_dynamic::CatenaryDynamicError;
 use crate::cable::{CableModel, NoStiffness};
 use thiserror::Error;
 
+/// Case in which the vibration of a rope that runs over sheaves is not computed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
+pub enum RunningRopeRefusal {
+    /// Motion in plane alone.
+    #[error("include the stiffness out of plane")]
+    InPlaneOnly,
+    /// Rope with mass that runs over a sheave of the frame, too.
+    #[error(
+        "a sheave of the frame between cables with mass is not computed; choose the cable model `catenary-static`, or \
+         give the sheave a `sheave_efficiency` below 1, with which it stays at rest"
+    )]
+    FrameSheave,
+}
+
 /// Reason for which a robot cannot be linearised.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum DynamicsError {
@@ -35,6 +49,14 @@ pub enum DynamicsError {
         /// Name of the cable.
         cable: String,
     },
+    /// Rope runs over a sheave in a case that is not computed.
+    #[error("the rope of cable \"{cable}\" runs over sheaves: {reason}")]
+    RunningRope {
+        /// Name of the first cable of the rope.
+        cable: String,
+        /// Reason, and what to do.
+        reason: RunningRopeRefusal,
+    },
     /// A rope has a second stiffness for vibration, and the robot has not been replaced by the one that vibrates.
     #[error(
         "this analysis knows one axial stiffness only, and rope \"{rope}\" has a second one for vibration: leave \
@@ -59,7 +81,7 @@ impl DynamicsError {
         match self {
             Self::NoTension { .. } => true,
             Self::CatenaryDynamic { reason, .. } => *reason == CatenaryDynamicError::NoTension,
-            Self::Rigid | Self::Support { .. } | Self::TwoStiffnesses { .. } => false,
+            Self::Rigid | Self::Support { .. } | Self::RunningRope { .. } | Self::TwoStiffnesses { .. } => false,
         }
     }
 

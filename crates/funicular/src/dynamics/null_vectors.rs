@@ -36,7 +36,7 @@ pub(crate) struct NullVector {
     pub(crate) platform: Vec6,
     /// Amplitudes of the clamped modes whose poles lie near.
     pub(crate) near: Vec<NearMotion>,
-    /// Displacements of the supports, world axes [m]; empty on a rigid frame.
+    /// Displacements of the supports, world axes, and lengths that have run over sheaves [m]; empty without either.
     pub(crate) supports: Vec<f64>,
     /// Kinetic energy of the platform as a fraction of the total.
     pub(crate) platform_energy: f64,
@@ -288,7 +288,12 @@ impl NullVector {
                 carrier.map(|(both, ends)| move |x: f64, left_out: &NearRanges| both.drive_by(x, left_out, &ends));
             let by_support = by_support.as_ref().map(|of| of as &MotionsOfDrive);
 
-            let share = form.drive_share(omega, term.displacement(&self.platform), &of_cable, by_support);
+            let mut end = term.displacement(&self.platform);
+            if let Some(of) = dynamics.supports() {
+                let running = of.sheaves().displacement(t, &self.supports);
+                end.iter_mut().zip(running).for_each(|(end, running)| *end += running);
+            }
+            let share = form.drive_share(omega, end, &of_cable, by_support);
             if form.has_drive_mass() {
                 self.drive_energies.resize(dynamics.cable_count(), 0.0);
                 self.drive_energies[term.cable] = share.mass / total;

@@ -10,11 +10,12 @@
 //! D_ext has the poles of single cables only, those with both ends held. So counts and modes are those of D_ext
 //! (docs/theory.md, equations (92) and (93)).
 
-use super::{DynamicCableAt, Dynamics};
+use super::sheaves::Sheaves;
+use super::{DynamicCableAt, Dynamics, DynamicsError};
 use crate::cable::catenary_dynamic::{ByTurn, CarrierMotion, CatenaryDynamicEnd, ENDS, NearPole, NearRanges, TwoEnded};
 use crate::cable::{DynamicCable, LocalAxes};
 use crate::math::{CDMat, CMat6, Complex, DMat, DVec, Mat3, Mat6, Vec3, Vec6};
-use crate::platform::{Coordinates, wrench_columns};
+use crate::platform::{Coordinates, wrench_columns, wrench_of};
 use crate::robot::Robot;
 use crate::statics::{CableState, on_support, support_side};
 
@@ -33,6 +34,8 @@ pub(crate) struct Supports {
     carried: Vec<Option<CableOnSupport>>,
     /// First coordinate of the support of each cable of the robot; `None` for a rigid anchor.
     of_cable: Vec<Option<usize>>,
+    /// Ropes that run over sheaves, whose coordinates stand behind those of the supports [m].
+    sheaves: Sheaves,
 }
 
 /// Cable on a support, whose stiffness depends on frequency.
@@ -121,7 +124,8 @@ pub(super) struct SupportsBuilder<'a> {
 
 impl<'a> SupportsBuilder<'a> {
     pub(super) fn new(robot: &'a Robot, coordinates: &'a Coordinates) -> Self {
-        let count = 3 * robot.supports.len();
+        let sheaves = Sheaves::new(robot, 3 * robot.supports.len());
+        let count = 3 * robot.supports.len() + sheaves.count();
         let mut supports = Supports {
             stiffness: DMat::zeros(count, count),
             coupling: DMat::zeros(6, count),
@@ -129,6 +133,7 @@ impl<'a> SupportsBuilder<'a> {
             loss: DMat::zeros(count, count),
             carried: Vec::new(),
             of_cable: robot.cables.iter().map(|cable| Some(3 * cable.anchor.support?)).collect(),
+            sheaves,
         };
         for (i, support) in robot.supports.iter().enumerate() {
             let block = |matrix: &mut DMat, value: &Mat3| matrix.view_mut((3 * i, 3 * i), (3, 3)).copy_from(value);
@@ -180,13 +185,51 @@ impl<'a> SupportsBuilder<'a> {
         }
     }
 
+    /// Adds the running of rope into cable `i`, whose stiffness `k` [N/m] does not depend on frequency.
+    pub(super) fn run_constant(&mut self, i: usize, state: &CableState, k: &Mat3) {
+        let Some(end) = self.supports.sheaves.end(i, state) else { return };
+        let force_w = k * end.direction_w - end.load_w;
+        self.add_running(i, state, (&force_w, force_w.dot(&end.direction_w)));
+    }
+
+    /// Adds the running of rope into cable `i`, whose stiffness depends on frequency.
+    ///
+    /// # Errors
+    /// [`DynamicsError::RunningRope`] for a rope over a sheave of the frame.
+    pub(super) fn run_dynamic(
+        &mut self,
+        i: usize,
+        state: &CableState,
+        form: &DynamicCable,
+    ) -> Result<(), DynamicsError> {
+        let end = self.supports.sheaves.end(i, state);
+        self.supports.sheaves.add_term(self.robot, i, end.as_ref(), form.axes())?;
+        if let Some(end) = end {
+            self.add_running(i, state, (&-end.load_w, -end.load_w.dot(&end.direction_w)));
+        }
+        Ok(())
+    }
+
+    /// Adds a force on the platform end of cable `i`, and its own resistance, per length that runs into the cable.
+    fn add_running(&mut self, i: usize, state: &CableState, (force_w, own): (&Vec3, f64)) {
+        let by = self.supports.sheaves.of_cable(i).to_vec();
+        let wrench = self.coordinates.reduce(&wrench_of(force_w, &state.lever_w));
+        for (column, sign) in &by {
+            let mut view = self.supports.coupling.column_mut(*column);
+            view += wrench * *sign;
+            for (row, other) in &by {
+                self.supports.stiffness[(*row, *column)] += own * sign * other;
+            }
+        }
+    }
+
     pub(super) fn finish(self) -> Supports {
         self.supports
     }
 }
 
 impl Supports {
-    /// Number of coordinates: three per support.
+    /// Number of coordinates: three per support, and those of ropes over sheaves.
     pub(crate) fn count(&self) -> usize {
         self.stiffness.nrows()
     }
@@ -201,6 +244,10 @@ impl Supports {
             coupling: (self.coupling.map(Complex::from), CDMat::zeros(6, self.count())),
             own: (own, self.mass.map(|mass| -slope * mass)),
         };
+
+        for (t, (term, (square, slope))) in terms.iter().zip(&at.squares).enumerate() {
+            self.sheaves.add_rows([&mut rows.coupling, &mut rows.own], (t, term), (*square, *slope), at.width);
+        }
 
         for ((term, carried), (square, slope)) in terms.iter().zip(&self.carried).zip(&at.squares) {
             let (Some(carried), Some(form)) = (carried, term.form.by_poles()) else { continue };
@@ -223,6 +270,9 @@ impl Supports {
         squares: &[(Complex, Complex)],
         omega: f64,
     ) {
+        for (t, (term, (square, _))) in terms.iter().zip(squares).enumerate() {
+            self.sheaves.add_drive_losses([&mut rows.coupling, &mut rows.own], (t, term), *square, omega);
+        }
         for ((term, carried), (square, _)) in terms.iter().zip(&self.carried).zip(squares) {
             let (Some(carried), Some(form)) = (carried, term.form.by_poles()) else { continue };
             let all = NearRanges::default();
@@ -248,7 +298,7 @@ impl Supports {
     pub(super) fn participation(&self, term: usize, near: &NearPole) -> Vec<f64> {
         match &self.carried[term] {
             Some(carried) => carried.on_supports(&carried.both.participation(near.family, near.index), self.count()),
-            None => vec![0.0; self.count()],
+            None => self.sheaves.participation(term, near, self.count()),
         }
     }
 
@@ -274,6 +324,11 @@ impl Supports {
             row
         };
         Some(carried.both.motions(motions, x, left_out).into_iter().map(by_supports).collect())
+    }
+
+    /// Ropes that run over sheaves.
+    pub(crate) fn sheaves(&self) -> &Sheaves {
+        &self.sheaves
     }
 
     /// Motion of the carrier of a cable's end per displacement of its support along each axis of the world, with the
@@ -431,7 +486,8 @@ impl Supports {
             2.0 * mixed + own
         };
 
-        terms.iter().enumerate().map(of).collect()
+        let running = self.sheaves.added_energies(terms, (&at.squares, at.width), platform, supports);
+        terms.iter().enumerate().map(of).zip(running).map(|(carried, running)| carried + running).collect()
     }
 
     /// Kinetic energy of each support over ω²/2 [kg m²] and the work of its losses [N m] for displacements of all.
@@ -439,7 +495,7 @@ impl Supports {
         let e = DVec::from_column_slice(supports);
         let moved = &self.mass * &e;
         let of = |k: usize| (0..3).map(|i| moved[3 * k + i] * e[3 * k + i]).sum();
-        ((0..self.count() / 3).map(of).collect(), e.dot(&(&self.loss * &e)))
+        ((0..self.sheaves.first() / 3).map(of).collect(), e.dot(&(&self.loss * &e)))
     }
 }
 

@@ -28,6 +28,15 @@ pub enum EstimationError {
         /// Name of the support.
         support: String,
     },
+    /// Rope over sheaves.
+    #[error(
+        "the rope of cable \"{cable}\" runs over sheaves, which the estimator does not follow: leave out \
+         `shares_rope_with` in [[cables]]"
+    )]
+    RopeOverSheaves {
+        /// Name of the first cable of the rope.
+        cable: String,
+    },
     /// A length that the start needs is missing.
     #[error("the estimator starts from the lengths of all cables at one time; cable \"{cable}\" has none")]
     NoLength {
@@ -74,6 +83,9 @@ pub(super) fn check(robot: &Robot) -> Result<(), EstimationError> {
     let cables = robot.cables.len();
     if cables > MAX_CABLES {
         return Err(EstimationError::TooManyCables { cables });
+    }
+    if let Some(rope) = robot.ropes.first() {
+        return Err(EstimationError::RopeOverSheaves { cable: robot.cables[rope.cables[0]].name.clone() });
     }
     match robot.supports.first().filter(|_| robot.has_supports()) {
         Some(support) => Err(EstimationError::Supports { support: support.name.clone() }),

@@ -121,8 +121,9 @@ pub enum FirstError {
 /// # References
 /// docs/theory.md, section 9, equations (35a) to (35c).
 pub fn first(robot: &Robot, equilibrium: &Equilibrium) -> Result<First, FirstError> {
-    // Flexible supports couple the cables, which the pencil condenses one by one. Two stiffnesses are refused below.
-    let is_plain = !robot.has_supports() && !robot.has_dynamic_stiffness();
+    // Flexible supports and ropes over sheaves couple the cables, which the pencil condenses one by one. Two
+    // stiffnesses are refused below.
+    let is_plain = !robot.has_supports() && !robot.has_running_ropes() && !robot.has_dynamic_stiffness();
     let pencil = if is_plain { RobotPencil::new(robot, equilibrium) } else { None };
     if let Some(found) = pencil.and_then(stages::first) {
         return Ok(found);

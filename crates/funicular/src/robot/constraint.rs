@@ -37,9 +37,10 @@ impl Constraint {
 }
 
 impl Robot {
-    /// Number of cables against the degrees of freedom of the platform.
+    /// Number of cables against the degrees of freedom of the platform. Cables of one rope over sheaves count as one:
+    /// they have one tension to choose.
     pub fn constraint(&self) -> Constraint {
-        Constraint::new(self.cables.len(), self.platform.motion.count())
+        Constraint::new(self.rope_count(), self.platform.motion.count())
     }
 }
 

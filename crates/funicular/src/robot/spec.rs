@@ -20,6 +20,7 @@ mod platform;
 pub(super) mod range;
 mod read;
 mod required;
+mod ropes;
 mod stl;
 mod supports;
 mod tensor;
@@ -312,6 +313,7 @@ fn read_robot(reader: &mut Reader, table: &DeTable) -> Option<Robot> {
     let supports = supports::read(reader, &root);
     let cables = cables::read(reader, &root, materials.as_ref(), (&drives, supports.as_ref()), motion);
     let state_and_angles = read_state(reader, &root, cables.as_deref(), motion);
+    let ropes = cables.as_deref().map(|cables| ropes::of(reader, cables));
 
     let cables = cables?.into_iter().map(|entry| Some((entry.cable?, entry.support))).collect::<Option<Vec<_>>>()?;
     let (state, written_angles_deg) = state_and_angles?;
@@ -332,6 +334,7 @@ fn read_robot(reader: &mut Reader, table: &DeTable) -> Option<Robot> {
         obstacles,
         clearance,
         cables,
+        ropes: ropes?,
         state,
         written_angles_deg,
     };

@@ -180,6 +180,11 @@ const MASSLESS_PART: f64 = 1e-6;
 
 /// Refuses parts of a robot that are not simulated.
 fn check_parts(robot: &Robot) -> Result<(), SimulationError> {
+    if let Some(rope) = robot.ropes.first() {
+        let cable = robot.cables[rope.cables[0]].name.clone();
+        let (what, remedy) = ("a rope that runs over sheaves", "leave out `shares_rope_with` in [[cables]]");
+        return Err(SimulationError::Unsupported { cable, what, remedy });
+    }
     for cable in &robot.cables {
         let unsupported = |what, remedy| Err(SimulationError::Unsupported { cable: cable.name.clone(), what, remedy });
         let rope = &cable.material;

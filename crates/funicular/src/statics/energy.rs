@@ -1,7 +1,7 @@
 //! Potential energy of a robot at a pose.
 
 use super::equilibrium::Equilibrium;
-use super::supports;
+use super::{ropes, supports};
 use crate::drive::CableAtRest;
 use crate::robot::{Pose, Robot};
 
@@ -22,13 +22,15 @@ pub fn energy(robot: &Robot, equilibrium: &Equilibrium) -> f64 {
     let cables: Vec<CableAtRest> = (equilibrium.cables.iter())
         .filter_map(|cable| Some(CableAtRest { span: cable.hanging.clone()?, drive: cable.drive.clone() }))
         .collect();
-    let of_supports = if robot.has_supports() && cables.len() == robot.cables.len() {
-        let lengths: Vec<f64> = equilibrium.cables.iter().map(|cable| cable.unstrained_length).collect();
+    let lengths: Vec<f64> = equilibrium.cables.iter().map(|cable| cable.unstrained_length).collect();
+    let is_elastic = cables.len() == robot.cables.len();
+    let of_ropes = if is_elastic { ropes::energy_of_references(robot, &cables, &lengths) } else { 0.0 };
+    let of_supports = if robot.has_supports() && is_elastic {
         supports::energy(robot, &cables, &lengths, &equilibrium.support_displacements(robot))
     } else {
         0.0
     };
-    of_parts(robot, &equilibrium.pose, cables.iter()) + of_supports
+    of_parts(robot, &equilibrium.pose, cables.iter()) + of_supports + of_ropes
 }
 
 /// Potential energy [J] of cables that hang at a pose, in equilibrium or not, with platform and load.

@@ -403,6 +403,35 @@ pub enum StaticsError {
         /// Position reached [m].
         z: f64,
     },
+    /// The cables of a rope over sheaves are not in balance.
+    #[error(
+        "the rope of cable \"{cable}\" finds no rest on its sheaves: the pull of its cables differs by \
+         {difference:.3e} N; give it another length (`unstrained_length_m`)"
+    )]
+    RopeUnbalanced {
+        /// Name of the first cable of the rope.
+        cable: String,
+        /// Difference of ψ(T) + q·p between its cables [N].
+        difference: f64,
+    },
+    /// A rope over sheaves in a case that is not computed.
+    #[error("cable \"{cable}\" is part of a rope over sheaves: {reason}")]
+    RopeOverSheaves {
+        /// Name of the first cable of a rope.
+        cable: String,
+        /// Reason, and what to do.
+        reason: RopeRefusal,
+    },
+    /// Ropes over sheaves do not hold a pose.
+    #[error(
+        "no tensions of the ropes hold this pose: a rope over sheaves has one tension in all of its cables; the best \
+         tensions leave a scaled residual of {residual:.1e} (limit {RESIDUAL_LIMIT:.0e}); request another pose, or \
+         give unstrained lengths"
+    )]
+    RopesDoNotHold {
+        /// Scaled residual.
+        residual: f64,
+    },
     /// The search did not reach the tolerance.
     #[error(
         "no equilibrium found in {iterations} iterations: {} (limit {limit:.0e}) at position \
@@ -425,6 +454,23 @@ pub enum StaticsError {
     },
 }
 
+/// Case in which statics with ropes over sheaves is not computed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
+pub enum RopeRefusal {
+    /// Rigid cables.
+    #[error("rigid cables do not say how it divides its length; choose the static model `spring` or `catenary`")]
+    Ideal,
+    /// Wind that drags at the cables.
+    #[error("the drag of the wind on it is not computed; leave out the wind or `drag_coefficient`")]
+    Wind,
+    /// Tension rule that is not known for ropes over sheaves.
+    #[error("its tension is chosen by the rule `lowest` or `closest` alone")]
+    Rule,
+    /// Analysis that is not known for ropes over sheaves.
+    #[error("this analysis knows cables of their own only; `statics`, `stiffness` and `modes` know ropes over sheaves")]
+    Analysis,
+}
+
 impl StaticsError {
     /// Singular pose of a robot, with the direction in which no cable pulls.
     pub(super) fn singular(robot: &Robot, pose: &Pose, model: StaticModel) -> Self {
@@ -443,7 +489,10 @@ impl StaticsError {
             Self::CoincidingEnds { .. } => "coinciding-ends",
             Self::InsidePulley { .. } => "inside-pulley",
             Self::Singular { .. } => "singular",
-            Self::NegativeTension { .. } | Self::NotFound { .. } | Self::LengthsPush { .. } => "negative-tension",
+            Self::NegativeTension { .. }
+            | Self::NotFound { .. }
+            | Self::LengthsPush { .. }
+            | Self::RopesDoNotHold { .. } => "negative-tension",
             Self::BeyondLimits(_) | Self::NearestBeyondLimits { .. } | Self::NoCentre { .. } => "tension-limits",
             Self::NotFoundWithinLimits { .. } => "not-found",
             Self::LimitsExclude { .. } => "limits-exclude",
@@ -457,10 +506,12 @@ impl StaticsError {
             Self::StiffestNeedsElastic | Self::StiffestNeedsSpread => "nothing-to-stiffen",
             Self::TooManyToStiffen { .. } => "too-many-to-stiffen",
             Self::NeedsElasticCables => "one-ideal",
+            Self::RopeOverSheaves { .. } => "rope-over-sheaves",
             Self::NotNearest { .. } | Self::NearestByLoop { .. } => "not-nearest",
-            Self::NotConverged { .. } | Self::LostInRounding { .. } | Self::TensionsNotConverged { .. } => {
-                "not-converged"
-            }
+            Self::NotConverged { .. }
+            | Self::LostInRounding { .. }
+            | Self::TensionsNotConverged { .. }
+            | Self::RopeUnbalanced { .. } => "not-converged",
         }
     }
 
@@ -496,6 +547,8 @@ impl StaticsError {
                 | Self::NotConverged { .. }
                 | Self::LostInRounding { .. }
                 | Self::TensionsNotConverged { .. }
+                | Self::RopeUnbalanced { .. }
+                | Self::RopesDoNotHold { .. }
         )
     }
 }

@@ -6,9 +6,10 @@ use super::error::StaticsError;
 use super::loaded_cable::LoadedCable;
 use super::model::StaticModel;
 use super::residual::{check_lengths, elastic_rounding, scaled_residual};
+use super::ropes::RunningEnd;
 use super::stiffness::assembled;
 use super::supports::{self, CablesOnSupports};
-use super::{energy, ideal, initial_pose};
+use super::{energy, ideal, initial_pose, ropes};
 use crate::drive::CableAtRest;
 use crate::math::{Mat6, Vec3, Vec6, symmetric};
 use crate::platform::{Coordinates, balance, load_size};
@@ -48,6 +49,7 @@ pub fn forward(
     start: Option<&Pose>,
 ) -> Result<Equilibrium, StaticsError> {
     check_lengths(robot, lengths)?;
+    ropes::check(robot, model)?;
     if model == StaticModel::Ideal && robot.constraint().is_redundant() {
         let (cables, dof) = (robot.cables.len(), robot.platform.motion.count());
         return Err(StaticsError::CableCount { cables, dof });
@@ -80,6 +82,8 @@ pub(super) struct TrialPose {
     pub(super) cables: Vec<CableAtRest>,
     /// Displacements of the supports [m]; empty for a rigid frame.
     displacements_w: Vec<Vec3>,
+    /// Unstrained lengths [m] as ropes over sheaves have divided them; empty without such ropes.
+    divided: Vec<f64>,
     /// Wrench on the platform in its coordinates, scaled.
     pub(super) wrench: Vec6,
     pub(super) residual: f64,
@@ -123,22 +127,29 @@ impl<'a> EnergySearch<'a> {
     }
 
     pub(super) fn at(&self, pose: Pose) -> TrialPose {
+        let divided = if self.robot.has_ropes_over_sheaves() {
+            ropes::divided(self.robot, &self.loaded, self.lengths, &pose)
+        } else {
+            Vec::new()
+        };
+        let lengths = if divided.is_empty() { self.lengths } else { &divided };
         let (cables, displacements_w): (Vec<CableAtRest>, Vec<Vec3>) = if self.robot.has_supports() {
             let settled = CablesOnSupports::at(self.robot, &self.loaded, self.lengths, &pose);
             (settled.cables, settled.displacements_w)
         } else {
-            let hung = self.loaded.iter().zip(self.lengths).map(|(cable, &length)| cable.hang(&pose, length));
+            let hung = self.loaded.iter().zip(lengths).map(|(cable, &length)| cable.hang(&pose, length));
             (hung.collect(), Vec::new())
         };
         let forces = cables.iter().map(|cable| (cable.force_w(), cable.span.start_w - pose.position_w));
         let (wrench, force_scale) = balance(self.robot, &pose, forces);
         let energy = energy::of_parts(self.robot, &pose, cables.iter())
-            + supports::energy(self.robot, &cables, self.lengths, &displacements_w);
+            + supports::energy(self.robot, &cables, self.lengths, &displacements_w)
+            + ropes::energy_of_references(self.robot, &cables, lengths);
         let wrench = if self.turns { wrench } else { Vec6::from_fn(|i, _| if i < 3 { wrench[i] } else { 0.0 }) };
         let residual = scaled_residual(&self.coordinates, &wrench, force_scale);
         let limit = if force_scale > 0.0 { RESIDUAL_LIMIT.max(self.rounding / force_scale) } else { RESIDUAL_LIMIT };
         let wrench = self.coordinates.reduce(&wrench);
-        TrialPose { pose, cables, displacements_w, wrench, residual, limit, energy }
+        TrialPose { pose, cables, displacements_w, divided, wrench, residual, limit, energy }
     }
 
     /// True if the platform is in equilibrium: to [`RESIDUAL_LIMIT`]; or as well as rounding allows, if that is below
@@ -156,8 +167,9 @@ impl<'a> EnergySearch<'a> {
     /// Equilibrium at a pose that [is an equilibrium](Self::is_equilibrium).
     pub(super) fn collected(&self, trial: TrialPose, model: StaticModel, iterations: usize) -> Equilibrium {
         let nothing = self.is_unloaded(&trial);
-        let TrialPose { pose, cables, displacements_w, .. } = trial;
-        let equilibrium = without_stability(self.robot, pose, model, cables, self.lengths, iterations);
+        let TrialPose { pose, cables, displacements_w, divided, .. } = trial;
+        let lengths = if divided.is_empty() { self.lengths } else { &divided };
+        let equilibrium = without_stability(self.robot, pose, model, cables, lengths, iterations);
         let mut equilibrium =
             with_stability(self.robot, supports::displaced(self.robot, equilibrium, &displacements_w));
         if nothing {
@@ -187,6 +199,11 @@ impl<'a> EnergySearch<'a> {
                 Some((i, on_support, cable.span.start_w - trial.pose.position_w))
             });
             total -= supports::lost_stiffness(self.robot, carried);
+        }
+        if self.robot.has_ropes_over_sheaves() {
+            let ends: Vec<RunningEnd> =
+                trial.cables.iter().map(|cable| RunningEnd::of_trial(cable, &trial.pose)).collect();
+            total -= ropes::lost_stiffness(self.robot.ropes.iter().map(|rope| rope.cables.as_slice()), &ends);
         }
         let mut total = self.coordinates.reduce_symmetric(&total);
         let motion = self.coordinates.motion();
@@ -256,7 +273,9 @@ pub(super) fn descend_to_equilibrium(
     if !search.is_equilibrium(&here) {
         return Err(search.refused(&here, iterations));
     }
-    Ok(search.collected(here, model, iterations))
+    let found = search.collected(here, model, iterations);
+    ropes::check_balance(robot, &found.cables)?;
+    Ok(found)
 }
 
 /// Maximum translation per step as a fraction of the mean unstrained length, …

@@ -48,8 +48,9 @@ impl SpannedWrenches {
     /// Basis for straight cables at a pose.
     fn at(robot: &Robot, pose: &Pose) -> Self {
         let coordinates = Coordinates::of(robot);
+        let wrench = |i: usize| StraightCable::at(&robot.cables[i], pose).unit_wrench(&coordinates);
         let columns: Vec<Vec6> =
-            robot.cables.iter().map(|cable| StraightCable::at(cable, pose).unit_wrench(&coordinates)).collect();
+            robot.cables_of_ropes().into_iter().map(|rope| rope.into_iter().map(wrench).sum()).collect();
         Self::of(&columns, coordinates.count())
     }
 }
@@ -65,7 +66,7 @@ pub(super) fn has_choice(robot: &Robot, pose: &Pose, model: StaticModel) -> bool
         return false;
     }
     let SpannedWrenches { spanned, free } = SpannedWrenches::at(robot, pose);
-    if spanned.len() == robot.cables.len() {
+    if spanned.len() == robot.rope_count() {
         return false;
     }
 
@@ -104,13 +105,13 @@ pub(crate) fn independent_directions(robot: &Robot) -> usize {
         (false, true) if turns == 3 => 1,
         _ => 0,
     };
-    (dof - free).min(robot.cables.len())
+    (dof - free).min(robot.rope_count())
 }
 
 /// True if a tension rule has something to choose: there are more cables than independent directions that they can
 /// have. At single poses with dependent directions there may be a choice although this is false.
 pub fn leaves_choice(robot: &Robot) -> bool {
-    robot.cables.len() > independent_directions(robot)
+    robot.rope_count() > independent_directions(robot)
 }
 
 /// Motion along which a reduced wrench acts and that no cable opposes, at a pose; `None` if there is none.
@@ -190,9 +191,13 @@ pub struct FreeMotion {
 /// ```
 pub fn free_motions(robot: &Robot, equilibrium: &Equilibrium) -> Vec<FreeMotion> {
     let coordinates = Coordinates::of(robot);
-    let columns: Vec<Vec6> = (equilibrium.cables.iter())
-        .filter(|cable| cable.chord() > 0.0)
-        .map(|cable| coordinates.reduce_force(&cable.chord_w().normalize(), &cable.lever_w))
+    let wrench = |i: usize| {
+        let cable = &equilibrium.cables[i];
+        let direction = cable.chord_w().try_normalize(0.0)?;
+        Some(coordinates.reduce_force(&direction, &cable.lever_w))
+    };
+    let columns: Vec<Vec6> = (robot.cables_of_ropes().into_iter())
+        .filter_map(|rope| rope.into_iter().map(wrench).sum::<Option<Vec6>>())
         .collect();
     let SpannedWrenches { spanned, free } = SpannedWrenches::of(&columns, coordinates.count());
     let is_deficient = spanned.len() < columns.len().min(coordinates.count());

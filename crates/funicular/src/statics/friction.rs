@@ -33,6 +33,15 @@ pub enum FrictionError {
         /// Name of the cable.
         cable: String,
     },
+    /// A rope runs over sheaves.
+    #[error(
+        "the rope of cable \"{cable}\" runs over sheaves: the friction interval knows pulleys of cables of their own \
+         alone; leave out `shares_rope_with`"
+    )]
+    RopeOverSheaves {
+        /// Name of the first cable of the rope.
+        cable: String,
+    },
     /// Some motion meets no resistance.
     #[error("the equilibrium is indifferent: friction may move the platform without limit")]
     Singular,
@@ -170,6 +179,9 @@ pub fn friction_interval(
 ) -> Result<FrictionInterval, FrictionError> {
     if !robot.cables.iter().any(has_friction) {
         return Err(FrictionError::NoFriction);
+    }
+    if let Some(rope) = robot.ropes.first() {
+        return Err(FrictionError::RopeOverSheaves { cable: robot.cables[rope.cables[0]].name.clone() });
     }
     // Supports have changed the lengths of drum sides from the ground.
     let settled = equilibrium.settled(robot);

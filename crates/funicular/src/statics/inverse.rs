@@ -5,12 +5,13 @@ mod starts;
 
 use super::collect::without_stability;
 use super::equilibrium::{Equilibrium, RESIDUAL_LIMIT};
-use super::error::StaticsError;
+use super::error::{RopeRefusal, StaticsError};
 use super::exit_points;
 use super::ideal::{self, most_negative, straight_tensions};
 use super::loaded_cable::{LoadedCable, MAX_LENGTH_RATIO};
 use super::model::StaticModel;
 use super::residual::scaled_residual;
+use super::ropes;
 use super::tension::Obstacle;
 use crate::catenary::space::HangingCable;
 use crate::drive::CableAtRest;
@@ -24,6 +25,7 @@ use crate::robot::{Pose, Robot};
 /// # Errors
 /// [`StaticsError`], as `at_exit_points`; an attachment inside a wheel.
 pub(super) fn determinate(robot: &Robot, pose: &Pose, model: StaticModel) -> Result<Equilibrium, StaticsError> {
+    ropes::refuse(robot, RopeRefusal::Analysis)?;
     exit_points::equilibrium(robot, pose, model, |held, _| at_exit_points(held, pose, model))
 }
 

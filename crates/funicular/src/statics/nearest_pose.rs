@@ -12,12 +12,13 @@ mod bounds;
 use super::collect::with_stability;
 use super::drag::tangent_with_drag;
 use super::equilibrium::{CableState, Equilibrium};
-use super::error::StaticsError;
+use super::error::{RopeRefusal, StaticsError};
 use super::forward::forward;
 use super::ideal;
 use super::limits::TensionRange;
 use super::loaded_cable::LoadedCable;
 use super::model::StaticModel;
+use super::ropes;
 use super::supports;
 use crate::math::{DMat, Mat6, Vec6};
 use crate::platform::{Coordinates, StraightCable, load_wrench, wrench_of};
@@ -102,7 +103,7 @@ pub fn pose_distance(robot: &Robot, from: &Pose, to: &Pose) -> f64 {
 }
 
 /// Scaled motion from one pose to another, in the platform's coordinates.
-fn gap(robot: &Robot, from: &Pose, to: &Pose) -> Vec6 {
+pub(super) fn gap(robot: &Robot, from: &Pose, to: &Pose) -> Vec6 {
     let p = to.position_w - from.position_w;
     let turn = (to.rot_wp * from.rot_wp.inverse()).scaled_axis() * robot.platform_length();
     robot.platform.motion.reduced(&Vec6::new(p.x, p.y, p.z, turn.x, turn.y, turn.z))
@@ -145,6 +146,7 @@ pub fn nearest_equilibrium(
     requested: &Pose,
     model: StaticModel,
 ) -> Result<NearestEquilibrium, StaticsError> {
+    ropes::refuse(robot, RopeRefusal::Analysis)?;
     if robot.has_supports() {
         let solve = |rigid: &Robot| nearest_equilibrium(rigid, requested, model);
         let mut found = supports::on_flexible_supports(

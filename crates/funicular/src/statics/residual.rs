@@ -4,6 +4,7 @@ use super::equilibrium::{CableState, Equilibrium};
 use super::error::StaticsError;
 use super::loaded_cable::LoadedCable;
 use super::model::StaticModel;
+use super::ropes;
 use super::supports::CablesOnSupports;
 use crate::math::Vec6;
 use crate::platform::{Coordinates, balance, load_size};
@@ -22,8 +23,10 @@ pub fn wrench(robot: &Robot, pose: &Pose, lengths: &[f64], model: StaticModel) -
         let forces = settled.cables.iter().map(|cable| (cable.force_w(), cable.span.start_w - pose.position_w));
         return Ok(balance(robot, pose, forces).0);
     }
+    let loaded = LoadedCable::all(robot, pose, model);
+    let lengths = ropes::divided(robot, &loaded, lengths, pose);
     let forces = lengths.iter().enumerate().map(|(i, &length)| {
-        let cable = LoadedCable::at(robot, i, pose, model).hang(pose, length);
+        let cable = loaded[i].hang(pose, length);
         (cable.force_w(), cable.span.start_w - pose.position_w)
     });
     Ok(balance(robot, pose, forces).0)

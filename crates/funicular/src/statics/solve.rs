@@ -8,6 +8,7 @@ use super::ideal;
 use super::inverse::determinate;
 use super::model::StaticModel;
 use super::nearest_pose::{NearestEquilibrium, nearest_equilibrium};
+use super::ropes_at_pose::RopesAtPose;
 use super::tension::{TensionRule, distribute_tensions};
 use crate::robot::{Constraint, Pose, Robot, State};
 
@@ -81,6 +82,11 @@ pub fn solve_at(
     match state {
         State::Unknown => Err(StaticsError::NoState),
         State::Lengths(lengths) => Ok(found(forward(robot, lengths, model, None)?)),
+        State::Pose(pose) if robot.has_ropes_over_sheaves() => {
+            let (equilibrium, distance) = RopesAtPose { robot, pose, model, rule }.solved()?;
+            let rule = robot.constraint().is_redundant().then(|| rule.clone());
+            Ok(Solution { requested_pose: distance.map(|distance| (*pose, distance)), rule, ..found(equilibrium) })
+        }
         State::Pose(pose) => match ConstraintAtPose::of(robot, pose, model) {
             ConstraintAtPose::Under => nearest(robot, pose, model, rule),
             ConstraintAtPose::Full => Ok(found(determinate(robot, pose, model)?)),
@@ -190,6 +196,10 @@ pub fn solve_held_at(
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn inverse(robot: &Robot, pose: &Pose, model: StaticModel) -> Result<Equilibrium, StaticsError> {
+    if robot.has_ropes_over_sheaves() {
+        let rule = TensionRule::default();
+        return RopesAtPose { robot, pose, model, rule: &rule }.held();
+    }
     match ConstraintAtPose::of(robot, pose, model) {
         ConstraintAtPose::Full => determinate(robot, pose, model),
         // Refuses fewer cables than degrees of freedom.

@@ -1,7 +1,7 @@
 //! Static stiffness of the platform at an equilibrium, and stability from its eigenvalues.
 
 use super::equilibrium::{Equilibrium, Stability};
-use super::supports;
+use super::{ropes, supports};
 use crate::math::{Mat3, Mat6, Vec3, Vec6, symmetric};
 use crate::platform::{Coordinates, add_congruent, add_lever_term, add_load_terms};
 use crate::robot::{Pose, Robot};
@@ -12,11 +12,12 @@ use crate::robot::{Pose, Robot};
 /// Every load keeps its direction: in wind this is the stiffness with the drag of the equilibrium held. The stiffness
 /// with a drag that turns with the cables is [`tangent_with_drag`].
 ///
-/// Flexible supports yield. `None` for ideal cables, which have no finite stiffness. Zero for motions that the platform
-/// does not have. The antisymmetric half of a moment's stiffness is left out: such a moment has no energy.
+/// Flexible supports yield, and ropes run over sheaves without friction. `None` for ideal cables, which have no finite
+/// stiffness. Zero for motions that the platform does not have. The antisymmetric half of a moment's stiffness is left
+/// out: such a moment has no energy.
 ///
 /// # References
-/// docs/theory.md, equations (14) and (91).
+/// docs/theory.md, equations (14), (91) and (92f).
 pub fn tangent_stiffness(robot: &Robot, equilibrium: &Equilibrium) -> Option<Mat6> {
     let parts: Option<Vec<_>> = equilibrium
         .cables
@@ -30,6 +31,9 @@ pub fn tangent_stiffness(robot: &Robot, equilibrium: &Equilibrium) -> Option<Mat
             Some((i, supports::on_support(robot, i, cable, &held)?, cable.lever_w))
         });
         whole -= supports::lost_stiffness(robot, carried);
+    }
+    if robot.has_ropes_over_sheaves() {
+        whole -= ropes::lost_at_rest(robot, &equilibrium.cables)?;
     }
     Some(Coordinates::of(robot).allowed_matrix(&whole))
 }

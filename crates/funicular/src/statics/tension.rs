@@ -21,6 +21,7 @@ mod stiffest;
 
 use super::collect::without_stability;
 use super::equilibrium::Equilibrium;
+use super::error::RopeRefusal;
 use super::error::StaticsError;
 use super::exit_points;
 use super::free_motion::{has_choice, independent_directions};
@@ -28,9 +29,10 @@ use super::ideal;
 use super::limits::{LimitViolation, TensionRange};
 use super::model::StaticModel;
 pub(super) use super::obstacle::Obstacle;
+use super::ropes;
 use super::wrench_set::CableAtPose;
 use crate::drive::CableAtRest;
-use crate::platform::Coordinates;
+use crate::platform::{Coordinates, load_size};
 use crate::robot::{Cable, Pose, Robot};
 pub(super) use balanced_pull::balanced_pull;
 pub(crate) use centre::along::PlatformAlong;
@@ -118,6 +120,10 @@ pub fn distribute_tensions(
     model: StaticModel,
     rule: &TensionRule,
 ) -> Result<Equilibrium, StaticsError> {
+    ropes::check(robot, model)?;
+    if !matches!(rule, TensionRule::Lowest | TensionRule::Closest(_)) {
+        ropes::refuse(robot, RopeRefusal::Rule)?;
+    }
     if *rule == TensionRule::Centre {
         return Ok(tension_centre(robot, pose, model, None)?.equilibrium);
     }
@@ -162,8 +168,11 @@ fn at_exit_points(
     rule: &TensionRule,
     last: Option<&Equilibrium>,
 ) -> Result<Equilibrium, StaticsError> {
-    let cables = robot.cables.len();
-    let mut start = cables_at(robot, pose, model, rule)?;
+    let mut start = if robot.has_ropes_over_sheaves() {
+        ropes_at(robot, pose, model, rule)?
+    } else {
+        cables_at(robot, pose, model, rule)?
+    };
     if let (Some(last), TensionRule::Lowest | TensionRule::Closest(_)) = (last, rule) {
         start_from(&mut start, last);
     }
@@ -175,7 +184,8 @@ fn at_exit_points(
             search.nearest_to(&minima)?;
         }
         TensionRule::Closest(target) => {
-            let target: Vec<f64> = target.iter().copied().cycle().take(cables).collect();
+            let first: Vec<usize> = search.cables().iter().map(|cable| cable.index).collect();
+            let target: Vec<f64> = first.into_iter().map(|i| target[i % target.len()]).collect();
             search.nearest_to(&target)?;
         }
         TensionRule::Middle => {
@@ -197,14 +207,17 @@ fn at_exit_points(
         return Ok(ideal::collect(robot, *pose, &tensions, iterations));
     }
 
+    let mut held: Vec<&CableAtPose> = held.iter().flat_map(CableAtPose::all).collect();
+    held.sort_by_key(|cable| cable.index);
     let lengths: Vec<f64> = held.iter().map(|cable| cable.hanging.catenary.rope().unstrained_length).collect();
-    let hanging = held.into_iter().map(|cable| CableAtRest::fixed(cable.hanging)).collect();
+    let hanging = held.into_iter().map(|cable| CableAtRest::fixed(cable.hanging.clone())).collect();
     Ok(without_stability(robot, *pose, model, hanging, &lengths, iterations))
 }
 
 /// Gives cables at a pose the tensions of an equilibrium.
 pub(super) fn start_from(cables: &mut [CableAtPose], equilibrium: &Equilibrium) {
-    for (cable, state) in cables.iter_mut().zip(&equilibrium.cables) {
+    for cable in cables {
+        let state = &equilibrium.cables[cable.index];
         let tau = state.hanging.as_ref().map_or(state.tension_platform, |of| of.catenary.parallel_tension());
         cable.set(tau.max(cable.slackest));
     }
@@ -221,6 +234,7 @@ pub(super) fn cables_at(
     model: StaticModel,
     rule: &TensionRule,
 ) -> Result<Vec<CableAtPose>, StaticsError> {
+    ropes::refuse(robot, RopeRefusal::Analysis)?;
     if robot.constraint().is_under() && !has_choice(robot, pose, model) {
         let (cables, dof) = (robot.cables.len(), robot.platform.motion.count());
         return Err(StaticsError::InverseCableCount { cables, dof });
@@ -238,6 +252,38 @@ pub(super) fn cables_at(
         (0..robot.cables.len()).map(|i| CableAtPose::new(robot, i, pose, model, coordinates)).collect();
     check(robot, model, rule, &cables_at_pose)?;
     Ok(cables_at_pose)
+}
+
+/// Ropes at a pose, taut, with their limits; cables of one rope over sheaves have one tension. Without limits if there
+/// are as many ropes as degrees of freedom, whose tensions are unique.
+///
+/// # Errors
+/// As [`cables_at`].
+fn ropes_at(
+    robot: &Robot,
+    pose: &Pose,
+    model: StaticModel,
+    rule: &TensionRule,
+) -> Result<Vec<CableAtPose>, StaticsError> {
+    robot.platform.motion.check(pose)?;
+    if let Some(cable) = robot.cables.iter().find(|cable| cable.chord_w(pose).norm() == 0.0) {
+        return Err(StaticsError::CoincidingEnds { cable: cable.name.clone() });
+    }
+
+    let (coordinates, is_limited) = (Coordinates::of(robot), robot.constraint().is_redundant());
+    let at = |i: usize| CableAtPose::new(robot, i, pose, model, coordinates);
+    let groups = robot.cables_of_ropes();
+    let cables: Vec<CableAtPose> = (0..robot.cables.len()).map(at).collect();
+    if is_limited {
+        check(robot, model, rule, &cables)?;
+    }
+    let share = load_size(robot) / robot.cables.len() as f64;
+    let rope = |group: &Vec<usize>| {
+        let first = at(group[0]);
+        let tau = first.tau().max(share);
+        first.with_others(group[1..].iter().map(|i| at(*i)).collect(), is_limited, tau)
+    };
+    Ok(groups.iter().map(rope).collect())
 }
 
 /// Maximum number of cables for the rule `stiffest`, whose steps are taken in the null space of the balance: a hundred

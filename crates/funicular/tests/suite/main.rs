@@ -32,6 +32,7 @@ mod random;
 mod reduced_model;
 mod response;
 mod robot;
+mod ropes;
 mod simulation;
 mod speeds;
 mod statics;

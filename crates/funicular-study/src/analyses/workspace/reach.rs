@@ -5,6 +5,7 @@ use super::conditions::ConditionRow;
 use super::places::{self, PlaneOfMotion};
 use super::study::JudgedRobot;
 use crate::request::WorkspaceRequest;
+use crate::shared_ropes::refuse_ropes_over_sheaves;
 use anyhow::Result;
 use funicular::level_set::{RaysInBox, Sphere, first_borders};
 use funicular::math::Vec3;
@@ -48,6 +49,7 @@ impl WorkspaceReach {
     /// # Errors
     /// A request that contradicts itself or the robot.
     pub fn new(robot: Robot, request: &WorkspaceRequest) -> Result<Self> {
+        refuse_ropes_over_sheaves("workspace", &robot)?;
         places::check(request, &robot)?;
         let judged = JudgedRobot::new(robot, request)?;
         let (grid, plane) = places::grid(request, &judged.robot)?;

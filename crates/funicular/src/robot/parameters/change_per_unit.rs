@@ -50,6 +50,8 @@ const WITHOUT_DERIVATIVE: &[(&str, &[&str])] = &[
             "max_brake_power_w",
         ],
     ),
+    // Results with derivatives are those of cables of their own.
+    ("cables", &["sheave_efficiency"]),
     // Results with derivatives are those without friction.
     ("pulleys", &["friction_coefficient", "efficiency", "bearing_friction_coefficient", "bearing_radius_m"]),
 ];
@@ -559,6 +561,13 @@ mod tests {
         attachment_m = [0.1, 0.0, 0.0]
         pulley = "journal"
         entry_direction = [0.0, 0.0, 1.0]
+        [[cables]]
+        name = "3"
+        material = "other"
+        anchor_m = [1.0, 1.5, 3.0]
+        attachment_m = [0.1, 0.0, 0.0]
+        shares_rope_with = "2"
+        sheave_efficiency = 0.97
         [state]
         position_m = [0.5, 0.5, 1.0]
         roll_pitch_yaw_deg = [0.0, 10.0, 0.0]

@@ -96,6 +96,24 @@ pub(super) const KEYS: &[Key] = &[
          arc on the wheel and the drum side included",
     )
     .without(Absent::Means("no length; all cables have one, or none has")),
+    Key::other(
+        "shares_rope_with",
+        r#"shares_rope_with = "1""#,
+        KeyValue::Name,
+        "cable whose rope continues in this one over a sheave, on the platform where both are attached, or on the \
+         frame between their anchors; the sum of the `unstrained_length_m` of a rope is held, and the rope divides it",
+    )
+    .without(Absent::Means("a rope of its own")),
+    Key::numeric(
+        Shape::Number,
+        "sheave_efficiency",
+        "sheave_efficiency = 0.97",
+        "1",
+        Limits::UpTo(1.0),
+        "efficiency of that sheave: smaller over larger tension of the two cables while the rope runs; below 1 small \
+         motions leave the sheave at rest",
+    )
+    .without(Absent::Means("no friction")),
 ];
 
 /// A cable and the places of its values.
@@ -106,6 +124,12 @@ pub(super) struct CableEntry {
     pub support: Option<String>,
     /// Place of its length, valid or not.
     pub length_span: Option<Range<usize>>,
+    /// Name of the cable whose rope it continues, with its place.
+    pub shares: Option<(String, Range<usize>)>,
+    /// Efficiency of the sheave between both.
+    pub efficiency: f64,
+    /// Place of `support`.
+    pub support_span: Option<Range<usize>>,
     label: String,
     header: Range<usize>,
     anchor_span: Range<usize>,
@@ -184,6 +208,8 @@ fn read_one(
     let length = length_value.and_then(|value| reader.number_of(section, "unstrained_length_m", value));
     let load = own_load.map_or_else(|| material.as_ref().map(|m| m.load_per_length_w), |own| own.map(Vec3::from));
 
+    let (shares, efficiency) = shared_rope(reader, section);
+
     let cable = name.zip(material).zip(anchor.zip(attachment)).zip(own_limits.zip(load)).map(
         |(((name, material), (anchor, attachment)), (tension_limits, load_per_length_w))| Cable {
             load_per_length_w,
@@ -198,6 +224,9 @@ fn read_one(
     CableEntry {
         cable,
         support: support.flatten().map(|support| support.name),
+        shares,
+        efficiency,
+        support_span: section.get("support").map(toml::Spanned::span),
         label: section.label().to_owned(),
         header: section.span.clone(),
         anchor_span: section.get("anchor_m").map_or(section.span.clone(), toml::Spanned::span),
@@ -205,6 +234,21 @@ fn read_one(
         length,
         length_mistyped: section.mistyped(&["unstrained_length_m"]),
     }
+}
+
+/// Reads the name of the cable whose rope a cable continues, with its place, and the efficiency of the sheave between
+/// them.
+fn shared_rope(reader: &mut Reader, section: &Section) -> (Option<(String, Range<usize>)>, f64) {
+    let before = section.get("shares_rope_with");
+    let shares = before.and_then(|value| Some((reader.text("shares_rope_with", value)?, value.span())));
+    let given = section.get("sheave_efficiency");
+    let efficiency = given.and_then(|value| reader.fraction(section, "sheave_efficiency", value));
+    if let (None, Some(value)) = (before, given) {
+        reader
+            .issue(value.span(), "`sheave_efficiency` is that of a sheave between two cables of one rope")
+            .help("add `shares_rope_with`, or remove the line; a pulley at the anchor has its own `efficiency`");
+    }
+    (shares, efficiency.unwrap_or(1.0))
 }
 
 /// Reads the name of a cable, which none of the cables before it has; `names` are their names with their places.

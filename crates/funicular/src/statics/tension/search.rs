@@ -159,7 +159,7 @@ impl<'a> TensionSearch<'a> {
 
     pub(super) fn linearise(&self) -> Linear {
         let coordinates = Coordinates::of(self.robot);
-        let (wrench, scale) = balance(self.robot, self.pose, self.cables.iter().map(CableAtPose::force));
+        let (wrench, scale) = balance(self.robot, self.pose, self.cables.iter().flat_map(CableAtPose::forces));
         let residual = scaled_residual(&coordinates, &wrench, scale);
         let motion = &self.robot.platform.motion;
         let mut right = -coordinates.reduce(&wrench);

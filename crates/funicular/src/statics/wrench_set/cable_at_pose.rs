@@ -9,7 +9,7 @@ use crate::statics::limits::{Limit, TensionRange};
 use crate::statics::loaded_cable::LoadedCable;
 use crate::statics::model::StaticModel;
 
-/// Cable at the pose.
+/// Cable at the pose; the first one of a rope over sheaves, with the others.
 ///
 /// At a given geometry the tension τ parallel to the chord, (10a), determines the cable: the horizontal force is
 /// exactly τ cos α, the vertical force is nearly linear in τ, and above [`Catenary::MIN_TENSION_TO_WEIGHT`] every
@@ -28,6 +28,10 @@ pub(in crate::statics) struct CableAtPose {
     tau: f64,
     /// Derivative dL0/dτ [m/N].
     length_rate: f64,
+    /// Index of the cable in the robot.
+    pub index: usize,
+    /// Other cables of its rope, which hang with the same ψ(T) + q·p.
+    pub others: Vec<CableAtPose>,
 }
 
 /// Place in a cable where its tension has its minimum or maximum.
@@ -88,11 +92,100 @@ impl CableAtPose {
             tau,
             length_rate: 1.0 / hanging.catenary.parallel_tension_by_length(),
             hanging,
+            index: i,
+            others: Vec::new(),
         }
     }
 
-    /// Hangs the cable with another τ [N].
+    /// First cable of a rope over sheaves with the others, each with the limits of all; without limits if `is_limited`
+    /// is false. It hangs with the tension `tau` [N], or with the slackest one if that is higher.
+    pub(in crate::statics) fn with_others(mut self, others: Vec<Self>, is_limited: bool, tau: f64) -> Self {
+        let ranges = || std::iter::once(&self).chain(&others).map(|cable| cable.range);
+        let range = if is_limited {
+            TensionRange {
+                minimum: ranges().map(|range| range.minimum).fold(0.0, f64::max),
+                maximum: ranges().map(|range| range.maximum).fold(f64::INFINITY, f64::min),
+            }
+        } else {
+            TensionRange { minimum: 0.0, maximum: f64::INFINITY }
+        };
+        self.range = range;
+
+        // Every cable of the rope is at its slackest, or tauter.
+        for mut other in others {
+            other.range = range;
+            other.set(other.slackest.max(f64::MIN_POSITIVE));
+            let potential = other.potential(&self);
+            self.set_tension(self.tension_of(potential));
+            self.slackest = self.slackest.max(self.tau);
+            self.others.push(other);
+        }
+        self.set(tau.max(self.slackest));
+        self
+    }
+
+    /// Sum ψ(T) + q·p at the platform end, heights counted from that end of the cable `from` [N].
+    fn potential(&self, from: &Self) -> f64 {
+        let tension = self.start_tension().value;
+        let lifted = self.hanging.load_w().dot(&(self.hanging.start_w - from.hanging.start_w));
+        tension * (1.0 + 0.5 * tension / self.axial_stiffness()) + lifted
+    }
+
+    /// Tension with ψ(T) equal to this value [N]; zero if it is negative.
+    fn tension_of(&self, potential: f64) -> f64 {
+        let potential = potential.max(0.0);
+        2.0 * potential / (1.0 + (1.0 + 2.0 * potential / self.axial_stiffness()).sqrt())
+    }
+
+    /// Hangs the cable alone with this tension at the platform [N], or as slack as it may be.
+    fn set_tension(&mut self, tension: f64) {
+        let least = self.slackest.max(f64::MIN_POSITIVE);
+        let mut tau = self.tau.max(least);
+        // The tension at the end is nearly linear in τ: 2 to 4 passes. The limit is a guard.
+        for _ in 0..30 {
+            self.set_alone(tau);
+            let here = self.start_tension();
+            let next = (tau + (tension - here.value) / here.slope).max(least);
+            if (next - tau).abs() <= 2.0 * f64::EPSILON * next {
+                break;
+            }
+            tau = next;
+        }
+        self.set_alone(tau);
+    }
+
+    /// Tension at the platform end.
+    fn start_tension(&self) -> TensionByTau {
+        let [lower, upper] = self.own_ends();
+        if self.rise > 0.0 { lower } else { upper }
+    }
+
+    /// Change of the τ of another cable of the rope per change of τ.
+    fn rate_of(&self, other: &Self) -> f64 {
+        let by_tau = |cable: &Self| {
+            let tension = cable.start_tension();
+            (1.0 + tension.value / cable.axial_stiffness()) * tension.slope
+        };
+        by_tau(self) / by_tau(other)
+    }
+
+    /// Cables of its rope, the others after it.
+    pub(in crate::statics) fn all(&self) -> impl Iterator<Item = &Self> {
+        std::iter::once(self).chain(&self.others)
+    }
+
+    /// Hangs the cable, and with it the others of its rope, with another τ [N].
     pub(in crate::statics) fn set(&mut self, tau: f64) {
+        self.set_alone(tau);
+        let mut others = std::mem::take(&mut self.others);
+        for other in &mut others {
+            let lifted = other.hanging.load_w().dot(&(other.hanging.start_w - self.hanging.start_w));
+            other.set_tension(other.tension_of(self.potential(self) - lifted));
+        }
+        self.others = others;
+    }
+
+    fn set_alone(&mut self, tau: f64) {
         let rope = self.hanging.catenary.rope();
         self.hanging.catenary = Catenary::with_parallel_tension(self.span, self.rise, rope, tau);
         self.length_rate = 1.0 / self.hanging.catenary.parallel_tension_by_length();
@@ -183,19 +276,35 @@ impl CableAtPose {
         self.rise / self.hanging.chord_w().norm()
     }
 
+    /// Forces of all cables of its rope on the platform with their lever arms, world axes.
+    pub(in crate::statics) fn forces(&self) -> impl Iterator<Item = (Vec3, Vec3)> {
+        self.all().map(Self::force)
+    }
+
     /// Force on the platform and lever arm, world axes.
     pub(in crate::statics) fn force(&self) -> (Vec3, Vec3) {
         (self.hanging.force_on_start_w(), self.lever_w)
     }
 
-    /// Derivative of the cable's wrench with respect to τ; moments over ℓ.
+    /// Derivative of the wrench of its rope with respect to τ; moments over ℓ.
     pub(in crate::statics) fn column(&self) -> Vec6 {
+        self.others.iter().fold(self.own_column(), |sum, other| sum + other.own_column() * self.rate_of(other))
+    }
+
+    fn own_column(&self) -> Vec6 {
         wrench_of(&(self.hanging.force_by_length_w() * self.length_rate), &(self.lever_w / self.coordinates.ell()))
     }
 
-    /// Minimum tension anywhere in the cable.
+    /// Minimum tension anywhere in its rope.
     pub(in crate::statics) fn min_tension(&self) -> TensionByTau {
-        let [lower, _] = self.ends();
+        self.others.iter().fold(self.own_min_tension(), |least, other| {
+            let TensionByTau { value, slope } = other.own_min_tension();
+            if value < least.value { TensionByTau { value, slope: slope * self.rate_of(other) } } else { least }
+        })
+    }
+
+    fn own_min_tension(&self) -> TensionByTau {
+        let [lower, _] = self.own_ends();
         let cos = self.span / self.hanging.chord_w().norm();
         if self.lowest_between_ends() {
             TensionByTau { value: self.hanging.catenary.horizontal_force(), slope: cos }
@@ -204,13 +313,16 @@ impl CableAtPose {
         }
     }
 
-    /// Maximum tension anywhere in the cable.
+    /// Maximum tension anywhere in its rope.
     pub(in crate::statics) fn max_tension(&self) -> TensionByTau {
-        self.ends()[1]
+        self.others.iter().fold(self.own_ends()[1], |most, other| {
+            let TensionByTau { value, slope } = other.own_ends()[1];
+            if value > most.value { TensionByTau { value, slope: slope * self.rate_of(other) } } else { most }
+        })
     }
 
     /// Tensions at the lower and at the upper end.
-    fn ends(&self) -> [TensionByTau; 2] {
+    fn own_ends(&self) -> [TensionByTau; 2] {
         let catenary = &self.hanging.catenary;
         if self.rope().weight_per_length == 0.0 {
             return [TensionByTau { value: self.tau, slope: 1.0 }; 2];

@@ -122,7 +122,7 @@ fn single_cable(robot: &Robot) -> Option<Implausible> {
 fn one_anchor(robot: &Robot, size: &Size) -> Option<Implausible> {
     let [first, _, ..] = &robot.cables[..] else { return None };
     let at = first.anchor.reference_w();
-    (size.anchors <= COINCIDE * at.norm()).then(|| Implausible::Odd {
+    (robot.rope_count() > 1 && size.anchors <= COINCIDE * at.norm()).then(|| Implausible::Odd {
         what: format!("all cables have one anchor, ({}, {}, {}) m", number(at.x), number(at.y), number(at.z)),
         slip:
             "a copied `anchor_m`? Slings from one hook have one, and the platform turns about the vertical through it \

@@ -49,6 +49,11 @@ impl TensionSearch<'_> {
             optimum = hung;
         }
 
+        // The proofs are those of cables of their own.
+        if self.robot.has_ropes_over_sheaves() {
+            return Err(StaticsError::NotFoundWithinLimits { miss: self.miss(&optimum), starts: 1 });
+        }
+
         // The direction of the limits' multipliers is nearly always a proof.
         let reaches: Vec<ReachableTensions> =
             self.cables.iter().zip(&minima).map(|(cable, tau)| ReachableTensions::of(cable, *tau)).collect();
@@ -122,7 +127,7 @@ impl TensionSearch<'_> {
         let limits = self.limits_in_the_way(optimum);
         let names = |limit: Limit| {
             let of = limits.iter().filter(|(_, which)| *which == limit);
-            of.map(|(i, _)| self.robot.cables[*i].name.clone()).collect()
+            of.map(|(i, _)| self.robot.cables[self.cables[*i].index].name.clone()).collect()
         };
         LimitViolation {
             by: -optimum.distance,
