@@ -44,7 +44,9 @@ fn check(code: &str, known: &HashSet<String>) {
         let is_file = i > 0 && matches!(words[i - 1], "-o" | "--scenario" | "--quantity");
         match word.strip_prefix("--") {
             Some(option) => match &help {
-                Some(help) => assert!(help.contains(&format!("--{option} ")) || help.contains(&format!("--{option}\n"))),
+                Some(help) => {
+                    assert!(help.contains(&format!("--{option} ")) || help.contains(&format!("--{option}\n")))
+                }
                 None => {
                     let key = option.replace('-', "_");
                     let mut all = request::commands().iter().flat_map(|command| &command.keys);
