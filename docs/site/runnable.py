@@ -68,6 +68,7 @@ def write(target: Path, site: Path) -> bool:
     packed = base64.b64encode(gzip.compress(module.read_bytes(), mtime=0)).decode()
     data = {"wasm": packed, "files": texts, "code": code}
     (folder / "program_data.js").write_text(f"const PROGRAM_DATA = {json.dumps(data)};\n", encoding="utf-8")
+    shutil.copy(target / "web/LICENSE-PROGRAM.txt", folder / "LICENSE-THIRD-PARTY.txt")
     known = {"files": sorted(texts), "writes": writing(), "endings": NOT_HERE, "commands": NO_COMMANDS}
     about = f"const RUNNABLE = {json.dumps(known)};\n"
     script = (HERE / "static/run.js").read_text(encoding="utf-8")

@@ -17,7 +17,7 @@ import pytest
 import ros_stub
 from conftest import ROOT
 
-PAGES = ["quick-start", "workspace", "measuring", "matlab", "python", "export", "gradients", "simulation", "stepping", "tutorials/controller", "tutorials/closed-loop", "tutorials/predictive"]
+PAGES = ["quick-start", "jupyter", "workspace", "measuring", "matlab", "python", "export", "gradients", "simulation", "stepping", "tutorials/controller", "tutorials/closed-loop", "tutorials/predictive"]
 
 
 @pytest.mark.parametrize("page", PAGES)

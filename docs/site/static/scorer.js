@@ -21,6 +21,7 @@ var Scorer = (() => {
   const IN_HEADING = 2; // a word in a heading counts as often in the text
   const MIN_MEANING = 0.5; // part of a question that a page has to have
   const OTHER_WORD = 0.7; // a word of the same meaning counts less than the word itself
+  const FILLERS = new Set("can could get happen happens make must my need one use want".split(" ")); // beside stop words
   const BEFORE = 90; // characters of an excerpt before the words
   const EXCERPT = 240;
 
@@ -92,7 +93,10 @@ var Scorer = (() => {
     const all = typeof SEARCH_TEXTS === "undefined" ? [] : Object.keys(SEARCH_TEXTS).flatMap(sectionsOf);
     const told = query()
       .split(/\s+/)
-      .filter((word) => !stopwords.has(word.toLowerCase().replace(/[^\p{L}]/gu, "")));
+      .filter((word) => {
+        const bare = word.toLowerCase().replace(/[^\p{L}]/gu, "");
+        return !stopwords.has(bare) && !FILLERS.has(bare);
+      });
     asked = [...new Set(stemmed(told.join(" ")))].map((stem) => {
       const stems = meanings(stem);
       const count = all.filter((one) =>

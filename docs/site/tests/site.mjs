@@ -17,6 +17,7 @@ const repository = resolve(import.meta.dirname, "../../..");
 const pictures = resolve(site, "../site-screenshots");
 const PATIENCE_MS = 60_000;
 const DESKTOP = { width: 1280, height: 900 };
+const A4_PIXELS = 672; // 178 mm between the margins
 const PHONE = { width: 390, height: 844 };
 
 let browser;
@@ -106,9 +107,9 @@ const QUESTIONS = {
   "how do I install it on a mac": /^install/,
   "google colab": /^jupyter/,
   bibtex: /^cite/,
-  "cable lengths for a path CSV": /trajectory|simulation|export|commands/,
+  "cable lengths for a path CSV": /trajectory|trajectories|export/,
   "how exact is the tension in simulate": /^simulation|^validation/,
-  "what is the heaviest load my robot can carry": /^workspace|payload|loads/,
+  "what is the heaviest load my robot can carry": /^workspace|payload|what-can-it-carry/,
   "what happens if a cable breaks": /^simulation|simulate/,
   "can I use it in gazebo": /^export|^import/,
   "run on slurm": /^tutorials\/cluster|^sweeps/,
@@ -221,6 +222,36 @@ test("pages fit a phone, in light and dark", async () => {
     }
     const page = await opened("index.html", { colorScheme });
     await page.screenshot({ path: join(pictures, `index-desktop-${colorScheme}.png`) });
+    await closed(page);
+  }
+});
+
+test("pages print to A4 without what only a screen has, and nothing is cut off", async () => {
+  const names = ["quick-start.html", "tutorials/drawing.html", "theory/7-natural-frequencies.html", "robot-file.html"];
+  for (const name of [...names, "reference/commands/modes.html", "coming-from.html", "validation/index.html"]) {
+    const page = await opened(name);
+    await page.emulateMedia({ media: "print" });
+    await page.setViewportSize({ width: A4_PIXELS, height: 960 });
+    await page.evaluate(() => document.fonts.ready);
+    const seen = await page.evaluate(() => {
+      const shown = (one) => one.getClientRects().length > 0;
+      const screen = ".sidebar-drawer, .toc-drawer, .mobile-header, .back-to-top, .run-open, .run-not, .copybtn";
+      const article = document.querySelector("article");
+      const right = document.documentElement.clientWidth;
+      const wide = [...article.querySelectorAll("pre, table, img, p, .equation .katex-html")];
+      return {
+        left: [...document.querySelectorAll(screen)].filter(shown).map((one) => one.className),
+        cut: wide
+          .filter((one) => shown(one) && one.getBoundingClientRect().right > right + 1)
+          .map((one) => one.outerHTML),
+        hidden: [...article.querySelectorAll("pre")].filter((one) => one.scrollWidth > one.clientWidth + 1).length,
+      };
+    });
+    seen.cut = seen.cut.map((text) => text.slice(0, 200));
+    assert.deepEqual(seen, { left: [], cut: [], hidden: 0 }, name);
+    const pdf = await page.pdf({ preferCSSPageSize: true });
+    const [, width, height] = /MediaBox \[0 0 ([\d.]+) ([\d.]+)\]/.exec(pdf.toString("latin1")).map(Number);
+    assert.ok(Math.abs(width - 595) < 2 && Math.abs(height - 842) < 2, `${name}: ${width} × ${height} points`);
     await closed(page);
   }
 });
@@ -373,8 +404,8 @@ test(
     for (const name of wanted.filter((one) => !process.env.FUNICULAR_PAGES || one.match(process.env.FUNICULAR_PAGES))) {
       const page = await opened(name);
       page.setDefaultTimeout(5 * PATIENCE_MS);
-    // Answers of exercises are folded.
-    await page.evaluate(() => document.querySelectorAll("details").forEach((one) => (one.open = true)));
+      // Answers of exercises are folded.
+      await page.evaluate(() => document.querySelectorAll("details").forEach((one) => (one.open = true)));
       while ((await page.locator(".run-open").count()) > 0) {
         const button = page.locator(".run-open").first();
         const block = await button.evaluateHandle((one) => one.previousElementSibling);

@@ -32,6 +32,11 @@ fn known() -> HashSet<String> {
     schemas.chain(columns).chain(commands).collect()
 }
 
+/// True for a key of a request of any command.
+fn is_key(name: &str) -> bool {
+    request::commands().iter().flat_map(|command| &command.keys).any(|key| key.name == name)
+}
+
 /// Checks a piece of code of a table.
 fn check(code: &str, known: &HashSet<String>) {
     let words: Vec<&str> = code.split_whitespace().filter(|word| !matches!(*word, "funicular" | "=")).collect();
@@ -40,18 +45,18 @@ fn check(code: &str, known: &HashSet<String>) {
     for (i, word) in words.iter().enumerate() {
         let bare = word.trim_matches(|c: char| "[]\",".contains(c));
         let bare = bare.split('.').next().unwrap_or(bare);
-        let is_placeholder = bare.chars().all(|c| c.is_uppercase()) || word.contains("x,y,z");
+        let is_placeholder = bare.chars().all(char::is_uppercase) || word.contains("x,y,z");
         let is_file = i > 0 && matches!(words[i - 1], "-o" | "--scenario" | "--quantity");
         match word.strip_prefix("--") {
-            Some(option) => match &help {
-                Some(help) => assert!(help.contains(&format!("--{option} ")) || help.contains(&format!("--{option}\n"))),
-                None => {
-                    let key = option.replace('-', "_");
-                    let mut all = request::commands().iter().flat_map(|command| &command.keys);
-                    let is_file = ["--cable-set", "--to"].contains(word);
-                    assert!(is_file || all.any(|of| of.name == key), "`{code}`: there is no option {word}");
-                }
-            },
+            Some(option) => {
+                let is_there = match &help {
+                    Some(help) => help.contains(&format!("--{option} ")) || help.contains(&format!("--{option}\n")),
+                    // Options that name files are no keys of requests.
+                    None if ["cable-set", "to"].contains(&option) => true,
+                    None => is_key(&option.replace('-', "_")),
+                };
+                assert!(is_there, "`{code}`: there is no option {word}");
+            }
             None if i > 0 && words[i - 1] == "--quantity" => {
                 let done = run(&["map", "ROBOT", "--grid", "z=0.5", "--quantity", word]);
                 assert_eq!(done.status.code(), Some(0), "`{code}`: there is no quantity {word}");

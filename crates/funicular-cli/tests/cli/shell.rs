@@ -37,7 +37,8 @@ fn the_manual_has_a_page_of_the_program_and_one_of_each_command() {
 fn the_script_of_an_installation_writes_completions_and_a_page_for_every_command() {
     let folder = tempfile::tempdir().unwrap();
     let script = project("scripts/shell-files");
-    let done = Command::new("bash").args([&script, env!("CARGO_BIN_EXE_funicular")]).arg(folder.path()).output().unwrap();
+    let done =
+        Command::new("bash").args([&script, env!("CARGO_BIN_EXE_funicular")]).arg(folder.path()).output().unwrap();
     assert!(done.status.success(), "{}", String::from_utf8_lossy(&done.stderr));
 
     let read = |name: &str| std::fs::read_to_string(folder.path().join(name)).unwrap();
