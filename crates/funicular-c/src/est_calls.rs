@@ -38,7 +38,9 @@ const BEGUN: UpdateNotes = UpdateNotes { alarm: None, gated: 0, is_trusted: true
 
 fn status_of(error: &EstimationError) -> i32 {
     match error {
-        EstimationError::TooManyCables { .. } | EstimationError::Supports { .. } => NOT_FOR_LOOP,
+        EstimationError::TooManyCables { .. }
+        | EstimationError::Supports { .. }
+        | EstimationError::RopeOverSheaves { .. } => NOT_FOR_LOOP,
         EstimationError::NoStart(_) | EstimationError::NoBalance => NO_REST,
         EstimationError::NoLength { .. } | EstimationError::BadStep { .. } => REFUSED,
         EstimationError::EncodersLost { .. } | EstimationError::Diverged => LOST,
