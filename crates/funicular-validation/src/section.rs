@@ -112,7 +112,7 @@ pub(super) fn with_scaled(text: &str, key: &str, factor: f64, lines: usize) -> S
         match value {
             Some(value) if left > 0 => {
                 left -= 1;
-                let numbers = value.split_inclusive([',', '[', ']']).map(|part| {
+                let numbers = value.trim_start().split_inclusive([',', '[', ']']).map(|part| {
                     let number = part.trim_end_matches([',', '[', ']']);
                     let end = &part[number.len()..];
                     match number.trim().parse::<f64>() {
@@ -137,7 +137,7 @@ mod tests {
     #[test]
     fn numbers_of_one_key_are_scaled() {
         let text = "a = 1.0\n[b]\na_b = [1.0, -2.0]\na_b = [[3.0], [4.0]]\n";
-        let all = "a = 1.0\n[b]\na_b = [2.0,-4.0]\na_b = [[6.0],[8.0]]\n";
+        let all = "a = 1.0\n[b]\na_b = [2.0,-4.0]\na_b = [[6.0], [8.0]]\n";
         assert_eq!(with_scaled(text, "a_b", 2.0, usize::MAX), all);
         assert_eq!(with_scaled(text, "a", 2.0, usize::MAX), text.replace("a = 1.0", "a = 2.0"));
         assert_eq!(with_scaled(text, "a_b", 2.0, 1), text.replace("[1.0, -2.0]", "[2.0,-4.0]"));
