@@ -11,8 +11,8 @@ use made::{Drawn, plain};
 pub(crate) use made::{Made, size_of_page};
 pub use opened::{Opened, Written, told};
 use rows::{
-    certificate, certificate_of, drawn, figure, file, lengths, page, proved_of, proved_surface, robot_file, surface_of,
-    universal_file,
+    BADGE, JUNIT, certificate, certificate_of, drawn, figure, file, lengths, page, proved_of, proved_surface,
+    robot_file, surface_of, universal_file,
 };
 pub use wanted::{FILES, Wanted, schema, take_wanted, wanted_to_value};
 
@@ -130,14 +130,6 @@ macro_rules! of {
             _ => bail!("`{}` has no such file", $at.request.command()),
         }
     };
-}
-
-/// File of the results of `validate`.
-fn of_validated(at: &Answered<'_>, make: fn(&Validated) -> String) -> Result<Made> {
-    match at.validated {
-        Some(found) => Ok(make(found).into_bytes().into()),
-        None => bail!("`{}` has no such file", at.request.command()),
-    }
 }
 
 /// Request of one command, from that of any.
@@ -494,31 +486,7 @@ static OUTPUTS: &[(&str, &[Output])] = &[
             certificate(|at, _| of!(Prove, at, found => certificate_of(Some(&**found)))),
         ],
     ),
-    (
-        "validate",
-        &[
-            Output {
-                by_ending: true,
-                ..file(
-                    "junit",
-                    "Write a report for build servers in the format of JUnit, one test per comparison",
-                    ["the report", "a report of tests"],
-                    &[Kind::Xml],
-                    Make::Bytes(|at, _| of_validated(at, funicular_validation::junit)),
-                )
-            },
-            Output {
-                by_ending: true,
-                ..file(
-                    "badge",
-                    "Write a badge that says how many comparisons pass",
-                    ["the badge", "a badge"],
-                    &[Kind::Svg],
-                    Make::Bytes(|at, _| of_validated(at, funicular_validation::badge)),
-                )
-            },
-        ],
-    ),
+    ("validate", &[JUNIT, BADGE]),
     (
         "plot",
         &[drawn("Draw one quantity for a paper", |at, options, _| {

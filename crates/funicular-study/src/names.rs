@@ -588,7 +588,7 @@ named! {
     /// Kinds of reference numbers, by what stands behind them.
     enum ValidationLevel, "level" {
         Exact "exact", "Closed form or equation, solved to many more digits than are compared";
-        Program "program", "Another program, which shares no code with this one";
+        Program "program", "Another program, which shares no code with this one, or sampled robots";
         Published "published", "Number printed in a publication or in the manual of another program";
         Measured "measured", "Measurement";
     }

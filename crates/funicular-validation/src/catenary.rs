@@ -2,7 +2,7 @@
 
 use super::reference::{HungBetween, IsolatedCable, Published};
 use super::section::WRONG;
-use super::{Bound, Case, Comparison, Control, Declared, DifferenceKind, Level, over, reference, slug, worst};
+use super::{Bound, Case, Comparison, Declared, DifferenceKind, Level, NegativeControl, over, reference, slug, worst};
 use anyhow::Result;
 use funicular::catenary::{Catenary, CatenaryError, Rope};
 
@@ -13,7 +13,7 @@ pub(super) const SECTION: Declared = Declared {
            remains.",
     rows: || rows(&reference::published()?),
     controls: &[
-        Control {
+        NegativeControl {
             id: "ea",
             wrong: "axial stiffness EA of every cable 1 % too large",
             proves: "the stretch of the catenary",
@@ -25,7 +25,7 @@ pub(super) const SECTION: Declared = Declared {
                 rows(&published)
             },
         },
-        Control {
+        NegativeControl {
             id: "weight",
             wrong: "weight per length of every cable 1 % too large, as by a wrong g",
             proves: "the weight of the catenary",
@@ -37,7 +37,7 @@ pub(super) const SECTION: Declared = Declared {
                 rows(&published)
             },
         },
-        Control {
+        NegativeControl {
             id: "load",
             wrong: "load at the node between two cables 1 % too large",
             proves: "the balance of two cables",

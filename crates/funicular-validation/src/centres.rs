@@ -3,8 +3,8 @@
 use super::reference::{CentreRow, LengthsAtCentre, ReferenceTable, library_text};
 use super::section::WRONG;
 use super::{
-    Bound, Case, ComparedQuantity, Comparison, Control, Declared, DifferenceKind, Level, largest, largest_difference,
-    over, reference,
+    Bound, Case, ComparedQuantity, Comparison, Declared, DifferenceKind, Level, NegativeControl, largest,
+    largest_difference, over, reference,
 };
 use anyhow::{Context, Result};
 use funicular::gradient::Gradients;
@@ -39,7 +39,7 @@ pub(super) const SECTION: Declared = Declared {
            cables, over fixed anchors and over pulleys; random poses, some near the border, some with a load.",
     rows: || Ok([rows(&reference::centres()?)?, lengths(&reference::centre_lengths()?, 1.0)?].concat()),
     controls: &[
-        Control {
+        NegativeControl {
             id: "minimum",
             wrong: "minimum tension 1 % too large",
             proves: "the limits of the tensions",
@@ -53,7 +53,7 @@ pub(super) const SECTION: Declared = Declared {
                 rows(&reference)
             },
         },
-        Control {
+        NegativeControl {
             id: "maximum",
             wrong: "maximum tension 1 % too large",
             proves: "the limits of the tensions",
@@ -67,7 +67,7 @@ pub(super) const SECTION: Declared = Declared {
                 rows(&reference)
             },
         },
-        Control {
+        NegativeControl {
             id: "mass",
             wrong: "mass of the platform 1 % too large",
             proves: "the weight of the platform in the lengths of the centre",

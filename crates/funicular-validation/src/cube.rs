@@ -2,7 +2,7 @@
 
 use super::reference::{Cube, CubeRow, Published, library};
 use super::section::WRONG;
-use super::{Bound, Case, Comparison, Control, Declared, Level, reference, slug};
+use super::{Bound, Case, Comparison, Declared, Level, NegativeControl, reference, slug};
 use anyhow::Result;
 use funicular::cable::CableModel;
 use funicular::catenary::Rope;
@@ -20,46 +20,40 @@ pub(super) const SECTION: Declared = Declared {
     note: "Eight straight cables and 30 kg in the middle of a cube of 2.5 m, every frequency with its \
            multiplicity. The reference includes axial waves, which the model shallow-dynamic leaves out: the \
            frequency of a mode that stretches the cables is too high by up to (ω l √(m/EA))²/6.",
-    rows: || rows(&reference::published()?),
+    rows: || rows(&reference::published()?, [1.0; 2]),
     controls: &[
-        Control {
+        NegativeControl {
             id: "mass",
             wrong: "mass per length of the ropes 1 % too large",
             proves: "the mass of a vibrating string",
-            rows: || {
-                let mut published = reference::published()?;
-                published.cube_point_mass.mass_kg_per_m *= WRONG;
-                rows(&published)
-            },
+            rows: || rows(&reference::published()?, [WRONG, 1.0]),
         },
-        Control {
+        NegativeControl {
             id: "ea",
             wrong: "axial stiffness EA of the ropes 1 % too large",
             proves: "the stretch of the strings, and with it their tension",
-            rows: || {
-                let mut published = reference::published()?;
-                published.cube_point_mass.axial_stiffness_n *= WRONG;
-                rows(&published)
-            },
+            rows: || rows(&reference::published()?, [1.0, WRONG]),
         },
     ],
 };
 
-fn rows(published: &Published) -> Result<Vec<Comparison>> {
+/// Comparisons with the mass and the stiffness of the ropes multiplied by factors.
+fn rows(published: &Published, factors: [f64; 2]) -> Result<Vec<Comparison>> {
     let cube = &published.cube_point_mass;
     let mut rows = Vec::new();
     for model in &cube.rows {
-        rows.extend(frequencies(cube, model)?);
+        rows.extend(frequencies(cube, model, factors)?);
     }
     Ok(rows)
 }
 
 /// Linearisation at the middle of the cube, without sag, with the tensions that follow from the lengths.
-fn held(cube: &Cube, model: &CubeRow) -> Result<Dynamics> {
+fn held(cube: &Cube, model: &CubeRow, [mass, stiffness]: [f64; 2]) -> Result<Dynamics> {
     let (mut robot, _) = library("sap2000-8-cable-point-mass")?;
     robot.gravity_w = Vec3::zeros();
     for rope in robot.cables.iter_mut().map(|cable| &mut cable.material) {
-        (rope.mass_per_length, rope.axial_stiffness) = (cube.mass_kg_per_m, cube.axial_stiffness_n);
+        rope.mass_per_length *= mass;
+        rope.axial_stiffness *= stiffness;
     }
     let pose = Pose::new(cube.position_m, [0.0; 3]);
     let mut cables = Vec::new();
@@ -96,8 +90,8 @@ fn held(cube: &Cube, model: &CubeRow) -> Result<Dynamics> {
     Ok(Dynamics::about(&robot, &rest, linearisation, cube.limit_hz)?)
 }
 
-fn frequencies(cube: &Cube, model: &CubeRow) -> Result<Vec<Comparison>> {
-    let dynamics = held(cube, model)?;
+fn frequencies(cube: &Cube, model: &CubeRow, factors: [f64; 2]) -> Result<Vec<Comparison>> {
+    let dynamics = held(cube, model, factors)?;
     let found = modes::below(&dynamics, cube.limit_hz);
     let id = slug(&model.model);
     let case = |id: &str, name: &str| Case::new(Level::Program, &cube.source, id, name);

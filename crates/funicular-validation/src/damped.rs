@@ -2,7 +2,9 @@
 
 use super::reference::{Damped, DampedRobot, IndependentReference, PointRobot, ReferencePoint, RopeDamping, robot};
 use super::section::WRONG;
-use super::{Bound, Case, Comparison, Control, Declared, DifferenceKind, Level, reference, shapes, slug, worst};
+use super::{
+    Bound, Case, Comparison, Declared, DifferenceKind, Level, NegativeControl, reference, shapes, slug, worst,
+};
 use anyhow::{Context, Result};
 use funicular::dynamics::{Dynamics, Linearisation};
 use funicular::math::Vec3;
@@ -22,7 +24,7 @@ pub(super) const SECTION: Declared = Declared {
            values of a list are compared; the table shows the last one.",
     rows: || rows(&reference::damped()?, &reference::independent()?),
     controls: &[
-        Control {
+        NegativeControl {
             id: "ratio",
             wrong: "damping of every rope 1 % too large",
             proves: "the loss in the cables, in the complex frequencies",
@@ -39,7 +41,7 @@ pub(super) const SECTION: Declared = Declared {
                 rows(&damped, &reference::independent()?)
             },
         },
-        Control {
+        NegativeControl {
             id: "place",
             wrong: "points on the cables 1 % further from the platform",
             proves: "the place of points on sagging cables",
@@ -53,7 +55,7 @@ pub(super) const SECTION: Declared = Declared {
                 rows(&damped, &reference::independent()?)
             },
         },
-        Control {
+        NegativeControl {
             id: "shapes",
             wrong: "places of the shapes 1 % further from the platform",
             proves: "the shapes of the cables in the modes",

@@ -2,7 +2,7 @@
 
 use super::reference::{DistanceReference, MeasuredPairs, PairsAtPose, library_text};
 use super::section::WRONG;
-use super::{Bound, Case, Comparison, Control, Declared, DifferenceKind, Level, reference, slug};
+use super::{Bound, Case, Comparison, Declared, DifferenceKind, Level, NegativeControl, reference, slug};
 use anyhow::{Result, bail};
 use funicular::clearance::{ClearancePair, Surroundings};
 use funicular::robot::{Pose, RequiredClearance, Robot, State, TensionLimits};
@@ -20,7 +20,7 @@ pub(super) const SECTION: Declared = Declared {
     note: "Least distance of the centre lines of every pair of cables at random poses, with tensions by the rule \
            `lowest`. The other program halves arcs until bounds from their chords meet.",
     rows: || rows(&reference::distances()?),
-    controls: &[Control {
+    controls: &[NegativeControl {
         id: "pose",
         wrong: "positions 1 % too far from the origin",
         proves: "the place of the cables",

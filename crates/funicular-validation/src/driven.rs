@@ -1,7 +1,8 @@
 //! Vibration of cables and robots whose drives have inertia and control.
 
 use super::reference::{CableToWinch, DriveParts, DrivenCable, DrivenRobot, Drives, ServoDamped};
-use super::{Bound, Case, Comparison, Level, drives, slug};
+use super::section::WRONG;
+use super::{Bound, Case, Comparison, Declared, Level, NegativeControl, drives, reference, slug};
 use anyhow::{Result, anyhow};
 use funicular::cable::catenary_dynamic::DriveSignal;
 use funicular::cable::{CableModel, EndStiffness};
@@ -12,6 +13,80 @@ use funicular::response::{self, FrameInput, Port, Quantity, Signal};
 use funicular::robot::{Cable, Control, Damping, DrumSide, Robot, Servo, State, WinchMode};
 use funicular::statics::{self, CableState, Equilibrium, StaticModel};
 use std::f64::consts::TAU;
+
+pub(super) const SECTION: Declared = Declared {
+    id: "drives",
+    title: "Pulleys and winches",
+    note: "Straight cables over swivelling pulleys against the closed forms of other programs; sagging elastic \
+           cables over pulleys, whose weight begins at the entry point; cables to winches that yield; robots with \
+           pulleys and winches. The stiffness with a tilted swivel axis is exact to the square of the kink, \
+           theory (69). Friction of pulleys: equilibria after given last motions of the cables, solved without \
+           linearisation, and the first-order half widths of theory (74).",
+    rows: || {
+        let of = reference::drives()?;
+        Ok([drives::rows(&of)?, comparisons(&of)?].concat())
+    },
+    controls: &[
+        NegativeControl {
+            id: "radius",
+            wrong: "radius of every pulley 1 % too large",
+            proves: "the arc on the pulley",
+            rows: || {
+                drives::of_changed(|of| {
+                    of.straight.rows.iter_mut().for_each(|row| row.radius_m *= WRONG);
+                    of.sagging.rows.iter_mut().for_each(|row| row.radius_m *= WRONG);
+                    of.cables.rows.iter_mut().for_each(|row| row.radius_m *= WRONG);
+                })
+            },
+        },
+        NegativeControl {
+            id: "drum-side",
+            wrong: "length of the rope between pulley and drum 1 % too large",
+            proves: "the stretch of the drum side",
+            rows: || drives::of_changed(|of| of.cables.rows.iter_mut().for_each(|row| row.drum_side_length_m *= WRONG)),
+        },
+        NegativeControl {
+            id: "winch-stiffness",
+            wrong: "stiffness of every winch 1 % too small",
+            proves: "the yielding of the winch",
+            rows: || {
+                drives::of_changed(|of| {
+                    let all = of.cables.rows.iter_mut().filter_map(|row| row.winch_stiffness_n_per_m.as_mut());
+                    all.for_each(|stiffness| *stiffness /= WRONG);
+                })
+            },
+        },
+        NegativeControl {
+            id: "friction",
+            wrong: "coefficient of friction of the pulleys 1 % too large",
+            proves: "the change of the tension over a pulley",
+            rows: || {
+                let mut of = reference::drives()?;
+                drives::only_friction(&mut of);
+                of.friction_corners.rows.iter_mut().for_each(|row| row.friction_coefficient *= WRONG);
+                drives::rows(&of)
+            },
+        },
+        NegativeControl {
+            id: "motor",
+            wrong: "mass of every motor at the cable 1 % too large",
+            proves: "the inertia of the drive",
+            rows: || of_vibration(|parts| parts.motor_mass_kg *= WRONG),
+        },
+        NegativeControl {
+            id: "wheel",
+            wrong: "inertia of every wheel 1 % too large",
+            proves: "the inertia of the pulleys",
+            rows: || of_vibration(|parts| parts.wheel_inertia_kg_m2 *= WRONG),
+        },
+        NegativeControl {
+            id: "gain",
+            wrong: "position gain of every servo 1 % too large",
+            proves: "the control of the motors",
+            rows: || of_vibration(|parts| parts.position_gain_n_per_m *= WRONG),
+        },
+    ],
+};
 
 /// Frequency beyond the last listed one, relative: the list ends between two of them.
 const BEYOND: f64 = 1e-6;
@@ -29,7 +104,7 @@ const AT_CONSTANT_TORQUE: f64 = 1e-8;
 /// else.
 const AT_MOVING_ANCHOR: f64 = 1.5e-7;
 
-pub(super) fn comparisons(of: &Drives) -> Result<Vec<Comparison>> {
+fn comparisons(of: &Drives) -> Result<Vec<Comparison>> {
     let mut rows = Vec::new();
     for row in &of.moving_cables.rows {
         let at_rest = of.cables.rows.iter().find(|cable| cable.case == row.case);
@@ -42,6 +117,14 @@ pub(super) fn comparisons(of: &Drives) -> Result<Vec<Comparison>> {
         rows.extend(driven(row, robot, &of.vibration.source)?);
     }
     Ok(rows)
+}
+
+/// Comparisons of the vibration of cables with a change of their drives.
+fn of_vibration(change: fn(&mut DriveParts)) -> Result<Vec<Comparison>> {
+    let mut of = reference::drives()?;
+    of.vibration.rows.clear();
+    of.moving_cables.rows.iter_mut().for_each(|row| change(&mut row.parts));
+    comparisons(&of)
 }
 
 /// Control of a motor, integral action included.
@@ -90,22 +173,14 @@ fn driven(row: &DrivenRobot, mut robot: Robot, source: &str) -> Result<Vec<Compa
     let found = modes::below(&dynamics, below_hz);
     let frequencies: Vec<f64> = found.modes.iter().map(|mode| mode.frequency_hz).collect();
     let certified = if found.certified { frequencies.len() } else { 0 };
-    let case = Case::new(
-        Level::Program,
-        source,
-        &format!("moving-robot/{}", slug(&row.case)),
-        &format!("{}, moving drives", row.case),
-    );
+    let id = format!("moving-robot/{}", slug(&row.case));
+    let case = Case::new(Level::Program, source, &id, &format!("{}, moving drives", row.case));
     let torque = control(&row.parts) == Control::Torque;
     let tolerance = if torque { AT_CONSTANT_TORQUE } else { FREQUENCIES };
+    let quantity = case.of("frequencies", "frequencies [Hz]");
     let mut rows = vec![
         case.of("count", "certified frequencies").count(row.frequencies_hz.len(), certified),
-        case.of("frequencies", "frequencies [Hz]").relative(
-            &row.frequencies_hz,
-            &frequencies,
-            tolerance,
-            Bound::Rounding,
-        ),
+        quantity.relative(&row.frequencies_hz, &frequencies, tolerance, Bound::Rounding),
     ];
 
     // Responses of the platform to all commanded lengths, or to the forces of all motors.
@@ -141,8 +216,8 @@ fn driven(row: &DrivenRobot, mut robot: Robot, source: &str) -> Result<Vec<Compa
                     expected.extend([re[input], im[input]]);
                 }
             }
-            let (id, quantity) =
-                (format!("{id}-{}hz", theirs.frequency_hz), format!("{what} at {} Hz", theirs.frequency_hz));
+            let hz = theirs.frequency_hz;
+            let (id, quantity) = (format!("{id}-{hz}hz"), format!("{what} at {hz} Hz"));
             rows.push(case.of(&id, &quantity).together(&expected, &ours, tolerance, bound));
         }
     }
@@ -201,44 +276,32 @@ fn cable(row: &DrivenCable, at_rest: &CableToWinch, source: &str) -> Result<Vec<
     let found = EndStiffness::new(&robot, 0, &rest.cables[0], model, false, WinchMode::AsGiven, limit)?;
     let EndStiffness::Dynamic(found) = found else { return Err(anyhow!("the cable has mass")) };
     let clamped: Vec<f64> = found.clamped_frequencies_below(limit * TAU).iter().map(|omega| omega / TAU).collect();
-    let case = Case::new(
-        Level::Program,
-        source,
-        &format!("moving-cable/{}", slug(&row.case)),
-        &format!("{}, moving drive", row.case),
-    );
+    let id = format!("moving-cable/{}", slug(&row.case));
+    let case = Case::new(Level::Program, source, &id, &format!("{}, moving drive", row.case));
     let point = rest.pose.position_w;
     let digits = Bound::Digits("12 printed digits");
+    let clamped_hz = case.of("clamped", "clamped frequencies [Hz]");
     let mut rows = vec![
         // The force is printed with 12 digits, and the stiffness across a taut cable is small.
         case.of("point", "platform point [m]").absolute(&at_rest.platform_point_m, point.as_slice(), 1e-9, digits),
         case.of("clamped-count", "clamped frequencies").count(row.clamped_frequencies_hz.len(), clamped.len()),
-        case.of("clamped", "clamped frequencies [Hz]").relative(
-            &row.clamped_frequencies_hz,
-            &clamped,
-            FREQUENCIES,
-            Bound::Rounding,
-        ),
+        clamped_hz.relative(&row.clamped_frequencies_hz, &clamped, FREQUENCIES, Bound::Rounding),
     ];
 
     // Dynamic stiffness, and forces by the inputs.
     let dynamics = Dynamics::about(&robot, &rest, Linearisation::default(), limit)?;
     let by_inputs = HeldPlatform::new(&robot, &rest, &dynamics)?;
     for theirs in &row.dynamic {
-        let row_hz = theirs.frequency_hz;
-        let at = format!("at {row_hz} Hz");
-        let k = found.damped(theirs.frequency_hz * TAU);
+        let hz = theirs.frequency_hz;
+        let at = format!("at {hz} Hz");
+        let k = found.damped(hz * TAU);
         let (re, im) = (k.map(|z| z.re).in_world(found.axes()), k.map(|z| z.im).in_world(found.axes()));
         let theirs_k = by_columns(&theirs.stiffness_re, &theirs.stiffness_im);
         let ours_k = joined(re.as_slice(), im.as_slice());
-        rows.push(case.of(&format!("stiffness-{}hz", theirs.frequency_hz), &format!("stiffness {at} [N/m]")).together(
-            &theirs_k,
-            &ours_k,
-            AT_CONSTANT_TORQUE,
-            digits,
-        ));
+        let (id, quantity) = (format!("stiffness-{hz}hz"), format!("stiffness {at} [N/m]"));
+        rows.push(case.of(&id, &quantity).together(&theirs_k, &ours_k, AT_CONSTANT_TORQUE, digits));
 
-        let forces = by_inputs.forces(theirs.frequency_hz)?;
+        let forces = by_inputs.forces(hz)?;
         let by_base = theirs.base_re.as_ref().zip(theirs.base_im.as_ref());
         let by_base = by_base.map(|(re, im)| {
             (("base", "motion of anchor and drum"), by_columns(re, im), parts(&forces[4..7]), AT_CONSTANT_TORQUE)
@@ -252,8 +315,7 @@ fn cable(row: &DrivenCable, at_rest: &CableToWinch, source: &str) -> Result<Vec<
         .into_iter()
         .chain(by_base)
         {
-            let id = format!("{id}-{row_hz}hz");
-            let quantity = format!("force per {what} {at} [N/m]");
+            let (id, quantity) = (format!("{id}-{hz}hz"), format!("force per {what} {at} [N/m]"));
             rows.push(case.of(&id, &quantity).together(&theirs, &ours, tolerance, digits));
         }
     }

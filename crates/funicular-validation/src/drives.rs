@@ -1,11 +1,9 @@
 //! Cables over pulleys and on winches.
 
 use super::reference::{
-    CableToWinch, DriveParts, Drives, FrictionCorner, FrictionHalfWidths, RobotWithWinches, SaggingOverPulley,
-    StraightOverPulley,
+    CableToWinch, Drives, FrictionCorner, FrictionHalfWidths, RobotWithWinches, SaggingOverPulley, StraightOverPulley,
 };
-use super::section::WRONG;
-use super::{Bound, Case, Comparison, Control, Declared, Level, driven, reference, slug};
+use super::{Bound, Case, Comparison, Level, reference, slug};
 use anyhow::{Result, anyhow};
 use funicular::drive::{CableAtRest, DriveFriction};
 use funicular::math::{Mat3, Vec3, rotation};
@@ -13,78 +11,8 @@ use funicular::robot::{Anchor, Cable, Constraint, Pulley, PulleyFriction, Robot,
 use funicular::statics::{self, CableState, Equilibrium, Held, Interval, StaticModel};
 use std::fmt::Write;
 
-pub(super) const SECTION: Declared = Declared {
-    id: "drives",
-    title: "Pulleys and winches",
-    note: "Straight cables over swivelling pulleys against the closed forms of other programs; sagging elastic \
-           cables over pulleys, whose weight begins at the entry point; cables to winches that yield; robots with \
-           pulleys and winches. The stiffness with a tilted swivel axis is exact to the square of the kink, \
-           theory (69). Friction of pulleys: equilibria after given last motions of the cables, solved without \
-           linearisation, and the first-order half widths of theory (74).",
-    rows: || rows(&reference::drives()?),
-    controls: &[
-        Control {
-            id: "radius",
-            wrong: "radius of every pulley 1 % too large",
-            proves: "the arc on the pulley",
-            rows: || {
-                of_changed(|of| {
-                    of.straight.rows.iter_mut().for_each(|row| row.radius_m *= WRONG);
-                    of.sagging.rows.iter_mut().for_each(|row| row.radius_m *= WRONG);
-                    of.cables.rows.iter_mut().for_each(|row| row.radius_m *= WRONG);
-                })
-            },
-        },
-        Control {
-            id: "drum-side",
-            wrong: "length of the rope between pulley and drum 1 % too large",
-            proves: "the stretch of the drum side",
-            rows: || of_changed(|of| of.cables.rows.iter_mut().for_each(|row| row.drum_side_length_m *= WRONG)),
-        },
-        Control {
-            id: "winch-stiffness",
-            wrong: "stiffness of every winch 1 % too small",
-            proves: "the yielding of the winch",
-            rows: || {
-                of_changed(|of| {
-                    let all = of.cables.rows.iter_mut().filter_map(|row| row.winch_stiffness_n_per_m.as_mut());
-                    all.for_each(|stiffness| *stiffness /= WRONG);
-                })
-            },
-        },
-        Control {
-            id: "friction",
-            wrong: "coefficient of friction of the pulleys 1 % too large",
-            proves: "the change of the tension over a pulley",
-            rows: || {
-                let mut drives = reference::drives()?;
-                only_friction(&mut drives);
-                drives.friction_corners.rows.iter_mut().for_each(|row| row.friction_coefficient *= WRONG);
-                rows(&drives)
-            },
-        },
-        Control {
-            id: "motor",
-            wrong: "mass of every motor at the cable 1 % too large",
-            proves: "the inertia of the drive",
-            rows: || of_vibration(|parts| parts.motor_mass_kg *= WRONG),
-        },
-        Control {
-            id: "wheel",
-            wrong: "inertia of every wheel 1 % too large",
-            proves: "the inertia of the pulleys",
-            rows: || of_vibration(|parts| parts.wheel_inertia_kg_m2 *= WRONG),
-        },
-        Control {
-            id: "gain",
-            wrong: "position gain of every servo 1 % too large",
-            proves: "the control of the motors",
-            rows: || of_vibration(|parts| parts.position_gain_n_per_m *= WRONG),
-        },
-    ],
-};
-
-fn rows(drives: &Drives) -> Result<Vec<Comparison>> {
+/// Comparisons at rest and with friction.
+pub(super) fn rows(drives: &Drives) -> Result<Vec<Comparison>> {
     let mut rows = Vec::new();
     for row in &drives.straight.rows {
         rows.extend(straight(row, &drives.straight.source));
@@ -99,7 +27,6 @@ fn rows(drives: &Drives) -> Result<Vec<Comparison>> {
     for row in &drives.robots.rows {
         rows.extend(robot(row, &drives.robots.source)?);
     }
-    rows.extend(driven::comparisons(drives)?);
 
     for row in &drives.friction_corners.rows {
         let robot = with_friction(drives, &row.robot, row.friction_coefficient)?;
@@ -114,7 +41,7 @@ fn rows(drives: &Drives) -> Result<Vec<Comparison>> {
 }
 
 /// Comparisons of single cables with a change.
-fn of_changed(change: fn(&mut Drives)) -> Result<Vec<Comparison>> {
+pub(super) fn of_changed(change: fn(&mut Drives)) -> Result<Vec<Comparison>> {
     let mut drives = reference::drives()?;
     change(&mut drives);
     drives.robots.rows.clear();
@@ -125,16 +52,8 @@ fn of_changed(change: fn(&mut Drives)) -> Result<Vec<Comparison>> {
     rows(&drives)
 }
 
-/// Comparisons of the vibration of cables with a change of their drives.
-fn of_vibration(change: fn(&mut DriveParts)) -> Result<Vec<Comparison>> {
-    let mut drives = reference::drives()?;
-    drives.vibration.rows.clear();
-    drives.moving_cables.rows.iter_mut().for_each(|row| change(&mut row.parts));
-    driven::comparisons(&drives)
-}
-
 /// Leaves the equilibria with friction.
-fn only_friction(drives: &mut Drives) {
+pub(super) fn only_friction(drives: &mut Drives) {
     drives.straight.rows.clear();
     drives.sagging.rows.clear();
     drives.cables.rows.clear();

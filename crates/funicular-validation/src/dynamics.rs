@@ -2,7 +2,7 @@
 
 use super::reference::{BesselRow, ClosedFormRow, Fig2, FiniteElementRow, Published};
 use super::section::WRONG;
-use super::{Bound, Case, Comparison, Control, Declared, DifferenceKind, Level, over, reference, slug, worst};
+use super::{Bound, Case, Comparison, Declared, DifferenceKind, Level, NegativeControl, over, reference, slug, worst};
 use funicular::cable::shallow_dynamic::ShallowDynamic;
 use funicular::cable::{LocalAxes, Sag};
 use funicular::math::{Complex, Vec3};
@@ -20,7 +20,7 @@ pub(super) const SECTION: Declared = Declared {
            slightly shifted pole adds to it.",
     rows: || Ok(rows(&reference::published()?)),
     controls: &[
-        Control {
+        NegativeControl {
             id: "mass",
             wrong: "mass per length of the cable 1 % too large",
             proves: "the mass of a vibrating cable",
@@ -31,7 +31,7 @@ pub(super) const SECTION: Declared = Declared {
                 Ok(rows(&published))
             },
         },
-        Control {
+        NegativeControl {
             id: "tension",
             wrong: "tension of the cable 1 % too large",
             proves: "the tension of a vibrating cable",
@@ -41,7 +41,7 @@ pub(super) const SECTION: Declared = Declared {
                 Ok(rows(&published))
             },
         },
-        Control {
+        NegativeControl {
             id: "gravity",
             wrong: "gravity 1 % too large",
             proves: "the sag of the cable",

@@ -3,8 +3,8 @@
 use super::reference::{ExactCable, ExactReference, ExactRobot, IndependentReference, Published, robot};
 use super::section::WRONG;
 use super::{
-    Bound, Case, ComparedQuantity, Comparison, Control, Declared, DifferenceKind, Level, largest, reference, slug,
-    worst,
+    Bound, Case, ComparedQuantity, Comparison, Declared, DifferenceKind, Level, NegativeControl, largest, reference,
+    slug, worst,
 };
 use anyhow::{Context, Result};
 use funicular::cable::CableModel;
@@ -28,25 +28,25 @@ pub(super) const SECTION: Declared = Declared {
            literature does not stretch; ours has an axial stiffness of 1e10 N.",
     rows: || rows(&reference::published()?, &reference::exact()?, &reference::independent()?),
     controls: &[
-        Control {
+        NegativeControl {
             id: "axial-inertia",
             wrong: "cable model shallow-dynamic, which has no axial inertia",
             proves: "axial waves, and the shape of the sag",
             rows: || of_first(CableModel::ShallowDynamic, |_| ()),
         },
-        Control {
+        NegativeControl {
             id: "ea",
             wrong: "axial stiffness EA of the single cables 1 % too large",
             proves: "the stretch of a vibrating cable",
             rows: || of_first(CableModel::CatenaryDynamic, |of| of.axial_stiffness_n *= WRONG),
         },
-        Control {
+        NegativeControl {
             id: "mass",
             wrong: "mass per length of the single cables 1 % too large",
             proves: "the mass of a vibrating cable",
             rows: || of_first(CableModel::CatenaryDynamic, |of| of.mass_kg_per_m *= WRONG),
         },
-        Control {
+        NegativeControl {
             id: "viscous",
             wrong: "viscous damping of the single cables 1 % too large",
             proves: "the loss in a vibrating cable",

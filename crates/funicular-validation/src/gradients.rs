@@ -3,8 +3,8 @@
 use super::reference::{GradientReference, GradientRobot, GradientRow, robot};
 use super::section::{WRONG, with_scaled};
 use super::{
-    Bound, Case, ComparedQuantity, Comparison, Control, Declared, DifferenceKind, Level, largest, largest_difference,
-    over, reference, slug, worst,
+    Bound, Case, ComparedQuantity, Comparison, Declared, DifferenceKind, Level, NegativeControl, largest,
+    largest_difference, over, reference, slug, worst,
 };
 use anyhow::{Context, Result, ensure};
 use funicular::dynamics::{Dynamics, Linearisation};
@@ -31,13 +31,13 @@ pub(super) const SECTION: Declared = Declared {
            platform that are largest in the reference, and the largest difference over all numbers.",
     rows: || rows(&reference::gradients()?),
     controls: &[
-        Control {
+        NegativeControl {
             id: "ea",
             wrong: "axial stiffness EA of the ropes 1 % too large",
             proves: "the derivatives by the numbers of the ropes",
             rows: || of_changed("axial_stiffness_n"),
         },
-        Control {
+        NegativeControl {
             id: "mass",
             wrong: "mass of the platform 1 % too large",
             proves: "the derivatives by the numbers of the platform",

@@ -2,7 +2,7 @@
 
 use super::reference::{IdentificationReference, MeasuredPose, MeasuredResponses, PlatformOfMakers, ReferenceTable};
 use super::section::WRONG;
-use super::{Bound, Case, Comparison, Control, Declared, DifferenceKind, Level, reference, slug, worst};
+use super::{Bound, Case, Comparison, Declared, DifferenceKind, Level, NegativeControl, reference, slug, worst};
 use anyhow::{Result, ensure};
 use funicular::math::{Rotation, Vec3, rotation};
 use funicular::statics::StaticModel;
@@ -40,7 +40,7 @@ pub(super) const SECTION: Declared = Declared {
            oscillations were large, and each peak was looked for within 7 % of the makers' model. Poses without a \
            published measurement are not part of it.",
     rows: || rows(&reference::identification()?, &reference::measured()?.grab),
-    controls: &[Control {
+    controls: &[NegativeControl {
         id: "frequencies",
         wrong: "frequencies of the responses 1 % too large",
         proves: "the frequencies at which responses are compared",

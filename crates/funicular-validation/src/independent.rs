@@ -5,8 +5,8 @@ use super::reference::{
 };
 use super::section::{WRONG, with_scaled};
 use super::{
-    Bound, Case, ComparedQuantity, Comparison, Control, Declared, DifferenceKind, Level, largest, over, reference,
-    slug, worst,
+    Bound, Case, ComparedQuantity, Comparison, Declared, DifferenceKind, Level, NegativeControl, largest, over,
+    reference, slug, worst,
 };
 use anyhow::{Result, ensure};
 use funicular::cable::{CableModel, Sag};
@@ -27,31 +27,31 @@ pub(super) const SECTION: Declared = Declared {
            table shows the last or the largest value.",
     rows: || rows(&reference::independent()?),
     controls: &[
-        Control {
+        NegativeControl {
             id: "gravity",
             wrong: "gravity 1 % too large",
             proves: "the weight of platform and cables",
             rows: || of_changed(|toml| with_scaled(toml, "gravity_m_s2", WRONG, usize::MAX)),
         },
-        Control {
+        NegativeControl {
             id: "ea",
             wrong: "Young's modulus of the ropes 1 % too large",
             proves: "the stretch of the cables",
             rows: || of_changed(|toml| with_scaled(toml, "youngs_modulus_pa", WRONG, usize::MAX)),
         },
-        Control {
+        NegativeControl {
             id: "inertia",
             wrong: "moments of inertia of the platform 1 % too large",
             proves: "the rotation of the platform in its modes",
             rows: || of_changed(|toml| with_scaled(toml, "inertia_kg_m2", WRONG, usize::MAX)),
         },
-        Control {
+        NegativeControl {
             id: "lever",
             wrong: "attachment of the first cable mirrored at the origin",
             proves: "the sign of the levers of the cables",
             rows: || of_changed(|toml| with_scaled(toml, "attachment_m", -1.0, 1)),
         },
-        Control {
+        NegativeControl {
             id: "damping",
             wrong: "damping ratio of the ropes 1 % too large",
             proves: "the loss in the cables",

@@ -46,7 +46,7 @@ pub use verdict::{LevelCount, Validated, run, schema, tables};
 
 use comparison::{Case, ComparedQuantity, largest, largest_difference, over, slug, worst};
 use funicular_study::names::ValidationLevel as Level;
-use section::{Control, Declared};
+use section::{Declared, NegativeControl};
 
 /// Sections in the order of docs/validation.md.
 static SECTIONS: [Declared; 22] = [
@@ -57,7 +57,7 @@ static SECTIONS: [Declared; 22] = [
     damped::SECTION,
     stretch_loss::SECTION,
     sway::SECTION,
-    drives::SECTION,
+    driven::SECTION,
     gradients::SECTION,
     measured::SECTION,
     identification::SECTION,

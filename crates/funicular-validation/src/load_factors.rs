@@ -2,7 +2,7 @@
 
 use super::reference::{LoadFactorReference, LoadedPose, LoadedRobot, library_text};
 use super::section::WRONG;
-use super::{Bound, Case, Comparison, Control, Declared, DifferenceKind, Level, reference, slug};
+use super::{Bound, Case, Comparison, Declared, DifferenceKind, Level, NegativeControl, reference, slug};
 use anyhow::{Context, Result};
 use funicular::math::Vec3;
 use funicular::robot::{Pose, Robot, TensionLimits};
@@ -30,13 +30,13 @@ pub(super) const SECTION: Declared = Declared {
            vertex of the box; here facets and the vertices that they leave open.",
     rows: || rows(&reference::load_factors()?),
     controls: &[
-        Control {
+        NegativeControl {
             id: "required",
             wrong: "required loads 1 % too large",
             proves: "the size of the required loads",
             rows: || of_changed(|of| of.required_box_n_nm = of.required_box_n_nm.map(|half| half * WRONG)),
         },
-        Control {
+        NegativeControl {
             id: "maximum",
             wrong: "maximum tension 1 % too large",
             proves: "the limits of the tensions",

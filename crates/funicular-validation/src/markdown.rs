@@ -153,7 +153,8 @@ tolerance is the comparison that is named.
 const WRONG_HEAD: &str = "\
 ## Reference values that were found wrong
 
-Published values that the equations of their own source contradict. They are not used, or compared only as what they are.
+Published values that the equations of their own source contradict. They are not used, or compared only as
+what they are.
 
 | source | quantity | published | right | why |
 |:---|:---|---:|---:|:---|

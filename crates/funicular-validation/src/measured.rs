@@ -2,7 +2,7 @@
 
 use super::reference::{MeasuredPose, ReferenceTable};
 use super::section::{WRONG, with_scaled};
-use super::{Bound, Case, Comparison, Control, Declared, Level, reference, worst};
+use super::{Bound, Case, Comparison, Declared, Level, NegativeControl, reference, worst};
 use anyhow::{Result, anyhow};
 use funicular::math::{Rotation, Vec3};
 use funicular::modes;
@@ -36,7 +36,7 @@ pub(super) const SECTION: Declared = Declared {
            The oscillations were large, up to several centimetres and degrees, and the program's modes are linear.",
     rows: || rows(&reference::measured()?.grab, &|cables| Ok(Robot::from_toml(text(cables)?)?)),
     controls: &[
-        Control {
+        NegativeControl {
             id: "radius",
             wrong: "radius of every pulley 1 % too large",
             proves: "the arc on the pulley, in lengths and frequencies",
@@ -46,7 +46,7 @@ pub(super) const SECTION: Declared = Declared {
                 })
             },
         },
-        Control {
+        NegativeControl {
             id: "inertia",
             wrong: "moments of inertia of the platform 1 % too large",
             proves: "the rotation of the platform in its modes",

@@ -3,7 +3,7 @@
 use super::dynamics::fig2_sag;
 use super::reference::{Published, library};
 use super::section::WRONG;
-use super::{Bound, Case, Comparison, Control, Declared, Level, reference};
+use super::{Bound, Case, Comparison, Declared, Level, NegativeControl, reference};
 use anyhow::Result;
 use funicular::statics::{self, CableState, StaticModel};
 
@@ -17,7 +17,7 @@ pub(super) const SECTION: Declared = Declared {
            figure do. The lengths of Tables I and II determine one pose of ideal cables, which was solved for \
            separately.",
     rows: || rows(&reference::published()?),
-    controls: &[Control {
+    controls: &[NegativeControl {
         id: "mass",
         wrong: "mass per length of the cable 1 % too large",
         proves: "the definitions of λ² and ε",

@@ -2,7 +2,7 @@
 
 use super::reference::{Published, library};
 use super::section::WRONG;
-use super::{Bound, Case, Comparison, Control, Declared, Level, reference};
+use super::{Bound, Case, Comparison, Declared, Level, NegativeControl, reference};
 use anyhow::Result;
 use funicular::statics::{self, StaticModel};
 
@@ -11,7 +11,7 @@ pub(super) const SECTION: Declared = Declared {
     title: "Equilibria of the paper's robot",
     note: "Six catenaries and a platform, without a given start. The printed digits bound the differences.",
     rows: || rows(&reference::published()?),
-    controls: &[Control {
+    controls: &[NegativeControl {
         id: "mass",
         wrong: "mass of the platform 1 % too large",
         proves: "the weight of the platform in its equilibrium",

@@ -32,7 +32,8 @@ pub struct ControlRun {
     pub failed: usize,
     /// ID of the comparison that exceeds its tolerance most; empty if none does.
     pub worst: String,
-    /// Difference of this comparison over its tolerance; null for a count.
+    /// Difference of this comparison over its tolerance; absent for a count, and where a number is infinite.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub excess: Option<f64>,
     /// True if a comparison fails, as it must.
     pub caught: bool,
@@ -47,11 +48,11 @@ pub(super) struct Declared {
     /// Makes the comparisons.
     pub(super) rows: fn() -> Result<Vec<Comparison>>,
     /// Wrong inputs with which the section must fail.
-    pub(super) controls: &'static [Control],
+    pub(super) controls: &'static [NegativeControl],
 }
 
 /// Declaration of a negative control.
-pub(super) struct Control {
+pub(super) struct NegativeControl {
     /// Name within the section.
     pub(super) id: &'static str,
     /// Wrong input, in words.
@@ -111,7 +112,7 @@ pub(super) fn with_scaled(text: &str, key: &str, factor: f64, lines: usize) -> S
         match value {
             Some(value) if left > 0 => {
                 left -= 1;
-                let numbers = value.split_inclusive([',', '[', ']']).map(|part| {
+                let numbers = value.trim_start().split_inclusive([',', '[', ']']).map(|part| {
                     let number = part.trim_end_matches([',', '[', ']']);
                     let end = &part[number.len()..];
                     match number.trim().parse::<f64>() {
@@ -119,7 +120,8 @@ pub(super) fn with_scaled(text: &str, key: &str, factor: f64, lines: usize) -> S
                         Err(_) => part.to_owned(),
                     }
                 });
-                scaled.push_str(&format!("{key} = {}", numbers.collect::<String>()));
+                scaled.extend([key, " = "]);
+                scaled.extend(numbers);
             }
             _ => scaled.push_str(line),
         }
@@ -135,7 +137,7 @@ mod tests {
     #[test]
     fn numbers_of_one_key_are_scaled() {
         let text = "a = 1.0\n[b]\na_b = [1.0, -2.0]\na_b = [[3.0], [4.0]]\n";
-        let all = "a = 1.0\n[b]\na_b = [2.0,-4.0]\na_b = [[6.0],[8.0]]\n";
+        let all = "a = 1.0\n[b]\na_b = [2.0,-4.0]\na_b = [[6.0], [8.0]]\n";
         assert_eq!(with_scaled(text, "a_b", 2.0, usize::MAX), all);
         assert_eq!(with_scaled(text, "a", 2.0, usize::MAX), text.replace("a = 1.0", "a = 2.0"));
         assert_eq!(with_scaled(text, "a_b", 2.0, 1), text.replace("[1.0, -2.0]", "[2.0,-4.0]"));

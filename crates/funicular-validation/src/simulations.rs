@@ -2,7 +2,7 @@
 
 use super::reference::{HistoryCase, HistoryReference, HistorySample, library};
 use super::section::WRONG;
-use super::{Bound, Case, Comparison, Control, Declared, Level, reference, slug};
+use super::{Bound, Case, Comparison, Declared, Level, NegativeControl, reference, slug};
 use anyhow::Result;
 use funicular::math::{Mat3, Vec3};
 use funicular::robot::{Damping, Robot};
@@ -22,13 +22,13 @@ pub(super) const SECTION: Declared = Declared {
            two methods leave at each time, so that 1 passes.",
     rows: || rows(&reference::histories()?),
     controls: &[
-        Control {
+        NegativeControl {
             id: "ea",
             wrong: "axial stiffness EA of the ropes 1 % too large",
             proves: "the stretch of moving ropes",
             rows: || of_first(|of| of.cables.iter_mut().for_each(|cable| cable.axial_stiffness_n *= WRONG)),
         },
-        Control {
+        NegativeControl {
             id: "mass",
             wrong: "mass of the platform 1 % too large",
             proves: "the inertia of the platform",

@@ -2,7 +2,7 @@
 
 use super::reference::{ChangedRobot, LossyRobot, LossyRope, StretchLossReference, library_text};
 use super::section::WRONG;
-use super::{Bound, Case, Comparison, Control, Declared, Level, reference, slug};
+use super::{Bound, Case, Comparison, Declared, Level, NegativeControl, reference, slug};
 use anyhow::{Context, Result, anyhow, bail};
 use funicular::cable::{CableModel, EndStiffness, LocalAxes};
 use funicular::dynamics::{Dynamics, Linearisation};
@@ -23,13 +23,13 @@ pub(super) const SECTION: Declared = Declared {
            acts on a few moments of the strain. Near a veering the lists are compared as sets.",
     rows: || rows(&reference::stretch_loss()?),
     controls: &[
-        Control {
+        NegativeControl {
             id: "eta",
             wrong: "loss factor η of the stretch 1 % too large",
             proves: "the loss of the stretch",
             rows: || of_first(|of| of.eta *= WRONG, |of| of.eta *= WRONG),
         },
-        Control {
+        NegativeControl {
             id: "tau",
             wrong: "damping time τ of the stretch 1 % too large",
             proves: "the viscous loss of the stretch",

@@ -2,7 +2,7 @@
 
 use super::reference::{ClampedCable, ClampedTable, CooledCable, StringReference, TautString};
 use super::section::WRONG;
-use super::{Bound, Case, Comparison, Control, Declared, Level, reference};
+use super::{Bound, Case, Comparison, Declared, Level, NegativeControl, reference};
 use anyhow::Result;
 use funicular::cable::catenary_dynamic::CatenaryDynamic;
 use funicular::catenary::{Catenary, Rope};
@@ -25,7 +25,7 @@ pub(super) const SECTION: Declared = Declared {
            against a finite-element program.",
     rows: || rows(&reference::strings()?),
     controls: &[
-        Control {
+        NegativeControl {
             id: "mass",
             wrong: "mass per length of strings and cables 1 % too large",
             proves: "the mass of a vibrating cable",
@@ -36,7 +36,7 @@ pub(super) const SECTION: Declared = Declared {
                 rows(&reference)
             },
         },
-        Control {
+        NegativeControl {
             id: "ea",
             wrong: "axial stiffness EA of strings and cables 1 % too large",
             proves: "the stretch at rest and in motion",

@@ -3,7 +3,7 @@
 use super::reference::{ShapedSum, SwayReference, SwayingRobot};
 use super::section::WRONG;
 use super::stretch_loss::{at_rest, nearest};
-use super::{Bound, Case, Comparison, Control, Declared, Level, reference, slug};
+use super::{Bound, Case, Comparison, Declared, Level, NegativeControl, reference, slug};
 use anyhow::{Result, bail};
 use funicular::dynamics::{Dynamics, Linearisation};
 use funicular::math::{Vec3, Vec6};
@@ -26,19 +26,19 @@ pub(super) const SECTION: Declared = Declared {
            commanded with boxes of speed, acceleration and jerk, and with shapers.",
     rows: || rows(&reference::sway()?),
     controls: &[
-        Control {
+        NegativeControl {
             id: "force",
             wrong: "force before the release 1 % too large",
             proves: "the amplitudes after a release",
             rows: || of_first(|of| of.release.force_n = of.release.force_n.map(|force| WRONG * force)),
         },
-        Control {
+        NegativeControl {
             id: "rates",
             wrong: "speeds before the stop 1 % too large",
             proves: "the amplitudes after a stop",
             rows: || of_first(|of| of.stop.rates_m_s.iter_mut().for_each(|rate| *rate *= WRONG)),
         },
-        Control {
+        NegativeControl {
             id: "shaper",
             wrong: "frequencies of the shapers 10 % too large",
             proves: "the vibration that a shaper leaves",
@@ -49,7 +49,7 @@ pub(super) const SECTION: Declared = Declared {
                 })
             },
         },
-        Control {
+        NegativeControl {
             id: "eta",
             wrong: "loss factor η of the stretch 1 % too large",
             proves: "the time of settling",
@@ -87,31 +87,19 @@ fn of_robot(source: &str, of: &SwayingRobot) -> Result<Vec<Comparison>> {
     }
     let case = Case::new(Level::Program, source, &slug(&of.id), &of.id);
     let (accuracy, bound) = (of.relative_accuracy, Bound::Digits("accuracy of the other program"));
+    let same =
+        |id: &str, name: &str, theirs: &[f64], ours: &[f64]| case.of(id, name).together(theirs, ours, accuracy, bound);
+    let sum = |id: &str, name: &str, theirs: f64, ours: f64| same(id, name, &[theirs], &[ours]);
 
     let [x, y, z] = of.release.force_n;
     let release = Release::of(&dynamics, &found, &damped, &Vec6::new(x, y, z, 0.0, 0.0, 0.0), &Vec3::zeros())?;
     let theirs = &of.release;
     let at_1s = release.decay.at(1.0);
-    let beyond = accuracy.max(AT_THE_LIMIT);
+    let place = case.of("release-place", "place after 1 s, release [m]");
     let mut rows = vec![
-        case.of("release-deflection", "deflection [m]").together(
-            &theirs.static_deflection_m,
-            release.held.as_slice(),
-            accuracy,
-            bound,
-        ),
-        case.of("release-amplitudes", "amplitudes, release [m]").together(
-            &theirs.amplitudes_m,
-            &loudest(&release.decay),
-            accuracy,
-            bound,
-        ),
-        case.of("release-place", "place after 1 s, release [m]").together(
-            &theirs.position_at_1s_m,
-            at_1s.as_slice(),
-            beyond,
-            bound,
-        ),
+        same("release-deflection", "deflection [m]", &theirs.static_deflection_m, release.held.as_slice()),
+        same("release-amplitudes", "amplitudes, release [m]", &theirs.amplitudes_m, &loudest(&release.decay)),
+        place.together(&theirs.position_at_1s_m, at_1s.as_slice(), accuracy.max(AT_THE_LIMIT), bound),
     ];
     let times = theirs.settle.iter().map(|of| (of.tolerance_m, of.bound_s, of.exact_s)).collect::<Vec<_>>();
     rows.extend(settling(&case, ("release", "release"), &times, &release.decay, 0.0));
@@ -122,24 +110,9 @@ fn of_robot(source: &str, of: &SwayingRobot) -> Result<Vec<Comparison>> {
     let stop = motions.after(&command);
     let at_1s = stop.at(1.0);
     rows.extend([
-        case.of("stop-amplitudes", "amplitudes, stop [m]").together(
-            &theirs.amplitudes_m,
-            &loudest(&stop),
-            accuracy,
-            bound,
-        ),
-        case.of("stop-sum", "sum of all amplitudes, stop [m]").relative(
-            &[theirs.sum_m],
-            &[stop.envelope(0.0)],
-            accuracy,
-            bound,
-        ),
-        case.of("stop-place", "place 1 s after the stop [m]").together(
-            &theirs.position_1s_after_m,
-            at_1s.as_slice(),
-            accuracy,
-            bound,
-        ),
+        same("stop-amplitudes", "amplitudes, stop [m]", &theirs.amplitudes_m, &loudest(&stop)),
+        sum("stop-sum", "sum of all amplitudes, stop [m]", theirs.sum_m, stop.envelope(0.0)),
+        same("stop-place", "place 1 s after the stop [m]", &theirs.position_1s_after_m, at_1s.as_slice()),
     ]);
     let times = theirs.settle.iter().map(|of| (of.tolerance_m, of.bound_s, of.exact_s)).collect::<Vec<_>>();
     rows.extend(settling(&case, ("stop", "stop"), &times, &stop, command.duration()));
@@ -148,24 +121,13 @@ fn of_robot(source: &str, of: &SwayingRobot) -> Result<Vec<Comparison>> {
     let profile = Profile::new(&theirs.durations_s);
     let after = |profile: Profile| motions.after(&LengthCommand::Move { by: theirs.change_m.clone(), profile });
     let plain = after(profile.clone());
-    rows.push(case.of("move-amplitudes", "amplitudes, move [m]").together(
-        &theirs.amplitudes_m,
-        &loudest(&plain),
-        accuracy,
-        bound,
-    ));
+    rows.push(same("move-amplitudes", "amplitudes, move [m]", &theirs.amplitudes_m, &loudest(&plain)));
     for row in &theirs.shapers {
         let shaper = shaper(row, &plain)?;
         let shaped = after(profile.shaped(&shaper));
         let name = format!("{} of {} mode(s)", row.shaper, row.modes_hz.len());
         let id = format!("{}-{}", row.shaper, row.modes_hz.len());
-        let sum = shaped.envelope(0.0);
-        rows.push(case.of(&format!("{id}-sum"), &format!("sum, {name} [m]")).relative(
-            &[row.sum_m],
-            &[sum],
-            accuracy,
-            bound,
-        ));
+        rows.push(sum(&format!("{id}-sum"), &format!("sum, {name} [m]"), row.sum_m, shaped.envelope(0.0)));
         let times = [(theirs.tolerance_m, row.bound_s, row.exact_s)];
         rows.extend(settling(&case, (&id, &name), &times, &shaped, shaper.duration()));
     }

@@ -2,7 +2,7 @@
 
 use super::reference::{MovingRobot, MovingRow, TrajectoryReference, library_text};
 use super::section::WRONG;
-use super::{Bound, Case, ComparedQuantity, Comparison, Control, Declared, DifferenceKind, Level, reference};
+use super::{Bound, Case, ComparedQuantity, Comparison, Declared, DifferenceKind, Level, NegativeControl, reference};
 use anyhow::Result;
 use funicular::math::Vec6;
 use funicular::path::{PathPoint, PlatformPath};
@@ -32,13 +32,13 @@ pub(super) const SECTION: Declared = Declared {
            The rates contain the change of sag, stretch and tensions.",
     rows: || rows(&reference::trajectories()?),
     controls: &[
-        Control {
+        NegativeControl {
             id: "acceleration",
             wrong: "accelerations 1 % too large",
             proves: "the inertia of the platform",
             rows: || of_changed(|row| row.acceleration = row.acceleration.map(|part| part * WRONG)),
         },
-        Control {
+        NegativeControl {
             id: "twist",
             wrong: "velocities 1 % too large",
             proves: "the rates of the lengths",

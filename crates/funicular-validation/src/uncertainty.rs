@@ -1,6 +1,6 @@
 //! Linear deviations of results, compared with those of sampled robots.
 
-use super::{Bound, Case, Comparison, Control, Declared, DifferenceKind, Level, slug};
+use super::{Bound, Case, Comparison, Declared, DifferenceKind, Level, NegativeControl, slug};
 use anyhow::{Context, Result, anyhow, bail};
 use funicular_study::analyses::uncertainty::{Uncertainties, UncertaintyStudy};
 use funicular_study::request::Request;
@@ -54,7 +54,7 @@ pub(super) const SECTION: Declared = Declared {
            are anywhere within their tolerance. Of each kind the result with the largest difference is shown. The \
            share is that of the sampled robots whose result is in the linear interval of 95 %.",
     rows: || rows(&ROBOTS, 1.0),
-    controls: &[Control {
+    controls: &[NegativeControl {
         id: "tolerance",
         wrong: "deviation of the anchors 10 % too large in the linear results; 2000 samples know a deviation to 1.6 %",
         proves: "the size of deviations",
@@ -78,7 +78,8 @@ fn compare(of: &Deviating, factor: f64, rows: &mut Vec<Comparison>) -> Result<()
         json!({
             "command": "uncertainty", "robot": {"name": name, "text": text},
             "of": ["pose", "tensions", "stiffness-min"],
-            "deviations": ["platform.mass_kg=1%", "platform.center_of_mass_m=0.001"], "tolerances": [format!("{path}={}", tolerance * factor)],
+            "deviations": ["platform.mass_kg=1%", "platform.center_of_mass_m=0.001"],
+            "tolerances": [format!("{path}={}", tolerance * factor)],
             "method": method, "samples": SAMPLES,
         })
     };

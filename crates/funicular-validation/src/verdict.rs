@@ -56,13 +56,13 @@ pub fn run(of: &ValidateRequest) -> Result<Validated> {
     let wanted = || SECTIONS.iter().filter(|declared| of.only.is_empty() || of.only.iter().any(|id| may(declared, id)));
     let mut sections = wanted().map(Declared::section).collect::<Result<Vec<Section>>>()?;
     for id in &of.only {
-        if !sections.iter().flat_map(|section| &section.rows).any(|row| row.id.starts_with(id.as_str())) {
+        if !sections.iter().flat_map(|section| &section.rows).any(|row| is_of(row, id)) {
             return Err(unknown(id, &sections));
         }
     }
 
     let chosen = |row: &Comparison| {
-        let by_id = of.only.is_empty() || of.only.iter().any(|id| row.id.starts_with(id.as_str()));
+        let by_id = of.only.is_empty() || of.only.iter().any(|id| is_of(row, id));
         by_id && of.level.is_none_or(|level| level == row.level)
     };
     for section in &mut sections {
@@ -79,8 +79,22 @@ pub fn run(of: &ValidateRequest) -> Result<Validated> {
 
 /// True if comparisons of the section may have IDs that begin with this.
 fn may(declared: &Declared, id: &str) -> bool {
-    let section = format!("{}/", declared.id);
-    section.starts_with(id) || id.starts_with(&section)
+    match SECTIONS.iter().find(|of| begins(id, of.id)) {
+        Some(named) => named.id == declared.id,
+        None => declared.id.starts_with(id),
+    }
+}
+
+/// True if the comparison has the ID, or one that begins with it: the name of a section does not mean another section
+/// whose name is longer.
+fn is_of(row: &Comparison, id: &str) -> bool {
+    let is_section = SECTIONS.iter().any(|declared| declared.id == id);
+    if is_section { begins(&row.id, id) } else { row.id.starts_with(id) }
+}
+
+/// True if an ID is this name, or continues it after a slash.
+fn begins(id: &str, name: &str) -> bool {
+    id.strip_prefix(name).is_some_and(|rest| rest.is_empty() || rest.starts_with('/'))
 }
 
 /// Error for an ID that no comparison has.
@@ -218,13 +232,16 @@ pub fn schema() -> (&'static str, Value) {
     let section = object("Section", json!({ "id": text, "title": text, "note": text, "rows": list(&comparison) }));
     let of_level =
         object("LevelCount", json!({ "level": level, "comparisons": count, "numbers": count, "sources": count }));
-    let control = object(
+    let mut control = object(
         "ControlRun",
         json!({
             "id": text, "wrong": text, "proves": text, "comparisons": count, "failed": count, "worst": text,
-            "excess": { "type": ["number", "null"] }, "caught": truth,
+            "excess": number, "caught": truth,
         }),
     );
+    if let Some(required) = control["required"].as_array_mut() {
+        required.retain(|key| key != "excess");
+    }
     let all = object(
         "Validated",
         json!({
@@ -276,6 +293,8 @@ mod tests {
         };
         let node = ids(&only(&["catenary/michalos-1962"]));
         assert_eq!(node.len(), 3);
+        assert_eq!(ids(&only(&["catenary/mich"])), node);
+        assert!(ids(&only(&["paper"])).iter().all(|id| id.starts_with("paper/")));
         assert_eq!(ids(&only(&["catenary/michalos-1962/node"])), ["catenary/michalos-1962/node"]);
         let printed = ValidateRequest { level: Some(Level::Published), ..only(&["catenary/michalos-1962"]) };
         assert_eq!(ids(&printed), ["catenary/michalos-1962/displacement-printed"]);

@@ -2,7 +2,7 @@
 
 use super::reference::WorkspaceReference;
 use super::section::WRONG;
-use super::{Bound, Case, Comparison, Control, Declared, DifferenceKind, Level, reference};
+use super::{Bound, Case, Comparison, Declared, DifferenceKind, Level, NegativeControl, reference};
 use anyhow::{Context, Result};
 use funicular::level_set::{LevelSet, PointGrid, RaySet, RaysInBox, Sphere};
 use funicular::math::{Rotation, Vec3};
@@ -24,7 +24,7 @@ pub(super) const SECTION: Declared = Declared {
            comparison does the same; the program itself finds the ends of rays to the tolerance that is asked for.",
     rows: || rows(&reference::workspaces()?),
     controls: &[
-        Control {
+        NegativeControl {
             id: "frame",
             wrong: "height of the frame 1 % too large",
             proves: "the volume of a box-shaped workspace",
@@ -34,7 +34,7 @@ pub(super) const SECTION: Declared = Declared {
                 box_shaped(&reference)
             },
         },
-        Control {
+        NegativeControl {
             id: "required",
             wrong: "required loads 1 % too large",
             proves: "the ends of rays",

@@ -8,6 +8,7 @@ use funicular_study::Watch;
 use funicular_study::analyses::prove::Proved;
 use funicular_study::analyses::workspace::Workspace;
 use funicular_study::text::counted;
+use funicular_validation::Validated;
 
 pub(super) type BytesOf = fn(&Answered<'_>, Option<Kind>) -> Result<Made>;
 
@@ -68,6 +69,37 @@ pub(super) const fn universal_file(make: BytesOf) -> Output {
 
 pub(super) const fn lengths(about: &'static str, make: BytesOf) -> Output {
     file("lengths", about, ["the lengths", "CSV"], &[Kind::Csv], Make::Bytes(make))
+}
+
+/// Report of `validate` for build servers.
+pub(super) const JUNIT: Output = Output {
+    by_ending: true,
+    ..file(
+        "junit",
+        "Write a report for build servers in the format of JUnit, one test per comparison",
+        ["the report", "a report of tests"],
+        &[Kind::Xml],
+        Make::Bytes(|at, _| of_validated(at, funicular_validation::junit)),
+    )
+};
+
+/// Badge of `validate`.
+pub(super) const BADGE: Output = Output {
+    by_ending: true,
+    ..file(
+        "badge",
+        "Write a badge that says how many comparisons pass",
+        ["the badge", "a badge"],
+        &[Kind::Svg],
+        Make::Bytes(|at, _| of_validated(at, funicular_validation::badge)),
+    )
+};
+
+fn of_validated(at: &Answered<'_>, make: fn(&Validated) -> String) -> Result<Made> {
+    match at.validated {
+        Some(found) => Ok(make(found).into_bytes().into()),
+        None => bail!("`{}` has no such file", at.request.command()),
+    }
 }
 
 /// Surface of what is proved inside.

@@ -2529,6 +2529,40 @@ class UncertainResponse(Row):
     """Unit; magnitudes are in decibels of it, phases in degrees."""
 
 
+class ControlRun(Row):
+    """ControlRun."""
+
+    caught: bool
+    """Caught."""
+    comparisons: int
+    """Comparisons."""
+    excess: float | None
+    """Excess."""
+    failed: int
+    """Failed."""
+    id: str
+    """Id."""
+    proves: str
+    """Proves."""
+    worst: str
+    """Worst."""
+    wrong: str
+    """Wrong."""
+
+
+class LevelCount(Row):
+    """LevelCount."""
+
+    comparisons: int
+    """Comparisons."""
+    level: Any
+    """Level."""
+    numbers: int
+    """Numbers."""
+    sources: int
+    """Sources."""
+
+
 class Comparison(Row):
     """Comparison."""
 
@@ -2538,8 +2572,14 @@ class Comparison(Row):
     """Case."""
     difference: float
     """Difference."""
+    id: str
+    """Id."""
     kind: Any
     """Kind."""
+    level: Any
+    """Level."""
+    numbers: int
+    """Numbers."""
     ours: NDArray[np.float64]
     """Ours."""
     quantity: str
@@ -2555,6 +2595,8 @@ class Comparison(Row):
 class Section(Row):
     """Section."""
 
+    id: str
+    """Id."""
     note: str
     """Note."""
     rows: list[Comparison]
@@ -3952,16 +3994,26 @@ class ValidateResults(Results):
 
     comparisons: int
     """Comparisons."""
+    controls: list[ControlRun]
+    """Controls."""
+    levels: list[LevelCount]
+    """Levels."""
+    numbers: int
+    """Numbers."""
     passed: int
     """Passed."""
     robot: str | None
     """Name of the robot; absent if there are several."""
     sections: list[Section]
     """Sections."""
+    sources: int
+    """Sources."""
     warnings: list[str]
     """Sentences that the user should know before trusting the numbers."""
 
     _PARTS: ClassVar[dict[str, type[Row]]] = {
+        "controls": ControlRun,
+        "levels": LevelCount,
         "sections": Section,
     }
 

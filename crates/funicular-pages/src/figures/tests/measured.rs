@@ -5,14 +5,16 @@ use crate::figures::chart::{Chart, Entry, Layer, Panel, Sample};
 use crate::figures::drawing::{BLACK, Stroke};
 use crate::figures::style::{BLUE, GREEN, GREY, Symbol, SymbolShape, VERMILION};
 use crate::figures::{Figure, FigureContent, Size};
-use funicular_validation::{Comparison, sections};
+use funicular_study::request::ValidateRequest;
+use funicular_validation::Comparison;
 
 /// Highest frequency of the figure [Hz].
 const HIGHEST_HZ: f64 = 4.0;
 
 /// Comparisons of measured frequencies with those of the model, one per pose of the robot.
 fn measured() -> Vec<Comparison> {
-    let rows = sections().unwrap().into_iter().flat_map(|section| section.rows);
+    let request = ValidateRequest { only: vec!["few-cables".to_owned()], ..ValidateRequest::default() };
+    let rows = funicular_validation::run(&request).unwrap().sections.into_iter().flat_map(|section| section.rows);
     rows.filter(|row| row.quantity == "measured frequencies [Hz], relative to the model").collect()
 }
 
