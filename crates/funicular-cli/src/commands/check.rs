@@ -96,7 +96,7 @@ fn cable_lines(found: &Checked) -> Vec<String> {
         while let Some(cable) = next(&name) {
             let efficiency = cable.sheave_efficiency.filter(|efficiency| *efficiency < 1.0);
             let sheave = efficiency.map_or_else(String::new, |value| format!(" (sheave η = {})", short(value, 4)));
-            names += &format!(", \"{}\"{sheave}", cable.name);
+            let _ = write!(names, ", \"{}\"{sheave}", cable.name);
             name.clone_from(&cable.name);
         }
         format!("  one rope    cables {names} over sheaves")
