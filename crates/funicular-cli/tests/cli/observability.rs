@@ -76,16 +76,20 @@ fn what_sensors_determine_is_said_with_the_best_addition() {
 /// A planar robot turns and moves in its plane only: numbers of the other directions are known exactly.
 #[test]
 fn a_planar_robot_has_numbers_of_its_plane() {
-    let found =
-        json(&["observability", &robot("kntu-planar.toml"), "--pose", "0,0,0", "--sensors", "tracker"]);
-    let given: Vec<&str> = found["numbers"].as_array().unwrap().iter()
+    let found = json(&["observability", &robot("kntu-planar.toml"), "--pose", "0,0,0", "--sensors", "tracker"]);
+    let given: Vec<&str> = found["numbers"]
+        .as_array()
+        .unwrap()
+        .iter()
         .filter(|number| number["determined"] == "given")
         .map(|number| number["number"].as_str().unwrap())
         .collect();
     assert!(given.len() >= 3 && given.iter().any(|name| name.starts_with("position")), "{given:?}");
-    let further = found["cases"].as_array().unwrap().iter().filter(|case| {
-        case["with"].as_str().unwrap().contains("at a distance of")
-    });
+    let further = found["cases"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .filter(|case| case["with"].as_str().unwrap().contains("at a distance of"));
     assert!(further.count() <= 4);
 }
 
