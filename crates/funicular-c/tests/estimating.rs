@@ -23,7 +23,7 @@ fn document(name: &str) -> String {
     std::fs::read_to_string(format!("{}/../../docs/estimation/{name}", env!("CARGO_MANIFEST_DIR"))).unwrap()
 }
 
-/// CableRows of the log of the documents: time, lengths, tensions, accelerometer, gyroscope, tracker; NaN where a cell is
+/// Rows of the log of the documents: time, lengths, tensions, accelerometer, gyroscope, tracker; NaN where a cell is
 /// empty.
 fn log() -> Vec<Vec<f64>> {
     let text = document("run.csv");
