@@ -317,7 +317,8 @@ typedef struct fn_est_fault {
 int32_t fn_est_defaults(fn_est_settings *settings);
 
 /* Estimator of the text of a robot file, at rest with the lengths of all cables. NULL: usual settings. The search for
- * the pose begins at x, y, z [m], quaternion w, x, y, z, or (NULL) from nothing. A message (may be NULL) says why not. */
+ * the pose begins at x, y, z [m], quaternion w, x, y, z, or (NULL) from nothing. A message (may be NULL) says why
+ * there is no estimator. */
 int32_t fn_est_new(const char *toml, size_t bytes, const fn_est_settings *settings, const fn_est_readings *readings,
                    const double *near_pose, fn_est **est, char *message, size_t message_bytes);
 int32_t fn_est_free(fn_est *est); /* NULL is fine */
@@ -327,8 +328,8 @@ int32_t fn_est_free(fn_est *est); /* NULL is fine */
 int32_t fn_est_update(fn_est *est, const fn_est_readings *readings, double step_s, fn_est_result *result);
 int32_t fn_est_get(fn_est *est, fn_est_result *result);
 
-/* Begins anew at rest with the lengths of all cables: with payload and errors of the sensors as known, or (forget 1) with
- * what was known before the first reading. near_pose: NULL for the last one. */
+/* Begins anew at rest with the lengths of all cables: with payload and errors of the sensors as known, or (forget 1)
+ * with what was known before the first reading. near_pose: NULL for the last one. */
 int32_t fn_est_restart(fn_est *est, const fn_est_readings *readings, const double *near_pose, int32_t forget,
                        char *message, size_t message_bytes);
 

@@ -1,5 +1,5 @@
-//! The estimator as a C program calls it: states of the core to the last bit, no memory in the loop, every wrong use with
-//! its status and nothing changed.
+//! The estimator as a C program calls it: states of the core to the last bit, no memory in the loop, every wrong use
+//! with its status and nothing changed.
 #![allow(missing_docs)]
 #![allow(clippy::undocumented_unsafe_blocks, reason = "every call here is one that a C program could make")]
 
@@ -83,13 +83,13 @@ fn new(settings: &EstSettings, readings: &EstReadings) -> (i32, *mut Est, String
 }
 
 /// Numbers of each cable, and the result that points at them.
-struct Rows {
+struct CableRows {
     tension: [f64; CABLES],
     tension_std: [f64; CABLES],
     slack: [f64; CABLES],
 }
 
-impl Rows {
+impl CableRows {
     fn new() -> Self {
         Self { tension: [-1.0; CABLES], tension_std: [-1.0; CABLES], slack: [7.0; CABLES] }
     }
@@ -106,8 +106,8 @@ impl Rows {
     }
 }
 
-fn get(est: *mut Est) -> (EstResult, Rows) {
-    let mut rows = Rows::new();
+fn get(est: *mut Est) -> (EstResult, CableRows) {
+    let mut rows = CableRows::new();
     let mut result = rows.result();
     assert_eq!(unsafe { fn_est_get(est, &raw mut result) }, CERTIFIED);
     (result, rows)
@@ -126,7 +126,7 @@ fn updates_are_those_of_the_core_without_memory() {
     };
     let robot = Robot::from_toml(&document("robot.toml")).unwrap();
     let mut core = Estimator::new(robot, core_settings, &of_core(&log[0]), None).unwrap();
-    let (mut rows, mut alarms, mut rang) = (Rows::new(), Vec::new(), false);
+    let (mut rows, mut alarms, mut rang) = (CableRows::new(), Vec::new(), false);
     let mut result = rows.result();
     for pair in log.windows(2) {
         let (given, step) = (readings(&pair[1]), pair[1][0] - pair[0][0]);
@@ -164,7 +164,7 @@ fn wrong_calls_are_refused_and_change_nothing() {
     }
     let (before, rows_before) = get(est);
     let given = readings(&log[21]);
-    let mut rows = Rows::new();
+    let mut rows = CableRows::new();
     let mut result = rows.result();
     let good = log[21].clone();
     let mut bad = good.clone();
@@ -267,7 +267,7 @@ fn a_slip_is_explained_and_taken() {
             - 6.0
     };
     let lengths = row[1..9].to_vec();
-    let (mut alarm, mut rows) = (0, Rows::new());
+    let (mut alarm, mut rows) = (0, CableRows::new());
     let mut result = rows.result();
     for k in 0..600 {
         for i in 0..CABLES {

@@ -40,7 +40,8 @@ use std::sync::{Mutex, MutexGuard, TryLockError};
 /// tracker_m
 ///     Position of the tracked point in the world [m].
 /// options
-///     Noise, places of the sensors and prior knowledge as in `Robot.estimate`, `false_alarms_per_hour` and `near_pose`.
+///     Noise, places of the sensors and prior knowledge as in `Robot.estimate`, `false_alarms_per_hour` and
+///     `near_pose`.
 ///
 /// Raises
 /// ------

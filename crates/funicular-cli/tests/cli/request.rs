@@ -6,7 +6,7 @@ use super::{robot, run, run_with, stderr, stdout, succeed};
 #[expect(clippy::too_many_lines, reason = "a table")]
 fn command_lines() -> Vec<Vec<String>> {
     let cogiro = robot("cogiro.toml");
-    let lines: [&[&str]; 28] = [
+    let lines: [&[&str]; 29] = [
         &["check", &cogiro],
         &["parameters", &cogiro, "--set", "platform.center_of_mass_m.x=0.1"],
         &["statics", &cogiro, "--pose", "1,2,1.5", "--tension-rule", "middle", "--max-tension-n", "1200"],

@@ -1957,6 +1957,51 @@ class RequiredSpeeds(Row):
     }
 
 
+class ObservedCase(Row):
+    """Standard deviations with some sensors, the worst of all poses and cables."""
+
+    first_moment_std_kg_m: NDArray[np.float64]
+    """Standard deviation of the payload's first moment, platform axes [kg m]."""
+    force_std_n: NDArray[np.float64]
+    """Standard deviation of the external force [N]."""
+    moment_std_n_m: NDArray[np.float64]
+    """Standard deviation of the external moment [N m]."""
+    offset_std_m: float
+    """Standard deviation of the constant error of a length [m]."""
+    payload_std_kg: float
+    """Standard deviation of the payload [kg]."""
+    position_std_m: NDArray[np.float64]
+    """Standard deviation of the position [m]."""
+    rotation_std_deg: NDArray[np.float64]
+    """Standard deviation of small turns about the world's axes [deg]."""
+    tension_bias_std_n: float | None
+    """Standard deviation of the constant error of a load cell [N].
+
+    Absent without load cells."""
+    tension_std_n: float
+    """Standard deviation of the tension of a cable [N]."""
+
+
+class ObservedNumber(Row):
+    """Number of the state with its standard deviation, the worst of all poses and cables."""
+
+    best_addition: str | None
+    """Addition that reduces this deviation most; absent if none reduces it by a tenth."""
+    determined: str
+    """`sensors` if their readings give most of what is known, `partly`, `prior` if it is what was known beforehand, or
+    `given` if it was known exactly."""
+    number: str
+    """Number."""
+    std: float
+    """Standard deviation with these sensors."""
+    std_of_lengths: float
+    """Standard deviation with the encoders alone: that of what is known beforehand."""
+    std_with_addition: float | None
+    """Standard deviation with this addition."""
+    unit: str
+    """Unit of the deviations."""
+
+
 class OtherStable(Row):
     """Another stable equilibrium, if a short search found one."""
 
@@ -3483,6 +3528,32 @@ class ModesResults(Results):
     }
 
 
+class ObservabilityResults(Results):
+    """Results of `observability`."""
+
+    best_addition: str | None
+    """Addition that reduces the deviations of all numbers most, by the product of their ratios."""
+    cases: list[ObservedCase]
+    """Deviations with the encoders alone, with these sensors, and with each sensor or pose besides."""
+    not_determined: list[str]
+    """Sentences on numbers that these sensors do not determine."""
+    numbers: list[ObservedNumber]
+    """Numbers of the state with their deviations."""
+    poses: int
+    """Number of poses."""
+    robot: str | None
+    """Name of the robot; absent if there are several."""
+    sensors: list[str]
+    """Sensors besides the encoders of all cables."""
+    warnings: list[str]
+    """Sentences that the user should know before trusting the numbers."""
+
+    _PARTS: ClassVar[dict[str, type[Row]]] = {
+        "cases": ObservedCase,
+        "numbers": ObservedNumber,
+    }
+
+
 class ParametersResults(Results):
     """Results of `parameters`."""
 
@@ -4131,6 +4202,7 @@ OF_COMMANDS.update(
         "identify": IdentifyResults,
         "loads": LoadsResults,
         "modes": ModesResults,
+        "observability": ObservabilityResults,
         "parameters": ParametersResults,
         "payload": PayloadResults,
         "pose-error": PoseErrorResults,

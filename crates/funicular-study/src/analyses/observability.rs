@@ -59,8 +59,8 @@ rows! {
         pub std: f64;
         /// Standard deviation with the encoders alone: that of what is known beforehand.
         pub std_of_lengths: f64;
-        /// `sensors` if their readings give most of what is known, `partly`, `prior` if it is what was known beforehand,
-        /// or `given` if it was known exactly.
+        /// `sensors` if their readings give most of what is known, `partly`, `prior` if it is what was known
+        /// beforehand, or `given` if it was known exactly.
         pub determined: &'static str;
         /// Addition that reduces this deviation most; absent if none reduces it by a tenth.
         pub best_addition: Option<String>;
@@ -312,8 +312,8 @@ fn not_determined(numbers: &[ObservedNumber], request: &ObservabilityRequest) ->
         .collect();
     if request.model.payload_std_kg > 0.0 && request.model.force_std_n > 0.0 {
         found.push(
-            "payload and vertical external force are one number at one time: over several poses the payload is the part \
-             that stays"
+            "payload and vertical external force are one number at one time: over several poses the payload is the \
+             part that stays"
                 .to_owned(),
         );
     }

@@ -80,8 +80,8 @@ declared! {
 }
 
 declared! {
-    /// Numbers that sensors determine at poses at rest, before any reading: the deviation of each, beside that without the
-    /// sensors, and the sensor or the pose that would add most.
+    /// Numbers that sensors determine at poses at rest, before any reading: the deviation of each, beside that without
+    /// the sensors, and the sensor or the pose that would add most.
     ///
     /// The lengths of all cables are always read. The deviations are those of `estimate` for a platform that stands at
     /// these poses one after the other. docs/estimation.md explains them.
