@@ -5,7 +5,8 @@
   const FOLDER = document.currentScript.src.replace(/[^/]*$/, "");
   const { files: NAMES, writes: WRITES, endings: NOT_HERE, commands: NO_COMMANDS, long: LONG } = RUNNABLE;
   const known = new Set(NAMES);
-  const ENDINGS = "toml csv tsv json jsonl uff unv xml yaml yml m mat dat stl txt sdf urdf py html svg pdf vti vtk npz tex md";
+  const ENDINGS =
+    "toml csv tsv json jsonl uff unv xml yaml yml m mat dat stl txt sdf urdf py html svg pdf vti vtk npz tex md";
   const FILE = new RegExp(`^[\\w./-]+\\.(${ENDINGS.replaceAll(" ", "|")}|nc|gcode)$`);
 
   /** Words of a command line as a shell reads them, and the file of `> FILE`. */
