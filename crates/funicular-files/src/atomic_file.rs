@@ -24,6 +24,10 @@ fn folder_of(path: &Path) -> &Path {
 
 /// Gives `file` the permissions of the file at `path`, if one exists there.
 fn take_permissions(file: &File, path: &Path) -> io::Result<()> {
+    // WASI has no permissions.
+    if cfg!(target_os = "wasi") {
+        return Ok(());
+    }
     fs::metadata(path).map_or(Ok(()), |metadata| file.set_permissions(metadata.permissions()))
 }
 
