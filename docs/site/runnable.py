@@ -25,6 +25,8 @@ NOT_HERE = {
     "fmu": "a unit for co-simulation needs a compiler",
     "fmu3": "a unit for co-simulation needs a compiler",
 }
+# Parts of lines that take minutes on one thread.
+LONG = ["--boxes 400000"]
 NO_COMMANDS = {
     "live": "the live page is the page “Drag the platform” of this site",
     "validate": "all comparisons together take minutes in a browser",
@@ -69,7 +71,7 @@ def write(target: Path, site: Path) -> bool:
     data = {"wasm": packed, "files": texts, "code": code}
     (folder / "program_data.js").write_text(f"const PROGRAM_DATA = {json.dumps(data)};\n", encoding="utf-8")
     shutil.copy(target / "web/LICENSE-PROGRAM.txt", folder / "LICENSE-THIRD-PARTY.txt")
-    known = {"files": sorted(texts), "writes": writing(), "endings": NOT_HERE, "commands": NO_COMMANDS}
+    known = {"files": sorted(texts), "writes": writing(), "endings": NOT_HERE, "commands": NO_COMMANDS, "long": LONG}
     about = f"const RUNNABLE = {json.dumps(known)};\n"
     script = (HERE / "static/run.js").read_text(encoding="utf-8")
     (folder / "run.js").write_text(about + script, encoding="utf-8")

@@ -2,7 +2,7 @@
 
 use anyhow::{Context, Result, bail};
 use funicular_files::Guard;
-use funicular_files::atomic_file::{self, TemporaryFile, is_regular_or_new};
+use funicular_files::atomic_file::{self, TemporaryFile, is_read_only, is_regular_or_new};
 use funicular_files::endings::{self, Kind};
 use std::fs;
 use std::io::{self, Write};
@@ -54,7 +54,7 @@ impl Destination {
         guard.writes(content.name, path)?;
         endings::check(path, content.in_words, content.fitting)?;
         if is_regular_or_new(&target) {
-            if fs::metadata(&target).is_ok_and(|metadata| metadata.permissions().readonly()) {
+            if is_read_only(&target) {
                 let text = format!("cannot write to {shown}: it is read-only");
                 return Err(io::Error::new(io::ErrorKind::PermissionDenied, text).into());
             }

@@ -24,7 +24,17 @@ fn folder_of(path: &Path) -> &Path {
 
 /// Gives `file` the permissions of the file at `path`, if one exists there.
 fn take_permissions(file: &File, path: &Path) -> io::Result<()> {
+    // WASI has no permissions.
+    if cfg!(target_os = "wasi") {
+        return Ok(());
+    }
     fs::metadata(path).map_or(Ok(()), |metadata| file.set_permissions(metadata.permissions()))
+}
+
+/// True for a file that cannot be written. WASI tells no permissions, and its files would all seem to be read-only.
+pub fn is_read_only(path: &Path) -> bool {
+    let has_permissions = !cfg!(target_os = "wasi");
+    has_permissions && fs::metadata(path).is_ok_and(|metadata| metadata.permissions().readonly())
 }
 
 /// Temporary file in the folder of its target. It takes the target's name when it is complete, and is removed

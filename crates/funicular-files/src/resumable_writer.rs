@@ -1,6 +1,6 @@
 //! Writing of one file of rows that may take several runs: journal, continuation and completion.
 
-use crate::atomic_file::{TemporaryFile, is_regular_or_new};
+use crate::atomic_file::{TemporaryFile, is_read_only, is_regular_or_new};
 use crate::journal::{self, Found, Journal};
 use crate::parquet::ParquetFile;
 use crate::{FilesError, Format, Rows, behind_link, vti, with_ending, write_complete};
@@ -199,7 +199,7 @@ pub(crate) fn check_place(path: &Path, format: Format, record: &Record) -> Resul
     if !is_regular_or_new(path) {
         return Err(place("it is no regular file; name a regular file, or leave out ⟪output_file⟫".to_owned()));
     }
-    if fs::metadata(path).is_ok_and(|metadata| metadata.permissions().readonly()) {
+    if is_read_only(path) {
         return Err(place("it is read-only".to_owned()));
     }
     TemporaryFile::beside(path).map_err(|error| place(crate::io_reason(&error)))?;

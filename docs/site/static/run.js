@@ -3,9 +3,10 @@
 
 (() => {
   const FOLDER = document.currentScript.src.replace(/[^/]*$/, "");
-  const { files: NAMES, writes: WRITES, endings: NOT_HERE, commands: NO_COMMANDS } = RUNNABLE;
+  const { files: NAMES, writes: WRITES, endings: NOT_HERE, commands: NO_COMMANDS, long: LONG } = RUNNABLE;
   const known = new Set(NAMES);
-  const ENDINGS = "toml csv tsv json jsonl uff unv xml yaml yml m mat dat stl txt sdf urdf py html svg pdf vti vtk npz tex md";
+  const ENDINGS =
+    "toml csv tsv json jsonl uff unv xml yaml yml m mat dat stl txt sdf urdf py html svg pdf vti vtk npz tex md";
   const FILE = new RegExp(`^[\\w./-]+\\.(${ENDINGS.replaceAll(" ", "|")}|nc|gcode)$`);
 
   /** Words of a command line as a shell reads them, and the file of `> FILE`. */
@@ -33,6 +34,7 @@
       if (!/^funicular\s/.test(line)) return `\`${line.split(/\s/)[0]}\` is another program`;
       if (/[|;&<`$]|>>/.test(line.replace(/'[^']*'|"[^"]*"/g, ""))) return "it needs a shell";
       const { words: all, to } = words(line);
+      if (LONG.some((part) => line.includes(part))) return "it takes minutes on one thread";
       if (NO_COMMANDS[all[1]]) return NO_COMMANDS[all[1]];
       for (const [i, word] of all.entries()) {
         const option = all[i - 1]?.replace(/^--/, "").replaceAll("-", "_");
