@@ -57,9 +57,9 @@ impl<T: OwnedKind> Owned<T> {
             Ok(Box::new(Self { kind, busy, poisoned, state }))
         };
         let (status, why) = match guarded(make).unwrap_or_else(|| Err(silent(PANIC))) {
-            Ok(made) => {
+            Ok(owned) => {
                 // SAFETY: `out` was checked.
-                unsafe { out.write(Box::into_raw(made)) };
+                unsafe { out.write(Box::into_raw(owned)) };
                 (CERTIFIED, Cow::Borrowed(""))
             }
             Err(told) => told,

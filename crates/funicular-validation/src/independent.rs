@@ -325,14 +325,14 @@ impl RobotComparison<'_> {
 
         let az = ours(&frf.frequency_hz, &up, &up, Quantity::Acceleration)?;
         let ay = ours(&frf.frequency_hz, &up, &aside, Quantity::Acceleration)?;
-        rows.push(self.response(
+        rows.push(Self::response(
             self.case.of("accelerance-z", "accelerance az/fz, largest [1/kg]"),
             &frf.az,
             &frf.az,
             &az,
         ));
         // For a symmetric robot ay is zero, so its difference is relative to az.
-        rows.push(self.response(
+        rows.push(Self::response(
             self.case.of("accelerance-y", "accelerance ay/fz, largest [1/kg]"),
             &frf.ay,
             &frf.az,
@@ -344,14 +344,13 @@ impl RobotComparison<'_> {
         let output = along(Vec3::from(offset.output_direction_w), Vec3::from(offset.output_point_p));
         let x = ours(&offset.frequency_hz, &input, &output, Quantity::Displacement)?;
         let quantity = self.case.of("receptance", "receptance between offset points, largest [m/N]");
-        rows.push(self.response(quantity, &offset.response, &offset.response, &x));
+        rows.push(Self::response(quantity, &offset.response, &offset.response, &x));
         Ok(())
     }
 
     /// Compares responses relative to the larger of the reference and `scale` at each frequency. The largest modulus
     /// is shown.
     fn response(
-        &self,
         quantity: ComparedQuantity,
         theirs: &ReferenceResponse,
         scale: &ReferenceResponse,

@@ -101,16 +101,11 @@ fn begins(id: &str, name: &str) -> bool {
 fn unknown(id: &str, sections: &[Section]) -> anyhow::Error {
     let rows = sections.iter().flat_map(|section| section.rows.iter().map(|row| row.id.as_str()));
     let known: Vec<&str> = SECTIONS.iter().map(|declared| declared.id).chain(rows).collect();
-    match nearest(id, known.iter().copied()) {
-        Some(near) => anyhow!("⟪only⟫: no comparison has an ID that begins with {id}; did you mean {near}?"),
-        None => {
-            let sections: Vec<&str> = SECTIONS.iter().map(|declared| declared.id).collect();
-            anyhow!(
-                "⟪only⟫: no comparison has an ID that begins with {id}; IDs begin with a section: {}",
-                sections.join(", ")
-            )
-        }
+    if let Some(near) = nearest(id, known.iter().copied()) {
+        return anyhow!("⟪only⟫: no comparison has an ID that begins with {id}; did you mean {near}?");
     }
+    let sections: Vec<&str> = SECTIONS.iter().map(|declared| declared.id).collect();
+    anyhow!("⟪only⟫: no comparison has an ID that begins with {id}; IDs begin with a section: {}", sections.join(", "))
 }
 
 impl Validated {

@@ -101,7 +101,7 @@ impl<'a> CasePlan<'a> {
             }
             let row = self.row(case, &estimator.state());
             worst = Some(match worst {
-                Some(worst) => larger(worst, row),
+                Some(worst) => larger(worst, &row),
                 None => row,
             });
         }
@@ -140,7 +140,7 @@ fn full_readings(
 }
 
 /// Larger of the deviations of two poses.
-fn larger(a: ObservedCase, b: ObservedCase) -> ObservedCase {
+fn larger(a: ObservedCase, b: &ObservedCase) -> ObservedCase {
     let three = |a: [f64; 3], b: [f64; 3]| [0, 1, 2].map(|k| a[k].max(b[k]));
     ObservedCase {
         with: a.with,
