@@ -109,7 +109,7 @@ const INTRODUCTION: &str = "\
 # Validation
 
 Every reference number here was published by others or computed by other means. The program computes the same case and
-reports the difference. This file is generated: `funicular validate --controls -o docs/validation.md`. `funicular
+reports the difference. This file is generated: `funicular validate --controls > docs/validation.md`. `funicular
 validate --format json` gives every digit, `-o FILE.xml` a report for build servers (JUnit), `-o FILE.svg` a badge. The
 reference numbers, each with its source, are in `crates/funicular-validation/reference/`.
 

@@ -1445,6 +1445,51 @@ class StationsRow(Row):
     }
 
 
+class ObservedCase(Row):
+    """Standard deviations with some sensors, the worst of all poses and cables."""
+
+    first_moment_std_kg_m: NDArray[np.float64]
+    """Standard deviation of the payload's first moment, platform axes [kg m]."""
+    force_std_n: NDArray[np.float64]
+    """Standard deviation of the external force [N]."""
+    moment_std_n_m: NDArray[np.float64]
+    """Standard deviation of the external moment [N m]."""
+    offset_std_m: float
+    """Standard deviation of the constant error of a length [m]."""
+    payload_std_kg: float
+    """Standard deviation of the payload [kg]."""
+    position_std_m: NDArray[np.float64]
+    """Standard deviation of the position [m]."""
+    rotation_std_deg: NDArray[np.float64]
+    """Standard deviation of small turns about the world's axes [deg]."""
+    tension_bias_std_n: float | None
+    """Standard deviation of the constant error of a load cell [N].
+
+    Absent without load cells."""
+    tension_std_n: float
+    """Standard deviation of the tension of a cable [N]."""
+
+
+class ObservedNumber(Row):
+    """Number of the state with its standard deviation, the worst of all poses and cables."""
+
+    best_addition: str | None
+    """Addition that reduces this deviation most; absent if none reduces it by a tenth."""
+    determined: str
+    """`sensors` if their readings give most of what is known, `partly`, `prior` if it is what was known beforehand, or
+    `given` if it was known exactly."""
+    number: str
+    """Number."""
+    std: float
+    """Standard deviation with these sensors."""
+    std_of_lengths: float
+    """Standard deviation with the encoders alone: that of what is known beforehand."""
+    std_with_addition: float | None
+    """Standard deviation with this addition."""
+    unit: str
+    """Unit of the deviations."""
+
+
 class ParameterRow(Row):
     """Number of a robot."""
 
@@ -1957,51 +2002,6 @@ class RequiredSpeeds(Row):
     }
 
 
-class ObservedCase(Row):
-    """Standard deviations with some sensors, the worst of all poses and cables."""
-
-    first_moment_std_kg_m: NDArray[np.float64]
-    """Standard deviation of the payload's first moment, platform axes [kg m]."""
-    force_std_n: NDArray[np.float64]
-    """Standard deviation of the external force [N]."""
-    moment_std_n_m: NDArray[np.float64]
-    """Standard deviation of the external moment [N m]."""
-    offset_std_m: float
-    """Standard deviation of the constant error of a length [m]."""
-    payload_std_kg: float
-    """Standard deviation of the payload [kg]."""
-    position_std_m: NDArray[np.float64]
-    """Standard deviation of the position [m]."""
-    rotation_std_deg: NDArray[np.float64]
-    """Standard deviation of small turns about the world's axes [deg]."""
-    tension_bias_std_n: float | None
-    """Standard deviation of the constant error of a load cell [N].
-
-    Absent without load cells."""
-    tension_std_n: float
-    """Standard deviation of the tension of a cable [N]."""
-
-
-class ObservedNumber(Row):
-    """Number of the state with its standard deviation, the worst of all poses and cables."""
-
-    best_addition: str | None
-    """Addition that reduces this deviation most; absent if none reduces it by a tenth."""
-    determined: str
-    """`sensors` if their readings give most of what is known, `partly`, `prior` if it is what was known beforehand, or
-    `given` if it was known exactly."""
-    number: str
-    """Number."""
-    std: float
-    """Standard deviation with these sensors."""
-    std_of_lengths: float
-    """Standard deviation with the encoders alone: that of what is known beforehand."""
-    std_with_addition: float | None
-    """Standard deviation with this addition."""
-    unit: str
-    """Unit of the deviations."""
-
-
 class OtherStable(Row):
     """Another stable equilibrium, if a short search found one."""
 
@@ -2213,8 +2213,8 @@ class Extreme(Row):
     unit: str
     """Unit."""
     value: float | None
-    """Largest beside the jumps where the number has no bound; absent where rates jump because tensions reach limits, near
-    which they change too fast for a number that does not depend on the rows."""
+    """Largest beside the jumps where the number has no bound; absent where rates jump because tensions reach limits, or
+    other conditions hold them, near which they change too fast for a number that does not depend on the rows."""
     what: str
     """Name of the number."""
 

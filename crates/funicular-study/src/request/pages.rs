@@ -106,7 +106,7 @@ declared! {
         "funicular validate",
         "funicular validate --only catenary/michalos-1962",
         "funicular validate --level measured --format json",
-        "funicular validate --controls -o docs/validation.md",
+        "funicular validate --controls",
         "funicular validate -o validation.xml",
     }
 }
