@@ -218,8 +218,8 @@ pub(super) fn between(
     Ok(samples)
 }
 
-/// True if other conditions come so near that they may hold the tensions for a moment between two samples, as the changes
-/// since the sample before tell; `None` without that sample.
+/// True if other conditions come so near that they may hold the tensions for a moment between two samples, as the
+/// changes since the sample before tell; `None` without that sample.
 fn may_change(before: Option<&Sample>, [last, next]: [&Sample; 2]) -> Option<bool> {
     let whole = next.0.time - last.0.time;
     // Both sides of a jump tell no change, and the path bends at its corners.
@@ -230,8 +230,8 @@ fn may_change(before: Option<&Sample>, [last, next]: [&Sample; 2]) -> Option<boo
     Some(!before.1.held.are_alike(&last.1.held) || pairs.any(is_near))
 }
 
-/// Sample between two at which other conditions hold the tensions than at both of them: a limit is reached and left, say.
-/// `None` if there is none.
+/// Sample between two at which other conditions hold the tensions than at both of them: a limit is reached and left,
+/// say. `None` if there is none.
 fn reached_between(
     along: &mut AlongPath,
     planned: &Planned,
