@@ -51,6 +51,7 @@ fn lines() -> Vec<(&'static str, Vec<String>)> {
         line("design", "COGIRO --pose 0,0,1.5 --change cables.1.anchor_m.z=±0.1 --max-iterations 1"),
         line("workspace", "COGIRO --step-m 2 --max-tension-n 5000 --section z=1.5 --prove --boxes 100"),
         line("prove", "COGIRO --pose 0,0,1.5 --within-m 5,3,1 --boxes 60"),
+        line("validate", "--only paper"),
     ]
 }
 

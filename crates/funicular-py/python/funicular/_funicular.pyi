@@ -21,10 +21,10 @@ from funicular._pages import Page
 from funicular._results import Modes, ReducedModel, StateSpaceModel
 from funicular._uncertainty import Uncertainty
 from funicular._words import StaticModel, TensionRule, CableModel, Assembly, Winches, Hold, Per, Method, Goal, ExportFormat, Result
-from funicular.results import CableResults, CalibrateResults, ClearanceResults, CompareResults, EstimateResults, GradientResults, GustResults, LoadsResults, PayloadResults, PoseErrorResults, ProveResults, SettleResults, SimulateResults, SpeedsResults, TrajectoryResults, WinchesResults, WorkspaceResults
+from funicular.results import CableResults, CalibrateResults, ClearanceResults, CompareResults, EstimateResults, GradientResults, GustResults, LoadsResults, ObservabilityResults, PayloadResults, PoseErrorResults, ProveResults, SettleResults, SimulateResults, SpeedsResults, TrajectoryResults, WinchesResults, WorkspaceResults
 from typing import Literal, overload
 
-__all__ = ["__version__", "Analyses", "Answered", "Catenary", "Equilibrium", "Pose", "Robot", "Simulation", "SweepPlan", "SweepTable", "SweepWork", "answer", "argument", "check_files", "complete_request", "complex_numbers", "declarations", "figure_sizes", "imported", "interval", "matlab_file", "measurements_of_file", "merge_parts", "number", "numbers", "outputs_of_commands", "peaks", "plot_page", "real_numbers", "robot_of_source", "shown", "source_file", "suggested", "text_of", "try_file", "unit_of_name", "write_file", "write_unit"]
+__all__ = ["__version__", "Analyses", "Answered", "Catenary", "Equilibrium", "Estimator", "Pose", "Robot", "Simulation", "SweepPlan", "SweepTable", "SweepWork", "answer", "argument", "check_files", "complete_request", "complex_numbers", "declarations", "figure_sizes", "imported", "interval", "library", "matlab_file", "measurements_of_file", "merge_parts", "number", "numbers", "outputs_of_commands", "peaks", "plot_page", "real_numbers", "robot_of_source", "shown", "source_file", "suggested", "text_of", "try_file", "unit_of_name", "write_file", "write_unit"]
 
 __version__: Final[str]
 
@@ -781,7 +781,8 @@ class Equilibrium(Analyses):
         degree
             Degree of the polynomials of each element; 8 if not given.
         damping_frequency_hz
-            Frequency at which the damping ratio of the ropes holds [Hz]; the first natural frequency if not given.
+            Frequency at which the damping ratio of the ropes and their loss factor hold [Hz]; if not given, the first
+            natural frequency, for a loss factor that of the mode with most stretch.
         stretch_damping_time_s
             Damping time of the stretch of all ropes [s] in place of that of the robot file.
         hold_platform
@@ -872,6 +873,124 @@ class Equilibrium(Analyses):
     def warnings(self, /) -> list[str]:
         """
         Caveats of the result.
+        """
+
+@final
+class Estimator:
+    """
+    Estimator of pose, velocity, payload, tensions and errors of the sensors, inside a loop.
+
+    The filter of `Robot.estimate`, which gets readings as they come. The platform rests at the first ones. What raises
+    an exception leaves the estimator as it was.
+
+    Parameters
+    ----------
+    robot
+        Robot.
+    lengths_m
+        Unstrained lengths of all cables by their encoders [m].
+    tensions_n
+        Tensions at anchors or drums [N]: one per cable, or a dictionary by names.
+    azimuths_rad
+        Azimuths at which cables leave their anchors, about z from x [rad].
+    elevations_rad
+        Elevations of the cables at their anchors above the xy plane [rad].
+    gyroscope_rad_s
+        Angular velocity, platform axes [rad/s].
+    accelerometer_m_s2
+        Specific force, platform axes [m/s²]; at rest minus gravity.
+    tracker_m
+        Position of the tracked point in the world [m].
+    options
+        Noise, places of the sensors and prior knowledge as in `Robot.estimate`, `false_alarms_per_hour` and
+        `near_pose`.
+
+    Raises
+    ------
+    InputError
+        A reading or an option is wrong, or a length is missing.
+    NoSolutionError
+        The lengths have no equilibrium.
+    """
+    def __new__(cls, /, robot: Robot, lengths_m: dict[str, Any] | ArrayLike, *, tensions_n: dict[str, Any] | ArrayLike | None = None, azimuths_rad: dict[str, Any] | ArrayLike | None = None, elevations_rad: dict[str, Any] | ArrayLike | None = None, gyroscope_rad_s: ArrayLike | None = None, accelerometer_m_s2: ArrayLike | None = None, tracker_m: ArrayLike | None = None, **options) -> Estimator: ...
+    def __repr__(self, /) -> str: ...
+    @property
+    def alarms(self, /) -> list[dict[str, Any]]:
+        """
+        All alarms so far, as in the results of `Robot.estimate`.
+        """
+    @property
+    def cable_names(self, /) -> list[str]:
+        """
+        Names of the cables, in the order of the file.
+        """
+    @property
+    def now(self, /) -> Results:
+        """
+        Present state with the keys of a row of `Robot.estimate`.
+        """
+    def restart(self, /, lengths_m: dict[str, Any] | ArrayLike, *, tensions_n: dict[str, Any] | ArrayLike | None = None, gyroscope_rad_s: ArrayLike | None = None, accelerometer_m_s2: ArrayLike | None = None, tracker_m: ArrayLike | None = None, near_pose: Pose | ArrayLike | None = None, forget: bool = False) -> None:
+        """
+        Begins anew at rest with the lengths of all cables.
+
+        Parameters
+        ----------
+        lengths_m
+            Unstrained lengths of all cables by their encoders [m].
+        tensions_n
+            Tensions at anchors or drums [N]: one per cable, or a dictionary by names.
+        gyroscope_rad_s
+            Angular velocity, platform axes [rad/s].
+        accelerometer_m_s2
+            Specific force, platform axes [m/s²]; at rest minus gravity.
+        tracker_m
+            Position of the tracked point in the world [m].
+        near_pose
+            Pose near which the platform is; the last one if not given.
+        forget
+            Begin with what was known before the first reading; otherwise payload and errors of the sensors stay as they
+            are known.
+
+        Raises
+        ------
+        InputError
+            A reading is wrong or a length is missing; the estimator is as it was.
+        NoSolutionError
+            The lengths have no equilibrium; the estimator is as it was.
+        """
+    def update(self, /, dt_s: SupportsFloat | SupportsIndex, *, lengths_m: dict[str, Any] | ArrayLike | None = None, tensions_n: dict[str, Any] | ArrayLike | None = None, azimuths_rad: dict[str, Any] | ArrayLike | None = None, elevations_rad: dict[str, Any] | ArrayLike | None = None, gyroscope_rad_s: ArrayLike | None = None, accelerometer_m_s2: ArrayLike | None = None, tracker_m: ArrayLike | None = None) -> Results:
+        """
+        Moves the estimate by a time step and takes the readings at its end. A reading that is left out was not there.
+
+        Parameters
+        ----------
+        dt_s
+            Time step [s], above 0 and at most 1.
+        lengths_m
+            Unstrained lengths by the encoders [m]: one per cable, or a dictionary by names.
+        tensions_n
+            Tensions at anchors or drums [N]: one per cable, or a dictionary by names.
+        azimuths_rad
+            Azimuths at which cables leave their anchors, about z from x [rad].
+        elevations_rad
+            Elevations of the cables at their anchors above the xy plane [rad].
+        gyroscope_rad_s
+            Angular velocity, platform axes [rad/s].
+        accelerometer_m_s2
+            Specific force, platform axes [m/s²]; at rest minus gravity.
+        tracker_m
+            Position of the tracked point in the world [m], at this time.
+
+        Returns
+        -------
+        The keys of a row of `Robot.estimate`, with the time since the start, and `alarms` since the last call.
+
+        Raises
+        ------
+        InputError
+            The step or a reading is wrong; the estimator is as it was.
+        NoSolutionError
+            No length has been read for 0.2 s, or the readings lead nowhere: call `restart`. The estimator is as it was.
         """
 
 @final
@@ -1628,6 +1747,79 @@ class Robot(Analyses):
         -----
         RobotWarning
             The robot has a value that no usual robot has; once per call, before the rows are computed.
+        """
+    def observability(self, /, sensors: str | Sequence[str] | None = None, pose: Pose | ArrayLike | None = None, *, further_pose_m: SupportsFloat | SupportsIndex | None = None, grid: Mapping[str, ArrayLike] | None = None, poses: ArrayLike | None = None, inertial_unit_m: ArrayLike | None = None, tracked_point_m: ArrayLike | None = None, length_std_m: SupportsFloat | SupportsIndex | None = None, tension_std_n: SupportsFloat | SupportsIndex | None = None, cable_angle_std_rad: SupportsFloat | SupportsIndex | None = None, gyroscope_std_rad_s: SupportsFloat | SupportsIndex | None = None, accelerometer_std_m_s2: SupportsFloat | SupportsIndex | None = None, tracker_std_m: SupportsFloat | SupportsIndex | None = None, payload_kg: SupportsFloat | SupportsIndex | None = None, payload_std_kg: SupportsFloat | SupportsIndex | None = None, first_moment_std_kg_m: SupportsFloat | SupportsIndex | None = None, force_std_n: SupportsFloat | SupportsIndex | None = None, moment_std_n_m: SupportsFloat | SupportsIndex | None = None, force_time_s: SupportsFloat | SupportsIndex | None = None, offset_std_m: SupportsFloat | SupportsIndex | None = None, tension_bias_std_n: SupportsFloat | SupportsIndex | None = None, friction: SupportsFloat | SupportsIndex | None = None, lengths_m: ArrayLike | None = None, hold_lengths_of_pose: bool = False, mass_kg: SupportsFloat | SupportsIndex | None = None, static_model: StaticModel = "catenary", force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, wind_m_s: ArrayLike | None = None, cable_load_n_per_m: ArrayLike | None = None, tension_rule: TensionRule | None = None, target_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None) -> ObservabilityResults:
+        """
+        Computes which numbers sensors determine at poses at rest, before any reading, and what would add most.
+
+        Parameters
+        ----------
+        sensors
+            Sensors besides the encoders of all cables: `tensions`, `cable-angles`, `gyroscope`, `accelerometer`, `tracker`;
+            `none` for the encoders alone.
+        further_pose_m
+            Distance of the further poses that are tried, along each axis to both sides [m]; 0.3 if not given.
+        grid
+            Axis of the grid: x, y, z [m], roll, pitch, yaw [degrees], with N values from A to B, or with listed values
+            (repeatable); an axis that is not given keeps the value of the robot's state or of `pose`.
+        poses
+            List of poses instead of a grid: position [m] and roll, pitch, yaw [degrees].
+        inertial_unit_m
+            Place of the inertial unit, platform frame [m]; its axes are those of the platform; 0.0, 0.0, 0.0 if not
+            given.
+        tracked_point_m
+            Tracked point, platform frame [m]; 0.0, 0.0, 0.0 if not given.
+        length_std_m
+            Standard deviation of a length between its readings [m]; 2e-05 if not given.
+        tension_std_n
+            Standard deviation of a tension [N]; 3 if not given.
+        cable_angle_std_rad
+            Standard deviation of the direction of a cable [rad]; 0.001 if not given.
+        gyroscope_std_rad_s
+            Standard deviation of the gyroscope [rad/s]; 0.002 if not given.
+        accelerometer_std_m_s2
+            Standard deviation of the accelerometer [m/s²]; 0.03 if not given.
+        tracker_std_m
+            Standard deviation of each coordinate of the tracked point [m]; 0.001 if not given.
+        payload_kg
+            Payload beyond the platform of the file that is expected at the start [kg]; 0 if not given.
+        payload_std_kg
+            Standard deviation of this payload [kg]; 20 if not given.
+        first_moment_std_kg_m
+            Standard deviation of the payload's first moment about the platform origin, each component [kg m]; 2 if not
+            given.
+        force_std_n
+            Standard deviation of an external force besides the loads of the file, each component [N]; 3 if not given.
+        moment_std_n_m
+            Standard deviation of such a moment, each component [N m]; 0.5 if not given.
+        force_time_s
+            Time in which the external force and moment change [s]; 1 if not given.
+        offset_std_m
+            Standard deviation of the constant error of each length [m]; 0.001 if not given.
+        tension_bias_std_n
+            Standard deviation of the constant error of each tension [N]; 5 if not given.
+        friction
+            Coefficient of friction between rope and load cell: the error of a tension wanders by twice this part of it
+            within a centimetre of travel; 0 if not given.
+
+        The other parameters are those of `Robot.equilibrium`.
+
+        Returns
+        -------
+        The keys of the program's JSON: `numbers` with the deviation of each number with these sensors and with the encoders
+        alone, `cases` with the deviations for each further sensor and pose, `best_addition`, and `not_determined` as
+        sentences.
+
+        Raises
+        ------
+        StaticsError
+            The cables hold the platform at none of these poses.
+        NoSolutionError
+            The filter finds no balance at a pose.
+
+        References
+        ----------
+        docs/theory.md, equation (97r).
         """
     def payload(self, /, pose: Pose | ArrayLike | None = None, lengths_m: ArrayLike | None = None, static_model: StaticModel = "catenary", tension_rule: TensionRule | None = None, *, payload_center_m: ArrayLike | None = None, hold_lengths_of_pose: bool = False, mass_kg: SupportsFloat | SupportsIndex | None = None, force_n: ArrayLike | None = None, moment_n_m: ArrayLike | None = None, load_point_m: ArrayLike | None = None, wind_m_s: ArrayLike | None = None, cable_load_n_per_m: ArrayLike | None = None, target_tension_n: ArrayLike | None = None, min_tension_n: SupportsFloat | SupportsIndex | None = None, max_tension_n: SupportsFloat | SupportsIndex | None = None) -> PayloadResults:
         """

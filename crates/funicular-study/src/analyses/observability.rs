@@ -25,8 +25,11 @@ const MAX_POSES: usize = 30;
 /// quarters of what is known about it then.
 const MOSTLY_READ: f64 = 0.5;
 
-/// Part from which on a number is what was known beforehand.
+/// Part from which on a number is as the encoders and what was known beforehand give it.
 const AS_BEFORE: f64 = 0.9;
+
+/// Numbers that the encoders give: the others have a prior of their own.
+const OF_ENCODERS: [&str; 3] = ["position", "turn", "tension"];
 
 rows! {
     /// Results of `observability`.
@@ -57,10 +60,10 @@ rows! {
         pub unit: &'static str;
         /// Standard deviation with these sensors.
         pub std: f64;
-        /// Standard deviation with the encoders alone: that of what is known beforehand.
+        /// Standard deviation with the encoders alone.
         pub std_of_lengths: f64;
-        /// `sensors` if their readings give most of what is known, `partly`, `prior` if it is what was known
-        /// beforehand, or `given` if it was known exactly.
+        /// `sensors` if their readings give most of what is known, `partly`; otherwise `encoders` for pose and tensions,
+        /// `prior` for what was known beforehand, or `given` if it was known exactly.
         pub determined: &'static str;
         /// Addition that reduces this deviation most; absent if none reduces it by a tenth.
         pub best_addition: Option<String>;
@@ -266,6 +269,7 @@ fn numbers(rows: &[ObservedCase]) -> Vec<ObservedNumber> {
                 () if *alone == 0.0 => "given",
                 () if part <= MOSTLY_READ => "sensors",
                 () if part < AS_BEFORE => "partly",
+                () if OF_ENCODERS.iter().any(|of| number.starts_with(of)) => "encoders",
                 () => "prior",
             };
             let best = (additions.iter().zip(&rows[2..]))
