@@ -94,6 +94,8 @@ PRIVATE = re.compile(r"^    def _[a-z]\w*[a-z]\(.*:(?: \.\.\.)?\n(?:        .*\n
 
 for path in map(Path, sys.argv[1:]):
     text = PRIVATE.sub("", path.read_text())
+    # Further keywords have no type in the compiled half.
+    text = re.sub(r"(\*\*\w+)(?=[,)])", r"\1: Any", text)
     for of in (funicular.Analyses, funicular.Robot):
         text = with_methods(text, of)
     path.write_text(with_imports(FUNCTION.sub(overloads, text)))

@@ -74,5 +74,5 @@ def test_the_paper_has_the_form_of_its_journal() -> None:
 def test_the_numbers_of_the_paper_are_those_of_the_program() -> None:
     robots = [path for path in (ROOT / "robots").glob("*.toml") if path.name != "Cargo.toml"]
     assert len(robots) == 17 and "seventeen robot files" in PAPER
-    passed = re.search(r"^(\d+) of (\d+) comparisons pass\.$", (ROOT / "docs/validation.md").read_text(), re.MULTILINE)
+    passed = re.search(r"^(\d+) of (\d+) comparisons pass\b", (ROOT / "docs/validation.md").read_text(), re.MULTILINE)
     assert passed and passed[1] == passed[2] and int(passed[1]) > 1400 and "more than 1,400 comparisons" in PAPER

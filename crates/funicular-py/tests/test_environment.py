@@ -7,6 +7,7 @@ from typing import Any
 import gymnasium
 import numpy as np
 import pytest
+from conftest import ROOT
 from funicular import InputError, NoSolutionError, Pose, Robot
 from funicular.environment import RobotEnv, Task, VectorRobotEnv, _rotation_vector
 from gymnasium.utils.env_checker import check_env
@@ -16,7 +17,7 @@ MESH = {"elements": 1, "degree": 4, "tolerance_m": 1e-4}
 
 
 def cogiro(**more: Any) -> RobotEnv:
-    robot = Robot.from_file("robots/cogiro.toml")
+    robot = Robot.from_file(ROOT / "robots/cogiro.toml")
     return RobotEnv(robot, ([-0.5, -0.5, 1.5, 0, 0, -5], [0.5, 0.5, 2, 0, 0, 5]), start=[0, 0, 2], mesh=MESH, **more)
 
 

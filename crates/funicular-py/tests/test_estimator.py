@@ -89,7 +89,8 @@ def test_encoders_that_are_silent_are_told_and_a_restart_goes_on(machine: Robot)
             estimator.update(0.01)
     lengths = log[-1][1]["lengths_m"]
     estimator.restart(lengths)
-    assert estimator.now["payload_std_kg"] <= known + 1e-12
+    # What is known of the payload stays, but for what may have happened meanwhile.
+    assert estimator.now["payload_std_kg"] < known * 1.0001
     assert [alarm["fault"] for alarm in estimator.update(0.01, lengths_m=lengths)["alarms"]] == ["restart"]
     estimator.restart(lengths, forget=True)
     assert estimator.now["payload_std_kg"] == pytest.approx(0.5, rel=0.01)

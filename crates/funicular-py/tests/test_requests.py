@@ -90,7 +90,7 @@ MORE = [
     f"funicular estimate {ESTIMATED} --every-s 0.5 --inertial-unit-m 0.1,0,0.5 --tracked-point-m 0,0,1 --near-pose 0,0,1.5 --false-alarms-per-hour 1 --length-std-m 1e-5 --tension-std-n 4",
     f"funicular estimate {ESTIMATED} --every-s 1 --cable-angle-std-rad 0.002 --gyroscope-std-rad-s 0.003 --accelerometer-std-m-s2 0.05 --tracker-std-m 0.002 --payload-kg 1 --payload-std-kg 0.5",
     f"funicular estimate {ESTIMATED} --every-s 1 --first-moment-std-kg-m 0.05 --force-std-n 2 --moment-std-n-m 0.4 --force-time-s 2 --offset-std-m 0.002 --tension-bias-std-n 6 --friction 0.01",
-    f"funicular observability docs/estimation/robot.toml --sensors tensions,tracker --pose 0,0,1.5 --further-pose-m 0.2 --inertial-unit-m 0.1,0,0.5 --tracked-point-m 0,0,1 --length-std-m 1e-5 {TENSIONS}",
+    f"funicular observability docs/estimation/robot.toml --sensors tensions,tracker --further-pose-m 0.2 --inertial-unit-m 0.1,0,0.5 --tracked-point-m 0,0,1 --length-std-m 1e-5 {TENSIONS}",
     "funicular observability docs/estimation/robot.toml --sensors none --grid x=-0.5:0.5:2 --grid z=1.5 --tension-std-n 4 --cable-angle-std-rad 0.002 --gyroscope-std-rad-s 0.003 --accelerometer-std-m-s2 0.05 --tracker-std-m 0.002 --payload-kg 1",
     "funicular observability docs/estimation/robot.toml --poses docs/design/cogiro-poses.csv --sensors accelerometer,gyroscope --payload-std-kg 0.5 --first-moment-std-kg-m 0.05 --force-std-n 2 --moment-std-n-m 0.4 --force-time-s 2 --offset-std-m 0.002",
     f"funicular observability docs/estimation/robot.toml --sensors cable-angles --tension-bias-std-n 6 --friction 0.01 {STATE}",
@@ -170,6 +170,8 @@ MORE = [
     f"funicular uncertainty {ROBOT} --deviations platform.mass_kg=1% --method sampled --samples 20 --seed 3 {LENGTHS} {MODEL}",
     "funicular uncertainty robots/cogiro.toml --covariance covariance.csv --grid x=0:1:2 --grid z=1.5 --of pose",
     f"funicular cable {ROBOT} --name 3 {RANGE}",
+    "funicular validate --only paper --level published",
+    "funicular validate --only cube --controls",
     f"funicular cable {ROBOT} --name 3 {RANGE} --log --pose 0,0,0.5 {STATE} --cable-model shallow-dynamic "
     "--in-plane-only --winches stuck",
     f"funicular pose-error {ROBOT} --mass-kg 10.55:86.35:5 {LENGTHS} --tolerance-mm 5",

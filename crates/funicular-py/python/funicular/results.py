@@ -1476,14 +1476,14 @@ class ObservedNumber(Row):
     best_addition: str | None
     """Addition that reduces this deviation most; absent if none reduces it by a tenth."""
     determined: str
-    """`sensors` if their readings give most of what is known, `partly`, `prior` if it is what was known beforehand, or
-    `given` if it was known exactly."""
+    """`sensors` if their readings give most of what is known, `partly`; otherwise `encoders` for pose and tensions,
+    `prior` for what was known beforehand, or `given` if it was known exactly."""
     number: str
     """Number."""
     std: float
     """Standard deviation with these sensors."""
     std_of_lengths: float
-    """Standard deviation with the encoders alone: that of what is known beforehand."""
+    """Standard deviation with the encoders alone."""
     std_with_addition: float | None
     """Standard deviation with this addition."""
     unit: str
