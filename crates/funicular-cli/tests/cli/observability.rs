@@ -68,7 +68,8 @@ fn what_sensors_determine_is_said_with_the_best_addition() {
     let several = observed(&[&["--sensors", "tensions", "--offset-std-m", "0"], &grid[..]].concat());
     assert_eq!(several["poses"], 4);
     let four = number_of(&several, "payload")["std"].as_f64().unwrap();
-    assert!(four < 0.7 * one, "{four} {one}");
+    // The constant errors of the load cells stay: less than by the root of four.
+    assert!(four < 0.8 * one && four > 0.5 * one, "{four} {one}");
     let offset = number_of(&several, "offset of a length");
     assert_eq!((&offset["determined"], offset["std"].as_f64()), (&"given".into(), Some(0.0)));
 }
