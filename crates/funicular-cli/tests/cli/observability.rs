@@ -18,8 +18,8 @@ fn number_of<'a>(found: &'a Value, name: &str) -> &'a Value {
 }
 
 /// Deviations of x, y, z [mm], of the turn about x [deg] and of the payload [kg] at one pose of CoGiRo, by a separate
-/// program (NumPy) with the same noise and priors, to its printed digits. Its tracker tells the height alone: x and y are
-/// joined by hand with the 1 mm of a tracker, 1/σ² = 1/0.65² + 1/1².
+/// program (NumPy) with the same noise and priors, to its printed digits. Its tracker tells the height alone: x and y
+/// are joined by hand with the 1 mm of a tracker, 1/σ² = 1/0.65² + 1/1².
 #[test]
 fn one_pose_has_the_deviations_of_a_separate_program() {
     let expected: [(&str, &str, [f64; 5]); 4] = [

@@ -62,8 +62,8 @@ rows! {
         pub std: f64;
         /// Standard deviation with the encoders alone.
         pub std_of_lengths: f64;
-        /// `sensors` if their readings give most of what is known, `partly`; otherwise `encoders` for pose and tensions,
-        /// `prior` for what was known beforehand, or `given` if it was known exactly.
+        /// `sensors` if their readings give most of what is known, `partly`; otherwise `encoders` for pose and
+        /// tensions, `prior` for what was known beforehand, or `given` if it was known exactly.
         pub determined: &'static str;
         /// Addition that reduces this deviation most; absent if none reduces it by a tenth.
         pub best_addition: Option<String>;
