@@ -6,6 +6,7 @@ use funicular::robot::{Constraint, PlatformMotion};
 use funicular_study::analyses::check::{
     Checked, CheckedBody, CheckedCable, CheckedPlatform, CheckedRope, CheckedWinch,
 };
+use funicular_study::text::counted;
 use std::fmt::Write;
 
 impl Printed for Checked {
@@ -84,7 +85,7 @@ fn redundancy(found: &Checked) -> String {
         Constraint::Fully => "as many as degrees of freedom".to_owned(),
         Constraint::Redundantly(redundant) => format!("{redundant} more than degrees of freedom"),
     };
-    if shared == 0 { compared } else { format!("of {ropes} ropes: {compared}") }
+    if shared == 0 { compared } else { format!("of {}: {compared}", counted(ropes, "rope")) }
 }
 
 /// Number of cables, and a line with the cables of each rope over sheaves.
