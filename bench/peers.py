@@ -35,7 +35,7 @@ import scipy.optimize
 ROOT = Path(__file__).resolve().parent.parent
 ROUNDS = 7
 # CPU time of one round of one program below which it is repeated [s].
-LEAST_S = 0.05
+MIN_ROUND_S = 0.05
 # Spread, half the range of the middle half over the median, above which a row is not to be quoted.
 NOISY = 0.1
 
@@ -152,6 +152,7 @@ def one_catenary() -> Task:
 
     programs = [
         Program("funicular (Python)", ours, error),
+        # The vertical force has another sign there.
         Program("MoorPy", by_moorpy, lambda of: min(error(of), error((of[0], -of[1])))),
         Program("SciPy `root`", by_scipy, error),
         Program("Newton in numba", by_numba, error),
@@ -362,9 +363,9 @@ def cpu_seconds(run: Callable[[], Any]) -> float:
         for _ in range(count):
             run()
         spent = time.process_time() - begin
-        if spent >= LEAST_S:
+        if spent >= MIN_ROUND_S:
             return spent / count
-        count = max(2 * count, math.ceil(count * LEAST_S / max(spent, 1e-6)))
+        count = max(2 * count, math.ceil(count * MIN_ROUND_S / max(spent, 1e-6)))
 
 
 def spread(of: list[float]) -> float:

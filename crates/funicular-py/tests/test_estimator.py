@@ -89,7 +89,7 @@ def test_encoders_that_are_silent_are_told_and_a_restart_goes_on(machine: Robot)
             estimator.update(0.01)
     lengths = log[-1][1]["lengths_m"]
     estimator.restart(lengths)
-    # What is known of the payload stays, but for what may have happened meanwhile.
+    # The deviation of the payload stays, but for its growth while nothing was read.
     assert estimator.now["payload_std_kg"] < known * 1.0001
     assert [alarm["fault"] for alarm in estimator.update(0.01, lengths_m=lengths)["alarms"]] == ["restart"]
     estimator.restart(lengths, forget=True)

@@ -26,7 +26,7 @@ from funicular._words import TensionRule
 
 Floats = npt.NDArray[np.float64]
 
-# A mesh that keeps the first modes of the ropes of an example within a few per cent, in a fraction of the default's time.
+# Coarse mesh, for speed: an episode of interest is repeated with the mesh of `simulate`.
 DEFAULT_MESH: Mapping[str, Any] = {"elements": 1, "degree": 6, "tolerance_m": 1e-5}
 
 # Poses that are drawn before the box of targets counts as one that the cables do not hold.
@@ -181,7 +181,7 @@ class RobotEnv(gymnasium.Env[Floats, Floats]):
         self._simulation.restore(self._at_rest)
         self._done = 0
         given = (options or {}).get("target")
-        self._target = self._drawn() if given is None else pose_of(given)
+        self._target = self._drawn() if given is None else _pose_of(given)
         if self._payload is not None:
             self._simulation.pick(float(self.np_random.uniform(*self._payload)))
         self._push = (math.inf, np.zeros(3))
@@ -229,7 +229,7 @@ class RobotEnv(gymnasium.Env[Floats, Floats]):
     def _drawn(self) -> Pose:
         low, high = self._poses
         for _ in range(MAX_DRAWS):
-            pose = pose_of(self.np_random.uniform(low, high))
+            pose = _pose_of(self.np_random.uniform(low, high))
             try:
                 self.robot.equilibrium(pose=pose, tension_rule=self._rule)
             except StaticsError:
@@ -347,7 +347,7 @@ class VectorRobotEnv(VectorEnv[Floats, Floats, npt.NDArray[Any]]):
         return joined
 
 
-def pose_of(given: Pose | Sequence[float] | Floats) -> Pose:
+def _pose_of(given: Pose | Sequence[float] | Floats) -> Pose:
     """Pose, or position [m] with or without roll, pitch, yaw [degrees], as a pose."""
     return given if isinstance(given, Pose) else Pose(given[:3], given[3:] if len(given) > 3 else [0, 0, 0])
 

@@ -23,6 +23,16 @@ impl Fall {
     pub(super) fn new(anchor_m: [f64; 3], length_m: Option<f64>, continues: Option<usize>) -> Self {
         Self { anchor_m, attachment_m: None, length_m, continues, more: "" }
     }
+
+    /// Cable of 5 m to a point of [`BODY`], with further keys.
+    pub(super) fn of_body(
+        anchor_m: [f64; 3],
+        attachment_m: [f64; 3],
+        continues: Option<usize>,
+        more: &'static str,
+    ) -> Self {
+        Self { anchor_m, attachment_m: Some(attachment_m), length_m: Some(5.0), continues, more }
+    }
 }
 
 /// Robot file with the platform, the rope and these cables, named from "1" on.
@@ -55,6 +65,7 @@ pub(super) fn robot_of(platform: &str, rope: &str, falls: &[Fall]) -> Robot {
     Robot::from_toml(&text_of(platform, rope, falls)).unwrap()
 }
 
+pub(super) const BODY: &str = "mass_kg = 300.0\ninertia_kg_m2 = [20.0, 25.0, 30.0]";
 pub(super) const POINT: &str = "mass_kg = 100.0\nmotion = \"point-mass\"";
 pub(super) const LIGHT: &str = "axial_stiffness_n = 2e5\nmass_kg_per_m = 0.0";
 pub(super) const HEAVY: &str = "axial_stiffness_n = 2e5\nmass_kg_per_m = 0.8";

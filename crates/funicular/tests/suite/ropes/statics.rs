@@ -1,6 +1,6 @@
 //! Statics of ropes over sheaves.
 
-use super::{Fall, HEAVY, LIGHT, POINT, hanging, robot_of, text_of};
+use super::{BODY, Fall, HEAVY, LIGHT, POINT, hanging, robot_of, text_of};
 use funicular::math::{Mat6, Vec3, Vec6};
 use funicular::robot::{Pose, Robot, State};
 use funicular::statics::{self, Equilibrium, StaticModel, TensionRule};
@@ -87,23 +87,15 @@ fn a_heavy_rope_divides_itself_at_the_least_energy() {
 /// A platform with two ropes: one over two sheaves of the platform, which are apart, one over a sheave of the platform
 /// and one of the frame to the platform again; with pulleys and a winch that yields.
 fn platform() -> Robot {
-    let body = "mass_kg = 300.0\ninertia_kg_m2 = [20.0, 25.0, 30.0]";
-    let fall = |anchor_m, attachment_m, continues, more| Fall {
-        anchor_m,
-        attachment_m: Some(attachment_m),
-        length_m: Some(5.0),
-        continues,
-        more,
-    };
     let falls = [
-        fall([-4.0, -3.0, 5.0], [-0.8, -0.6, 0.2], None, "winch = \"drum\""),
-        fall([-4.0, 3.0, 5.2], [-0.8, 0.6, 0.3], Some(0), ""),
-        fall([4.0, 3.0, 5.0], [0.8, 0.6, 0.2], None, "pulley = \"wheel\"\nwinch = \"drum\""),
-        fall([3.9, 2.0, 5.0], [0.8, 0.5, 0.2], Some(2), ""),
-        fall([3.9, -2.5, 4.9], [0.7, -0.6, 0.2], Some(3), ""),
-        fall([4.0, -3.0, 5.0], [0.8, -0.6, 0.1], None, ""),
+        Fall::of_body([-4.0, -3.0, 5.0], [-0.8, -0.6, 0.2], None, "winch = \"drum\""),
+        Fall::of_body([-4.0, 3.0, 5.2], [-0.8, 0.6, 0.3], Some(0), ""),
+        Fall::of_body([4.0, 3.0, 5.0], [0.8, 0.6, 0.2], None, "pulley = \"wheel\"\nwinch = \"drum\""),
+        Fall::of_body([3.9, 2.0, 5.0], [0.8, 0.5, 0.2], Some(2), ""),
+        Fall::of_body([3.9, -2.5, 4.9], [0.7, -0.6, 0.2], Some(3), ""),
+        Fall::of_body([4.0, -3.0, 5.0], [0.8, -0.6, 0.1], None, ""),
     ];
-    robot_of(body, HEAVY, &falls)
+    robot_of(BODY, HEAVY, &falls)
 }
 
 #[test]

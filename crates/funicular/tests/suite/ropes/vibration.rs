@@ -1,6 +1,6 @@
 //! Vibration with ropes over sheaves.
 
-use super::{Fall, HEAVY, LIGHT, POINT, hanging, robot_of, text_of};
+use super::{BODY, Fall, HEAVY, LIGHT, POINT, hanging, robot_of, text_of};
 use funicular::cable::CableModel;
 use funicular::dynamics::{Dynamics, Linearisation};
 use funicular::math::Vec3;
@@ -47,22 +47,14 @@ fn a_mass_on_a_light_rope_swings_on_an_ellipse() {
 /// The dynamic stiffness of all models with mass goes over into the static tangent, in which (92f) has been condensed.
 #[test]
 fn the_dynamic_stiffness_of_running_ropes_begins_at_the_static_one() {
-    let body = "mass_kg = 300.0\ninertia_kg_m2 = [20.0, 25.0, 30.0]";
-    let fall = |anchor_m, attachment_m, continues, more| Fall {
-        anchor_m,
-        attachment_m: Some(attachment_m),
-        length_m: Some(5.0),
-        continues,
-        more,
-    };
     let falls = [
-        fall([-4.0, -3.0, 5.0], [-0.8, -0.6, 0.2], None, "winch = \"drum\""),
-        fall([-4.0, 3.0, 5.2], [-0.8, 0.6, 0.3], Some(0), ""),
-        fall([4.0, 3.0, 5.0], [0.8, 0.6, 0.2], None, "pulley = \"wheel\"\nwinch = \"drum\""),
-        fall([3.9, 2.0, 5.0], [0.8, 0.5, 0.2], Some(2), ""),
-        fall([4.0, -3.0, 5.0], [0.8, -0.6, 0.1], None, ""),
+        Fall::of_body([-4.0, -3.0, 5.0], [-0.8, -0.6, 0.2], None, "winch = \"drum\""),
+        Fall::of_body([-4.0, 3.0, 5.2], [-0.8, 0.6, 0.3], Some(0), ""),
+        Fall::of_body([4.0, 3.0, 5.0], [0.8, 0.6, 0.2], None, "pulley = \"wheel\"\nwinch = \"drum\""),
+        Fall::of_body([3.9, 2.0, 5.0], [0.8, 0.5, 0.2], Some(2), ""),
+        Fall::of_body([4.0, -3.0, 5.0], [0.8, -0.6, 0.1], None, ""),
     ];
-    let robot = robot_of(body, HEAVY, &falls);
+    let robot = robot_of(BODY, HEAVY, &falls);
     let found = rest(&robot);
     let tangent = statics::tangent_stiffness(&robot, &found).unwrap();
     for (model, tolerance) in [(CableModel::CatenaryStatic, 1e-9), (CableModel::CatenaryDynamic, 1e-6)] {
@@ -74,7 +66,7 @@ fn the_dynamic_stiffness_of_running_ropes_begins_at_the_static_one() {
     assert!((shallow - tangent).norm() < 0.02 * tangent.norm());
 
     // All modes are found and certified, and with damping, too.
-    let text = text_of(body, &format!("{HEAVY}\ndamping_ratio = 0.01\naxial_loss_factor = 0.02"), &falls);
+    let text = text_of(BODY, &format!("{HEAVY}\ndamping_ratio = 0.01\naxial_loss_factor = 0.02"), &falls);
     let damped = Robot::from_toml(&text).unwrap();
     let whole = dynamics(&damped, &rest(&damped), CableModel::CatenaryDynamic, 25.0);
     let found = modes::below(&whole, 25.0);
